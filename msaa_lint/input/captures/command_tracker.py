@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Hashable
-from typing import Any
 
 from msaa_lint.frame.description.models import BeginRendering, RenderingAttachment
 
-from . import set_layouts, values
+from . import values
+from .bound_sets import GRAPHICS, BoundSets, bind_point
 from .call import Call
 from .command_buffers import (
-    ANY_SET,
     MAX_FULLSCREEN_VERTICES,
     BindPoint,
     CommandBuffer,
@@ -20,16 +19,9 @@ from .command_buffers import (
     RenderPassBegin,
     kind_of,
 )
-from .descriptors import Descriptors
 from .labels import Path, inner_path, printable
-from .objects import DescriptorSet, Framebuffer, Image, Pipeline, RenderPass, SetBindings, freeze
+from .objects import Framebuffer, Image, Pipeline, RenderPass, SetBindings, freeze
 from .structures import Tree, to_tree
-
-GRAPHICS = ("VK_PIPELINE_BIND_POINT_GRAPHICS", 0, "0")
-RAY_TRACING = ("VK_PIPELINE_BIND_POINT_RAY_TRACING_KHR", "VK_PIPELINE_BIND_POINT_RAY_TRACING_NV", 1000165000, "1000165000")
-
-MAX_BOUND = 64
-"""Maximum number of descriptor sets that are bound at a time; devices allow 32."""
 
 MAX_QUEUES = 256
 """Maximum number of queues whose labels are followed."""
@@ -37,17 +29,11 @@ MAX_QUEUES = 256
 MAX_QUEUE_LABELS = 256
 """Maximum number of labels of a queue that are open at a time."""
 
-MAX_PUSHED = 256
-"""Maximum number of images that are pushed at a time; devices allow a few dozen descriptors."""
-
-INFOS = ("pBindDescriptorSetsInfo", "pPushDescriptorSetInfo", "pPushDescriptorSetWithTemplateInfo")
-"""The parameters that hold those of the calls of Vulkan 1.4, which name stages instead of a bind point."""
-
 COUNTED = {"vkCmdDraw": "vertexCount", "vkCmdDrawIndexed": "indexCount"}
 """The parameter with the number of vertices or indices of a draw; other draws have it in a buffer."""
 
 
-class CommandTracker(Descriptors):
+class CommandTracker(BoundSets):
     """Tracks the commands of a capture."""
 
     def __init__(self) -> None:
@@ -57,45 +43,8 @@ class CommandTracker(Descriptors):
         self.pipelines: dict[int, Pipeline] = {}
         self.pipeline_bindings: dict[int, SetBindings | None] = {}
         """What each pipeline can read of descriptor sets; None if that is unknown."""
-        self.buffers: dict[int, CommandBuffer | None] = {}
-        """None until a command buffer is used."""
-        self.pools: dict[int, set[int]] = {}
         self.queue_labels: dict[int, list[str]] = {}
         """The open labels of each queue."""
-
-    def buffer(self, call: Call) -> CommandBuffer:
-        """The command buffer of a command. It may be new, because a trimmed capture may lack its allocation."""
-        handle = call.args.get("commandBuffer")
-        if type(handle) is not int:
-            handle = values.handle(handle)
-        buffer = self.buffers.get(handle)
-        if buffer is None:
-            buffer = self.buffers[handle] = CommandBuffer()
-        return buffer
-
-    # Command buffers.
-
-    def on_AllocateCommandBuffers(self, call: Call) -> None:
-        info = values.record(call.args.get("pAllocateInfo"))
-        pool = self.pools.setdefault(values.handle(info.get("commandPool")), set())
-        for item in values.items(call.args.get("pCommandBuffers")):
-            handle = values.handle(item)
-            if self.has_room(self.buffers, call):
-                self.buffers[handle] = None
-                pool.add(handle)
-
-    def on_DestroyCommandPool(self, call: Call) -> None:
-        for handle in self.pools.pop(values.handle(call.args.get("commandPool")), ()):
-            self.buffers.pop(handle, None)
-
-    def on_FreeCommandBuffers(self, call: Call) -> None:
-        pool = self.pools.get(values.handle(call.args.get("commandPool")), set())
-        for handle in map(values.handle, values.items(call.args.get("pCommandBuffers"))):
-            self.buffers.pop(handle, None)
-            pool.discard(handle)
-
-    def on_BeginCommandBuffer(self, call: Call) -> None:
-        self.buffers[values.handle(call.args.get("commandBuffer"))] = CommandBuffer()
 
     # Passes.
 
@@ -189,7 +138,7 @@ class CommandTracker(Descriptors):
         handle = values.handle(call.args.get("pipeline"))
         kind = call.args.get("pipelineBindPoint")
         bindings = self.pipeline_bindings.get(handle)
-        point = _point(buffer, kind)
+        point = bind_point(buffer, kind)
         if kind in GRAPHICS:
             buffer.pipeline = self.pipelines.get(handle)
             buffer.fresh = buffer.fresh or bindings != point.bindings
@@ -208,80 +157,6 @@ class CommandTracker(Descriptors):
             buffer.samples = count
             # Later draws differ from earlier ones in their sample count.
             buffer.many.clear()
-
-    def on_CmdBindDescriptorSets(self, call: Call) -> None:
-        buffer = self.buffer(call)
-        for args, point in _points(buffer, call):
-            slot = values.integer(args.get("firstSet")) or 0
-            for item in values.items(args.get("pDescriptorSets"))[: max(MAX_BOUND - slot, 0) if slot >= 0 else 0]:
-                descriptors = self.set(item)
-                if descriptors is not point.sets.get(slot):
-                    # Rebinding the same set with other offsets does not change its images.
-                    buffer.fresh = True
-                    if descriptors is not None:
-                        point.sets[slot] = descriptors
-                    else:
-                        del point.sets[slot]
-                slot += 1
-
-    on_CmdBindDescriptorSets2 = on_CmdBindDescriptorSets
-
-    def on_CmdPushDescriptorSet(self, call: Call) -> None:
-        buffer = self.buffer(call)
-        for args, point in _points(buffer, call):
-            pushed = self._pushed(point, args)
-            if pushed is not None:
-                for item in values.items(args.get("pDescriptorWrites")):
-                    self.write(pushed, values.record(item))
-            self._push(buffer, point, args, pushed)
-
-    on_CmdPushDescriptorSet2 = on_CmdPushDescriptorSet
-
-    def on_CmdPushDescriptorSetWithTemplate(self, call: Call) -> None:
-        buffer = self.buffer(call)
-        for args, _ in _points(buffer, call):
-            template = self.templates.get(values.handle(args.get("descriptorUpdateTemplate")))
-            for point in (_point(buffer, template.point),) if template is not None else (buffer.graphics, buffer.compute):
-                pushed = self._pushed(point, args)
-                if pushed is not None:
-                    self.write_template(pushed, args)
-                self._push(buffer, point, args, pushed)
-
-    on_CmdPushDescriptorSetWithTemplate2 = on_CmdPushDescriptorSetWithTemplate
-
-    @staticmethod
-    def _pushed(point: BindPoint, args: dict[str, Any]) -> DescriptorSet | None:
-        """A copy of the set that descriptors are pushed to; None if its number is invalid."""
-        number = values.integer(args.get("set")) or 0
-        if not 0 <= number < MAX_BOUND:
-            return None
-        pushed = DescriptorSet()
-        before = point.sets.get(number)
-        if before is not None:
-            for slot, use in before.images.items():
-                pushed.put(slot, *use)
-            pushed.opaque = before.opaque
-            pushed.unknown.update(before.unknown)
-        return pushed
-
-    @staticmethod
-    def _push(buffer: CommandBuffer, point: BindPoint, args: dict[str, Any], pushed: DescriptorSet | None) -> None:
-        if pushed is not None:
-            for slot in list(pushed.images)[:-MAX_PUSHED]:
-                pushed.remove(slot)
-            point.sets[values.integer(args.get("set")) or 0] = pushed
-            buffer.fresh = True
-
-    def on_CmdBindDescriptorBuffers(self, call: Call) -> None:
-        """Binds descriptors whose contents the capture omits: they may hold any image."""
-        buffer = self.buffer(call)
-        unknown = DescriptorSet()
-        unknown.opaque = True
-        for point in (buffer.graphics, buffer.compute, buffer.ray_tracing):
-            point.sets[ANY_SET] = unknown
-        buffer.fresh = True
-
-    on_CmdBindResourceHeap = on_CmdBindDescriptorBuffers
 
     def on_CmdDraw(self, call: Call) -> None:
         counted = COUNTED.get(call.name, "")
@@ -389,22 +264,6 @@ class CommandTracker(Descriptors):
             self.frames.repetitions.waits += 1
 
     on_WaitSemaphores = on_QueueWaitIdle = on_DeviceWaitIdle = on_WaitForFences
-
-
-def _point(buffer: CommandBuffer, point: object) -> BindPoint:
-    """What is bound at a VkPipelineBindPoint."""
-    return buffer.graphics if point in GRAPHICS else buffer.ray_tracing if point in RAY_TRACING else buffer.compute
-
-
-def _points(buffer: CommandBuffer, call: Call) -> list[tuple[dict[str, Any], BindPoint]]:
-    """The parameters of a call that binds descriptors, and what it binds them for: a bind point, or those of some stages."""
-    args = call.args
-    info = next((args[name] for name in INFOS if isinstance(args.get(name), dict)), None)
-    if info is None:
-        return [(args, _point(buffer, args.get("pipelineBindPoint")))]
-    stages = values.bits("VkShaderStageFlagBits", info.get("stageFlags"))
-    points = ((buffer.graphics, set_layouts.GRAPHICS), (buffer.compute, set_layouts.COMPUTE), (buffer.ray_tracing, set_layouts.RAY_TRACING))
-    return [(info, point) for point, mask in points if stages is None or stages & mask]
 
 
 def area_of(value: object) -> tuple[int, int, int, int] | None:

@@ -3,16 +3,17 @@
 Only images that such a shader has not been able to read yet are followed: the answer for the others does not change.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Mapping
-from typing import Any
+from typing import Any, NamedTuple
 
 from .command_buffers import RecordedCommand, RenderPassBegin
 from .objects import Image, ImageKind, RenderPass
 
 UNKNOWN = "?"
 """Stands for a layout that the capture does not state: any layout."""
+
+UNSEEN = "-"
+"""Stands for the layout that an image had before the first command of the capture that tells it."""
 
 SHADER_READ_ONLY = "SHADER_READ_ONLY_OPTIMAL"
 
@@ -26,8 +27,8 @@ UNREADABLE = frozenset((
 Layouts = frozenset[str]
 NONE: Layouts = frozenset()
 
-Change = tuple[Image, Layouts, bool]
-"""The layouts that parts of an image change to, and whether that is all of the image."""
+Change = tuple[Image, Layouts, bool, Layouts]
+"""The layouts that an image changes to, whether that is all of the image, and those that it is changed from."""
 
 
 def readable(layout: str | None) -> Layouts:
@@ -48,48 +49,68 @@ class ImageLayouts:
 
     def __init__(self) -> None:
         self.initial = NONE
-        """The layouts of new images: unknown if the capture omits what happened to them."""
+        """The layouts of new images: UNSEEN if the capture may omit what happened to them."""
         self._images: dict[ImageKind, dict[str, dict[Image, None]]] = {}
+        self._asked: dict[Image, None] = {}
+        """The images that such a descriptor may have held before the first command that tells their layout."""
         self._begin: RenderPassBegin | None = None
 
     def add(self, image: Image) -> None:
         """Follows a new image."""
-        image.layouts = NONE
-        self.apply(((image, self.initial, True),))
+        self._set(image, self.initial)
 
     def forget(self, image: Image) -> None:
         """Follows an image no longer."""
-        self.apply(((image, NONE, True),))
+        if image in self._asked:
+            image.may_be_read = True
+            del self._asked[image]
+        self._set(image, NONE)
         image.kinds = ()
+
+    def finish(self) -> None:
+        """Ends the capture: the layouts of some images are never told."""
+        for image in list(self._asked):
+            self.forget(image)
 
     def followed(self) -> Iterator[Mapping[Image, None]]:
         """The images that are followed, by kind and layout."""
+        yield self._asked
         for by_layout in self._images.values():
             yield from by_layout.values()
 
     def apply(self, changes: Iterable[Change]) -> None:
         """Changes layouts."""
-        for image, layouts, is_whole in changes:
-            after = layouts if is_whole else image.layouts | layouts
-            if after == image.layouts:
-                continue
-            for kind in image.kinds:
-                images = self._images.setdefault(kind, {})
-                for layout in image.layouts - after:
-                    del images[layout][image]
-                for layout in after - image.layouts:
-                    images.setdefault(layout, {})[image] = None
-            if image.kinds:
-                image.layouts = after
+        for image, layouts, is_whole, before in changes:
+            if image in self._asked:
+                if before:
+                    self.forget(image)
+                elif is_whole:
+                    del self._asked[image]
+            self._set(image, layouts if is_whole else image.layouts | layouts)
+
+    def _set(self, image: Image, layouts: Layouts) -> None:
+        if layouts == image.layouts or not image.kinds:
+            return
+        for kind in image.kinds:
+            images = self._images.setdefault(kind, {})
+            for layout in image.layouts - layouts:
+                del images[layout][image]
+            for layout in layouts - image.layouts:
+                images.setdefault(layout, {})[image] = None
+        image.layouts = layouts
 
     def mark(self, kinds: Iterable[ImageKind], layout: str | None) -> None:
         """Marks the images that a descriptor of some kinds may hold now. `layout` is what `readable` makes of its layout."""
         for kind in kinds:
             images = self._images.get(kind, {})
-            for each in list(images) if layout in (None, UNKNOWN) else (layout, UNKNOWN):
+            for each in list(images) if layout in (None, UNKNOWN) else (layout, UNKNOWN, UNSEEN):
                 for image in list(images.get(each, ())):
-                    image.may_be_read = True
-                    self.forget(image)
+                    if each == UNSEEN:
+                        self._set(image, image.layouts - {UNSEEN})
+                        self._asked[image] = None
+                    else:
+                        image.may_be_read = True
+                        self.forget(image)
 
     # What commands do.
 
@@ -97,26 +118,26 @@ class ImageLayouts:
         """The changes of layouts that a command makes. The commands of a submission come in order."""
         key: Any = command.key
         if command.kind == "pipelineBarrier":
-            _, image, (_, layout), is_whole = key
-            return [(image, readable(layout), is_whole)] if image is not None and layout != "UNDEFINED" else []
+            _, image, (before, layout), is_whole = key
+            return [(image, readable(layout), is_whole, readable(before))] if image is not None and layout != "UNDEFINED" else []
         if command.kind in ("beginRenderPass", "beginRendering"):
             self._begin = key if isinstance(key, RenderPassBegin) else None
-            return [(image, layouts, image.is_single_level) for image, layouts in attached(command).items()]
+            return [(image, layouts, image.is_single_level, before) for image, (layouts, before) in _attached(command).items()]
         if command.kind == "endRenderPass" and self._begin is not None:
             begin, self._begin = self._begin, None
             finals = _pass_layouts(begin.render_pass)
             pairs = zip(begin.images, finals, strict=False)
-            return [(image, final, image.is_single_level) for image, (_, final) in pairs if image is not None]
+            return [(image, each.after, image.is_single_level, NONE) for image, each in pairs if image is not None]
         return []
 
     def net_changes(self, commands: list[RecordedCommand]) -> list[Change]:
         """The changes of layouts that commands make together."""
-        net: dict[Image, tuple[Layouts, bool]] = {}
+        net: dict[Image, tuple[Layouts, bool, Layouts]] = {}
         for command in commands:
             if command.kind in CHANGING:
-                for image, layouts, is_whole in self.changes(command):
-                    before, was_whole = net.get(image, (NONE, False))
-                    net[image] = (layouts, True) if is_whole else (before | layouts, was_whole)
+                for image, layouts, is_whole, before in self.changes(command):
+                    others, was_whole, first = net.get(image, (NONE, False, before))
+                    net[image] = (layouts, True, first) if is_whole else (others | layouts, was_whole, first)
         return [(image, *change) for image, change in net.items() if image.kinds]
 
 
@@ -124,31 +145,46 @@ CHANGING = frozenset(("pipelineBarrier", "beginRenderPass", "beginRendering", "e
 """The commands that change layouts."""
 
 
-def attached(command: RecordedCommand) -> dict[Image, Layouts]:
-    """The attachments of a pass, each with the layouts in which shaders can read it during the pass: feedback loops, read-only depth."""
+class AttachmentLayouts(NamedTuple):
+    """The layouts of an attachment in the subpasses of a pass, before, and after it."""
+
+    within: Layouts
+    before: Layouts
+    after: Layouts
+
+
+def unreadable_attachments(command: RecordedCommand) -> frozenset[Image]:
+    """The attachments of the pass that a command begins that shaders cannot read during it."""
+    return frozenset(image for image, (layouts, _) in _attached(command).items() if not layouts)
+
+
+def _attached(command: RecordedCommand) -> dict[Image, tuple[Layouts, Layouts]]:
+    """The attachments of a pass with the layouts in which shaders can read them during it (feedback loops, read-only depth) and before."""
     key: Any = command.key
-    found: dict[Image, Layouts] = {}
+    found: dict[Image, tuple[Layouts, Layouts]] = {}
     uses = _pass_uses(key) if isinstance(key, RenderPassBegin) else _rendering_uses(dict(key))
-    for image, layouts in uses:
+    for image, layouts, before in uses:
         if image is not None:
-            found[image] = found.get(image, NONE) | (layouts - {SHADER_READ_ONLY})
+            others = found.get(image, (NONE, NONE))
+            found[image] = others[0] | (layouts - {SHADER_READ_ONLY}), others[1] | before
     return found
 
 
-def _pass_uses(begin: RenderPassBegin) -> Iterator[tuple[Image | None, Layouts]]:
-    for image, (layouts, _) in zip(begin.images, _pass_layouts(begin.render_pass), strict=False):
-        yield image, layouts
+def _pass_uses(begin: RenderPassBegin) -> Iterator[tuple[Image | None, Layouts, Layouts]]:
+    for image, layouts in zip(begin.images, _pass_layouts(begin.render_pass), strict=False):
+        yield image, layouts.within, layouts.before
 
 
-def _rendering_uses(tree: dict[str, Any]) -> Iterator[tuple[Image | None, Layouts]]:
+def _rendering_uses(tree: dict[str, Any]) -> Iterator[tuple[Image | None, Layouts, Layouts]]:
     for info in (*tree.get("colorAttachments", ()), tree.get("depthAttachment"), tree.get("stencilAttachment")):
         attachment = dict(info or ())
         for image, layout in (("image", "imageLayout"), ("resolveImage", "resolveImageLayout")):
-            yield attachment.get(image), readable(attachment.get(layout))
+            layouts = readable(attachment.get(layout))
+            yield attachment.get(image), layouts, layouts
 
 
-def _pass_layouts(render_pass: RenderPass) -> list[tuple[Layouts, Layouts]]:
-    """By attachment of a render pass: the layouts in its subpasses, and those after it."""
+def _pass_layouts(render_pass: RenderPass) -> list[AttachmentLayouts]:
+    """The layouts of the attachments of a render pass."""
     if render_pass.layouts is None:
         tree = render_pass.tree
         within: dict[int, Layouts] = {}
@@ -162,11 +198,12 @@ def _pass_layouts(render_pass: RenderPass) -> list[tuple[Layouts, Layouts]]:
                     within[index] = within.get(index, NONE) | readable(layout)
         render_pass.layouts = []
         for index, attachment in enumerate(tree.get("attachments", ())):
-            final = readable(attachment.get("finalLayout"))
-            if "stencilFinalLayout" in attachment:
-                final |= readable(attachment["stencilFinalLayout"])
-            render_pass.layouts.append((within.get(index, final), final))
-    found: list[tuple[Layouts, Layouts]] = render_pass.layouts
+            ends = []
+            for member, stencil in (("initialLayout", "stencilInitialLayout"), ("finalLayout", "stencilFinalLayout")):
+                layouts = readable(attachment.get(member))
+                ends.append(layouts | readable(attachment[stencil]) if stencil in attachment else layouts)
+            render_pass.layouts.append(AttachmentLayouts(within.get(index, ends[1]), *ends))
+    found: list[AttachmentLayouts] = render_pass.layouts
     return found
 
 

@@ -7,7 +7,7 @@ from typing import Any
 
 from .call import Call
 from .command_buffers import PASS_BEGINS, CommandCache, DescriptorReads, RecordedCommand, RenderPassBegin
-from .layouts import CHANGING, ImageLayouts, attached
+from .layouts import CHANGING, ImageLayouts, unreadable_attachments
 from .objects import DescriptorSet, Image, ReadableBindings, images_in
 
 BOUNDARIES = (*PASS_BEGINS, "nextSubpass", "endRenderPass", "endRendering")
@@ -75,9 +75,8 @@ class SetReads:
                 continue
             if command.kind in BOUNDARIES:
                 self._section += 1
-                begins = command.kind in PASS_BEGINS
-                attachments = attached(command) if begins else {}
-                self._attachments = frozenset(image for image, readable in attachments.items() if not readable)
+                if command.kind != "nextSubpass":
+                    self._attachments = unreadable_attachments(command) if command.kind in PASS_BEGINS else frozenset()
             if command.kind in CHANGING:
                 layouts.apply(layouts.changes(command))
             if command.kind in _WRITERS or command.kind in _TRANSFERS:

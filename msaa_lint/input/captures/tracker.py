@@ -20,7 +20,7 @@ from .call import Call, Mark, without_vendor
 from .command_buffers import RecordedCommand
 from .create_infos import pipeline_of, render_pass_of
 from .labels import printable
-from .layouts import readable
+from .layouts import UNSEEN
 from .objects import CapturedObject, Framebuffer, Pipeline, RenderPass
 from .set_layouts import ShaderImages
 from .structures import Tree, to_tree
@@ -128,7 +128,7 @@ class Tracker(Transfers):
         if isinstance(call, Mark):
             self.frames.mark(call.kind)
             if call.kind in ("trimmed", "frameless"):
-                self.layouts.initial = readable(None)
+                self.layouts.initial = frozenset((UNSEEN,))
         elif way in (RECURS, BEGINS_OR_ENDS):
             cached = self._cache.get(id(call.args))
             if cached is not None and cached.args is call.args and cached.generation == self.generation:
@@ -174,6 +174,7 @@ class Tracker(Transfers):
 
     def finish(self) -> None:
         """Ends the capture: the commands since the last present are the last frame."""
+        self.layouts.finish()
         self.frames.end_of_capture()
 
     # Render passes and framebuffers.
