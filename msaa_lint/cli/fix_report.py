@@ -9,6 +9,7 @@ from collections.abc import Iterator
 
 from msaa_lint.core.finding import Finding, Result
 from msaa_lint.linter.fixes.file_fixes import FixedText
+from msaa_lint.linter.programs import merge
 from msaa_lint.linter.run import Outcome
 
 from .report.color import paint
@@ -57,7 +58,7 @@ def unified_diff(before: str, after: str, name: str, color: bool = False) -> Ite
 
 def fix_summary(outcome: Outcome, applied: bool, unsafe: bool) -> list[str]:
     """How many findings are fixed and how many remain, then why the others are not fixed."""
-    fixed = sum(len(text.fixed_findings) for text in outcome.fixed)
+    fixed = sum(len(merge(text.fixed_findings, text.result.documents)) for text in outcome.fixed)
     remaining = sum(not finding.fatal for finding in outcome.result.findings) - (0 if applied else fixed)
     summary = f"{fixed} {'' if applied else 'would be '}fixed, {max(remaining, 0)} remaining"
     lines = [summary if unsafe else summary + _unsafe_hint(outcome.result)]

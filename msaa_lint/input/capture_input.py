@@ -1,12 +1,11 @@
 """Captures read as descriptions, and findings about them."""
 
-import re
-from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from importlib import import_module
 from typing import BinaryIO, NamedTuple
 
 from msaa_lint.core.diagnostics import diagnostic
-from msaa_lint.core.finding import CaptureLocation, Finding, Price
+from msaa_lint.core.finding import CaptureLocation, Finding
 from msaa_lint.core.text.source import Origin, Source
 from msaa_lint.core.text.span import Span
 
@@ -14,9 +13,6 @@ from .capture_stream import CaptureStream
 from .captures.call import CaptureError, Place
 from .captures.description_text import describe_capture
 from .captures.tracker import Tracker
-
-_DOCUMENT = re.compile(r"documents\[\d+\]\.")
-_COMMAND = re.compile(r"commands\[\d+\]")
 
 
 class CaptureInput(NamedTuple):
@@ -88,26 +84,23 @@ def read_capture(stream: BinaryIO, format: str, name: str, path: str | None, is_
     return CaptureInput(format, Source(name, text, origins), modules, tracker.frames.total, message, tuple(limits), tuple(notes))
 
 
-def capture_findings(capture: CaptureInput, findings: Sequence[Finding]) -> list[Finding]:
-    """The findings with their locations in the capture, merged across kinds of frames, and those about what is not checked."""
-    merged: dict[Hashable, Finding] = {}
+def located_findings(capture: CaptureInput, findings: Sequence[Finding]) -> list[Finding]:
+    """The findings of the description of a capture, with their locations in the capture."""
+    located = []
     for finding in findings:
-        found = _located(capture, finding)
-        if found.fix is not None:
+        if finding.fix is not None:
             # There is no file with the text that the fix would edit.
-            found = found._replace(fix=found.fix._replace(edits=(), shown=True))
-        key = (
-            found.rule,
-            found.severity,
-            found.message.removeprefix(found.context),
-            _COMMAND.sub("commands", _DOCUMENT.sub("", found.subject, count=1)),
-        )
-        first = merged.get(key)
-        if first is None or first.subject == found.subject:
-            merged[key if first is None else (key, len(merged))] = found
-        else:
-            merged[key] = _of_both_kinds(first, found)
-    result = [*merged.values(), *limit_findings(capture)]
+            finding = finding._replace(fix=finding.fix._replace(edits=(), shown=True))
+        origin = capture.source.origin(finding.span.start) if finding.span is not None else None
+        if origin is not None and origin.by:
+            finding = finding._replace(capture_location=CaptureLocation(origin.by, origin.call, origin.frames, origin.of))
+        located.append(finding)
+    return located
+
+
+def capture_problems(capture: CaptureInput) -> list[Finding]:
+    """The findings about what of a capture is not checked."""
+    result = limit_findings(capture)
     if capture.broken:
         text = capture.source.text
         start = text.rfind("\n", 0, len(text) - 1) + 1
@@ -118,26 +111,3 @@ def capture_findings(capture: CaptureInput, findings: Sequence[Finding]) -> list
 def limit_findings(capture: CaptureInput) -> list[Finding]:
     """The findings about what of a capture is not checked because it exceeds a limit."""
     return [diagnostic("MSAA906", f"limit exceeded: {limit}", capture.source.name, span) for limit, span in capture.limits]
-
-
-def _of_both_kinds(first: Finding, other: Finding) -> Finding:
-    """A finding that another kind of frame has too. Its traffic adds up, as each kind's is weighted by its share; its image is the same."""
-    prices = [finding.price for finding in (first, other) if finding.price is not None]
-    if len(prices) == 2:
-        sums = [sum(column) for column in zip(*prices, strict=True)]
-        first = first._replace(price=Price(*sums)._replace(memory_mib=max(price.memory_mib for price in prices)))
-    elif prices:
-        first = first._replace(price=prices[0])
-    location, others = first.capture_location, other.capture_location
-    # An object's location has the frames of all kinds; a command's, those of one.
-    if location is not None and others is not None and _COMMAND.search(other.subject):
-        frames = (location.frames or 0) + (others.frames or 0)
-        first = first._replace(capture_location=location._replace(frames=min(frames, location.of) or None))
-    return first
-
-
-def _located(capture: CaptureInput, finding: Finding) -> Finding:
-    origin = capture.source.origin(finding.span.start) if finding.span is not None else None
-    if origin is None or not origin.by:
-        return finding
-    return finding._replace(capture_location=CaptureLocation(origin.by, origin.call, origin.frames, origin.of))

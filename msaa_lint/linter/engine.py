@@ -20,6 +20,7 @@ from msaa_lint.frame.description.problems import Problem as DocumentProblem
 from msaa_lint.frame.devices import DeviceProfile
 from msaa_lint.frame.profiles import Problem, device_for, replace_captured
 
+from .programs import is_frame_of_program, merge, merged
 from .results import DocumentResult, FileResult, location_order
 from .rules.budget import Budget
 from .rules.registry import Registry, info, load
@@ -29,8 +30,10 @@ from .run_limits import RunLimits
 
 if TYPE_CHECKING:
     from msaa_lint.core.text.comments import Comment
+    from msaa_lint.frame.facts.facts import Subject
     from msaa_lint.frame.facts.frame import Frame
     from msaa_lint.frame.facts.study import Studied
+    from msaa_lint.frame.facts.subjects import FrameAnalysis
     from msaa_lint.frame.spirv.reflect import Reflected
     from msaa_lint.input.capture_input import CaptureInput
     from msaa_lint.input.shader_modules import Modules
@@ -67,6 +70,15 @@ class LintOptions(NamedTuple):
     all_keys: bool = False
 
 
+class _Analysis(NamedTuple):
+    """A document, the device that it is linted for, what is known of its frame, and its shader modules once one of them is read."""
+
+    document: Document
+    device: DeviceProfile | None
+    frame: FrameAnalysis
+    modules: list[Modules]
+
+
 class Engine:
     """A set of rules, compiled once for any number of inputs.
 
@@ -85,15 +97,16 @@ class Engine:
                 source = Source(file, decode(data))
             except Unreadable as error:
                 return _undecodable(data, file, error)
-            return self._lint_text(source, file, options)
+            return merged(self._lint_text(source, file, options))
         from msaa_lint.input.source_file import SourceFile
 
         if isinstance(data, SourceFile):
             return self._lint_code(data, file, options)
-        from msaa_lint.input.capture_input import capture_findings
+        from msaa_lint.input.capture_input import capture_problems, located_findings
 
         result = self.lint_description(data.source, file, options, data.modules)
-        return result._replace(findings=capture_findings(data, result.findings), description=result)
+        findings = merge(located_findings(data, result.findings), result.documents)
+        return result._replace(findings=[*findings, *capture_problems(data)], description=result)
 
     def lint_description(self, source: Source, file: str, options: LintOptions, modules: Mapping[str, bytes]) -> FileResult:
         """The findings of a description that msaa-lint wrote, of a capture or source code; `modules` are its shaders by name."""
@@ -109,14 +122,19 @@ class Engine:
         results: list[DocumentResult] = []
         if not parsed.documents and not parsed.problems:
             findings.append(diagnostic("MSAA901", "the input is empty; it must contain a description", file, Span(0, 0)))
-        for number, root in enumerate(parsed.documents):
+        documents: list[Document] = []
+        for root in parsed.documents:
             document = readers.read(source, root, options.format)
             if parsed.problems and document.problems:
                 document = document._replace(problems=_apart(document.problems, parsed.problems))
-            if modules is not None:
-                document = document._replace(modules=modules)
-            prefix = f"documents[{number}]." if len(parsed.documents) > 1 else ""
-            verdicts, device = self.lint_document(document, file, options, bool(parsed.problems))
+            documents.append(document if modules is None else document._replace(modules=modules))
+        frames = {} if parsed.problems else self._frames_of_program(documents, file, options)
+        for number, document in enumerate(documents):
+            prefix = f"documents[{number}]." if len(documents) > 1 else ""
+            if number in frames:
+                verdicts, device = self._verdicts(*frames.pop(number), file, options)
+            else:
+                verdicts, device = self.lint_document(document, file, options, bool(parsed.problems))
             findings.extend(_prefixed(verdicts.findings, prefix))
             undecided.extend(rule._replace(subject=prefix + rule.subject) for rule in verdicts.undecided)
             results.append(DocumentResult(document, verdicts.fix_specs, number, device, verdicts.checked))
@@ -177,17 +195,37 @@ class Engine:
         if document.problems or broken:
             problems = [diagnostic(p.code, p.message, file, p.span, p.path, p.labels, p.help) for p in document.problems]
             return Verdicts(problems, [], {}, False), None
+        analysis = self._analysis(document, file, options)
+        if isinstance(analysis, Problem):
+            span = document.description.place("device")
+            message = f"{analysis.message}; {analysis.help}" if analysis.help else analysis.message
+            return Verdicts([diagnostic(analysis.code, message, file, span, "device")], [], {}, False), None
+        return self._verdicts(analysis, analysis.frame.subjects(), file, options)
+
+    def _frames_of_program(
+        self, documents: Sequence[Document], file: str, options: LintOptions
+    ) -> dict[int, tuple[_Analysis, list[Subject]]]:
+        """The analyses and subjects of documents, by number, that are the kinds of frame of one program; none if there is only one."""
+        numbers = [number for number, document in enumerate(documents) if is_frame_of_program(document)]
+        if len(numbers) < 2:
+            return {}
+        from msaa_lint.frame.facts.program import join
+
+        analyses = {number: self._analysis(documents[number], file, options) for number in numbers}
+        valid = {number: analysis for number, analysis in analyses.items() if not isinstance(analysis, Problem)}
+        subjects = join([analysis.frame for analysis in valid.values()])
+        return {number: (analysis, own) for (number, analysis), own in zip(valid.items(), subjects, strict=True)}
+
+    def _analysis(self, document: Document, file: str, options: LintOptions) -> _Analysis | Problem:
+        """What is known of a document's frame, or the problem of its device."""
         from msaa_lint.frame.facts.frame import Frame
         from msaa_lint.frame.facts.global_facts import profile
-        from msaa_lint.frame.facts.missing_keys import MissingKeys
         from msaa_lint.frame.facts.subjects import FrameAnalysis
 
         replace_captured(document.description, options.device)
         device = device_for(document.description, file, options.device)
         if isinstance(device, Problem):
-            span = document.description.place("device")
-            message = f"{device.message}; {device.help}" if device.help else device.message
-            return Verdicts([diagnostic(device.code, message, file, span, "device")], [], {}, False), None
+            return device
 
         # Both are imported only if a rule asks: for a sample count above what devices do efficiently, and for a shader.
         def study(frame: Frame) -> Studied:
@@ -204,14 +242,22 @@ class Engine:
                 modules.append(Modules(document, file, self._limits.shaders if self._limits else None))
             return modules[0].reflected(stage, alpha)
 
-        analysis = FrameAnalysis(Frame(document), profile(document.description, device), study, shader)
+        return _Analysis(document, device, FrameAnalysis(Frame(document), profile(document.description, device), study, shader), modules)
+
+    def _verdicts(
+        self, analysis: _Analysis, subjects: Iterable[Subject], file: str, options: LintOptions
+    ) -> tuple[Verdicts, DeviceProfile | None]:
+        """The verdicts on the subjects of a document, and the device they are for."""
+        from msaa_lint.frame.facts.missing_keys import MissingKeys
+
+        document, device, frame, modules = analysis
         # Nobody writes keys into source code.
-        missing_keys = MissingKeys(analysis).of if document.whole or document.format else None
+        missing_keys = MissingKeys(frame).of if document.whole or document.format else None
         verdicts = self._runner.run(
-            analysis.subjects(), file, options.severity, document.api, missing_keys, options.all_keys, options.keys or Allowance(0)
+            subjects, file, options.severity, document.api, missing_keys, options.all_keys, options.keys or Allowance(0)
         )
         at = document.description.place("commands", "renderPasses")
-        verdicts.findings.extend(diagnostic("MSAA906", f"limit exceeded: {text}", file, at) for text in analysis.limits())
+        verdicts.findings.extend(diagnostic("MSAA906", f"limit exceeded: {text}", file, at) for text in frame.limits())
         for loaded in modules:
             verdicts.findings.extend(loaded.findings)
         return verdicts, device

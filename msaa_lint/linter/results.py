@@ -35,8 +35,9 @@ class DocumentResult(NamedTuple):
 class FileResult(NamedTuple):
     """The result of linting one input.
 
-    `source` is None if the input could not be decoded. `is_code` is true for source code. `description` is the result of linting the
-    description that a capture is converted to; `documents` are the same.
+    `source` is None if the input could not be decoded. `is_code` is true for source code. `description` is the result that fixes work
+    with, if it is another: that of the description of a capture, or with the findings of each document of a program; `documents` are the
+    same.
     """
 
     file: str
@@ -47,6 +48,11 @@ class FileResult(NamedTuple):
     documents: Sequence[DocumentResult] = ()
     is_code: bool = False
     description: "FileResult | None" = None
+
+
+def unmerged(result: FileResult) -> FileResult:
+    """The result of linting the text that fixes edit, with the findings of each document."""
+    return result.description or result
 
 
 def can_try_fixes(result: FileResult) -> bool:

@@ -192,7 +192,7 @@ class _Run:
         from .savings import savings, try_fixes
 
         description, lint = file.description(result)
-        converted = description is not result
+        converted = not isinstance(file.data, bytes)
         fixable = file.fixable(result)
         trials = try_fixes(description, lint, fixable)
         self.savings[result.file] = savings(description, trials, self.with_prices, converted)

@@ -12,6 +12,7 @@ from msaa_lint.frame.cost.model import frame_cost
 from msaa_lint.frame.facts.frame import Frame
 
 from .fixes.fixer import FixResult, Lint, fix_text
+from .programs import merge
 from .results import FileResult, finding_kind
 
 _DECIMALS = 6
@@ -45,8 +46,8 @@ def savings(result: FileResult, trials: Trials, prices: bool, converted: bool = 
 
 
 def _saving(fixes: FixResult, before: InputTotal | None, converted: bool) -> Saving:
-    findings = fixes.fixed_findings
-    # A capture's kinds of frame share findings, and so do the parts of a program.
+    findings = merge(fixes.fixed_findings, fixes.result.documents)
+    # The parts of source code share findings.
     count = len({(finding_kind(finding), finding.message) for finding in findings} if converted else findings)
     return Saving(count, difference(before, total(fixes.result)) if before is not None and count else None)
 

@@ -20,7 +20,7 @@ from msaa_lint.input.file_types import STDIN
 
 from .engine import Engine, LintOptions, load_rules
 from .fixes.fixer import Lint
-from .results import FileResult, finding_kind
+from .results import FileResult, finding_kind, unmerged
 from .rules.rule import EDITIONS
 from .run_limits import RunLimits
 from .settings.config import Configurations, Loaded
@@ -125,7 +125,7 @@ class InputFile(NamedTuple):
         # Of a trial, only the findings count.
         options = self.options._replace(prices=False, keys=None)
         if isinstance(data, bytes):
-            return result, lambda text: engine.lint(encode(text, data), name, options)
+            return unmerged(result), lambda text: unmerged(engine.lint(encode(text, data), name, options))
         modules = data.modules
 
         def lint(text: str) -> FileResult:

@@ -15,8 +15,9 @@ from msaa_lint.frame.facts.global_facts import profile
 from msaa_lint.frame.facts.parts import Pass
 from msaa_lint.input.capture_input import limit_findings
 from msaa_lint.input.source_file import SourceFile
+from msaa_lint.linter.engine import UNLIMITED
 from msaa_lint.linter.fixes.file_fixes import FixedText, fix_input
-from msaa_lint.linter.results import DocumentResult, FileResult
+from msaa_lint.linter.results import DocumentResult, FileResult, unmerged
 from msaa_lint.linter.workspace import InputFile, Request, Workspace
 
 
@@ -81,8 +82,8 @@ def _of_file(workspace: Workspace, path: str) -> list[Input]:
             workspace.findings.append(diagnostic("MSAA901", f"the capture ends in the middle: {data.broken}", file.name))
         workspace.findings.extend(limit_findings(data))
         data = data.source.text.encode()
-        file = file._replace(data=data, options=file.options._replace(format=None))
-    result = file.lint()
+        file = file._replace(data=data, options=file.options._replace(format=None, limits=UNLIMITED))
+    result = unmerged(file.lint())
     errors = [finding for finding in result.findings if finding.fatal]
     workspace.findings.extend(errors)
     if errors or result.source is None:

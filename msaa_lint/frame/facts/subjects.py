@@ -133,6 +133,18 @@ class FrameAnalysis:
             texture_facts(facts, target, metal, self.shared.values.get("device.lazy_memory"))
         return facts
 
+    def stated_images(self) -> Iterator[tuple[str, Facts, bool]]:
+        """The images of the description by name, each with its facts, which may be changed, and whether the frame uses it."""
+        for name, target in self.frame.targets.items():
+            record = target.record
+            if self.frame.has_commands:
+                used = bool(self.readers.uses(name)) if self.timeline.followed else True
+                used = used or id(record) in self.bindings.begun
+            else:
+                used = id(record) in self.bindings.attachments
+            if id(record) in self._image_facts:
+                yield name, self._image_facts[id(record)], used
+
     @cached_property
     def pass_contents(self) -> PassContents:
         """What the commands record in passes."""

@@ -8,7 +8,8 @@ from typing import NamedTuple
 from msaa_lint.core import atomic_write
 from msaa_lint.core.finding import Finding
 from msaa_lint.core.text.source import encode
-from msaa_lint.linter.results import FileResult
+from msaa_lint.linter.programs import merged
+from msaa_lint.linter.results import FileResult, unmerged
 
 from .fixer import FailedFix, fix_text
 
@@ -42,10 +43,10 @@ def fix_input(
 
     `lint` lints other contents of the same input. `unsafe` applies unsafe fixes as well.
     """
-    fixes = fix_text(result, lambda text: lint(encode(text, data)), unsafe, selects)
+    fixes = fix_text(unmerged(result), lambda text: unmerged(lint(encode(text, data))), unsafe, selects)
     before = result.source.text if result.source is not None else ""
     after = encode(fixes.text, data) if fixes.text != before else data
-    fixed = FixedText(result.file, before, fixes.text, after, fixes.result, fixes.fixed_findings, fixes.failed_fixes)
+    fixed = FixedText(result.file, before, fixes.text, after, merged(fixes.result), fixes.fixed_findings, fixes.failed_fixes)
     if path is None or not fixed.changed:
         return fixed
     try:

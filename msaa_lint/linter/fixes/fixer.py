@@ -7,12 +7,14 @@ from __future__ import annotations
 
 from bisect import bisect_left, insort
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
 from typing import NamedTuple
 
 from msaa_lint.core.finding import Finding, rank
+from msaa_lint.core.quote import quoted
 from msaa_lint.core.text.edits import Overlap, apply
 from msaa_lint.core.text.span import Edit
+from msaa_lint.linter.programs import contradiction, shared_objects
 from msaa_lint.linter.results import FileResult, finding_kind
 from msaa_lint.linter.rules.rule_runner import finding_key
 
@@ -115,7 +117,7 @@ class _Fixer:
         for number, document in enumerate(self.result.documents):
             if number in of_document:
                 fixes += self.document_candidates(DocumentFixes(document), of_document[number])
-        return _join(fixes)
+        return _join(fixes, shared_objects(self.result.documents))
 
     def may_fix(self, finding: Finding) -> bool:
         """Whether a finding has a fix that may be applied."""
@@ -201,8 +203,8 @@ def _leaving_an_entry(plans: Iterable[tuple[Finding, tuple[Change, ...]]]) -> li
     return remaining
 
 
-def _join(fixes: Sequence[_Fix]) -> list[_Fix]:
-    """Joins fixes that have edits in common, at the position of the first.
+def _join(fixes: Sequence[_Fix], shared: Callable[[Finding], Hashable | None]) -> list[_Fix]:
+    """Joins fixes that have edits in common, or whose findings are about one object, which `shared` returns, at the position of the first.
 
     A fix with edits that overlap others of its group stays apart: it is made after them, or in their place.
     """
@@ -213,10 +215,11 @@ def _join(fixes: Sequence[_Fix]) -> list[_Fix]:
             parents[n] = n = parents[parents[n]]
         return n
 
-    owners: dict[Edit, int] = {}
+    owners: dict[Hashable, int] = {}
     for n, fix in enumerate(fixes):
-        for edit in fix.edits:
-            first, second = sorted((root(owners.setdefault(edit, n)), root(n)))
+        objects = (each for finding in fix.findings if (each := shared(finding)) is not None)
+        for part in (*fix.edits, *objects):
+            first, second = sorted((root(owners.setdefault(part, n)), root(n)))
             parents[second] = first
     groups: dict[int, list[_Fix]] = {}
     for n, fix in enumerate(fixes):
@@ -293,6 +296,9 @@ def _objections(before: FileResult, after: FileResult, fixed_findings: Sequence[
     error = next((finding for finding in after.findings if finding.fatal and _kind(finding) not in kinds_before), None)
     if error is not None:
         return [Objection(f"the result would have an error: {error.message}")]
+    name = contradiction(before, after)
+    if name is not None:
+        return [Objection(f"the documents would describe {quoted(name)} differently")]
     fixed_kinds = set(map(_kind, fixed_findings))
     return [
         Objection("it would not remove the finding", addition)

@@ -1,0 +1,175 @@
+"""Files whose documents are the kinds of frame of one program: each defect is one finding, however many of these frames have it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
+
+from msaa_lint.core.finding import CONFIDENCES, Finding, Price, rank
+from msaa_lint.frame.description.document import Document
+from msaa_lint.frame.description.record import Record
+
+from .results import DocumentResult, FileResult
+
+_DOCUMENT = re.compile(r"documents\[(\d+)\]\.")
+_COMMAND = re.compile(r"commands\[\d+\]")
+
+SHARED_SECTIONS = ("images", "renderPasses", "framebuffers", "pipelines")
+"""The sections in which documents of a program describe the same object under the same name."""
+
+
+def is_frame_of_program(document: Document) -> bool:
+    """Whether a document states how often its frame occurs in its program."""
+    frame = document.description.frame
+    return frame is not None and frame.share is not None and not document.problems
+
+
+def merged(result: FileResult) -> FileResult:
+    """The result of linting a file, with one finding for each defect of a program whose frames it describes.
+
+    The result that fixes work with, which has a finding for each document, is its `description`.
+    """
+    findings = merge(result.findings, result.documents)
+    return result._replace(findings=findings, description=result) if len(findings) < len(result.findings) else result
+
+
+def merge(findings: Sequence[Finding], documents: Sequence[DocumentResult]) -> list[Finding]:
+    """The findings, with one for each defect that several kinds of frame of a program have.
+
+    A defect is one if its rule, the member, and the objects are the same. Images are the same, too, if they are created alike, used alike,
+    and no frame uses both: then they take turns. The n-th such finding of a document is the n-th of another.
+    """
+    programs = {document.number: _Likeness(document.document) for document in documents if is_frame_of_program(document.document)}
+    if len(programs) < 2:
+        return list(findings)
+    defects: dict[Hashable, dict[int, Finding]] = {}
+    counts: dict[Hashable, int] = {}
+    for finding in findings:
+        number, subject = _parts(finding)
+        if number not in programs:
+            defects[len(defects)] = {number: finding}
+            continue
+        key = (finding.code, _COMMAND.sub("commands", subject), finding.images if _COMMAND.match(subject) else None)
+        counts[number, key] = counts.get((number, key), 0) + 1
+        defects.setdefault((key, counts[number, key]), {})[number] = finding
+    alike: dict[Hashable, list[dict[int, Finding]]] = {}
+    for found in defects.values():
+        number, finding = next(iter(found.items()))
+        if number not in programs or not finding.images:
+            alike[id(found)] = [found]
+            continue
+        subject = _parts(finding)[1]
+        place = "images" if subject.startswith("images.") else _COMMAND.sub("commands", subject)
+        groups = alike.setdefault((finding.code, place, programs[number].of(finding.images)), [])
+        group = next((group for group in groups if group.keys().isdisjoint(found)), None)
+        if group is None:
+            groups.append(found)
+        else:
+            group.update(found)
+    return [_one(list(group.values())) for groups in alike.values() for group in groups]
+
+
+def shared_objects(documents: Sequence[DocumentResult]) -> Callable[[Finding], Hashable | None]:
+    """A function that returns the rule of a finding and the object that it is about, if documents of a program share such objects."""
+    programs = {document.number for document in documents if is_frame_of_program(document.document)}
+
+    def shared(finding: Finding) -> Hashable | None:
+        number, subject = _parts(finding)
+        is_shared = number in programs and subject.partition(".")[0] in SHARED_SECTIONS
+        return (finding.code, subject) if is_shared else None
+
+    return shared
+
+
+def _parts(finding: Finding) -> tuple[int, str]:
+    """The number of the document that a finding is in, and its subject there; -1 if it is the only document."""
+    match = _DOCUMENT.match(finding.subject)
+    return (int(match[1]), finding.subject[match.end() :]) if match is not None else (-1, finding.subject)
+
+
+class _Likeness:
+    """What the images of a document are by: how they are created, and what passes use them as."""
+
+    def __init__(self, document: Document) -> None:
+        self._document = document
+        self._uses: dict[str, set[Hashable]] | None = None
+
+    def of(self, names: Iterable[str]) -> Hashable:
+        images = self._document.description.images
+        return tuple(sorted(repr((plain(images[name]), sorted(map(repr, self._used(name))))) for name in names if name in images))
+
+    def _used(self, name: str) -> set[Hashable]:
+        if self._uses is None:
+            from msaa_lint.frame.facts.frame import Frame
+
+            self._uses = {}
+            for render_pass in Frame(self._document).passes:
+                of_pass = render_pass.name if render_pass.kind == "renderPass" else ""
+                for index, attachment in enumerate(render_pass.attachments):
+                    operations = tuple((aspect.name, aspect.load, aspect.store) for aspect in attachment.aspects)
+                    for target in attachment.targets:
+                        self._uses.setdefault(target.name, set()).add((of_pass, index if of_pass else None, operations))
+        return self._uses.get(name, set())
+
+
+def _one(findings: list[Finding]) -> Finding:
+    """One finding for those of a defect: the most severe, of several the first, which is that of the most frequent frame.
+
+    Traffic adds up, because that of each frame is weighted by its share. The memory of an image counts once.
+    """
+    first = max(findings, key=lambda finding: (rank(finding.severity), CONFIDENCES.index(finding.confidence)))
+    if len(findings) == 1:
+        return first
+    subjects = {_parts(finding)[1]: finding for finding in findings}
+    of_commands = _COMMAND.match(_parts(first)[1]) is not None
+    prices = [finding.price for finding in findings if finding.price is not None]
+    if prices:
+        total = Price(*(sum(column) for column in zip(*prices, strict=True)))
+        memory: dict[frozenset[str], float] = {}
+        for finding in findings:
+            if finding.price is not None:
+                memory[finding.images] = max(memory.get(finding.images, 0.0), finding.price.memory_mib)
+        first = first._replace(price=total._replace(memory_mib=sum(memory.values())))
+    # The location of an object has the frames of all kinds, that of a command the frames of one.
+    located = findings if of_commands else list(subjects.values())
+    locations = [finding.capture_location for finding in located if finding.capture_location is not None]
+    if first.capture_location is not None:
+        frames = min(sum(location.frames or 0 for location in locations), first.capture_location.of)
+        first = first._replace(capture_location=first.capture_location._replace(frames=frames or None))
+    others = sorted({name for finding in findings for name in finding.images} - first.images)
+    if others:
+        names = ", ".join(f"`{name}`" for name in others)
+        first = first._replace(notes=(*first.notes, f"the same applies to {names}, which other frames use in its place"))
+    return first
+
+
+def plain(value: object) -> object:
+    """A structure without its places: equal for structures that state the same."""
+    if isinstance(value, Record):
+        return {name: plain(getattr(value, name)) for name in value.spelled}
+    if isinstance(value, Mapping):
+        return {key: plain(item) for key, item in value.items()}
+    return [plain(item) for item in value] if isinstance(value, (list, tuple)) else value
+
+
+def contradiction(before: FileResult, after: FileResult) -> str | None:
+    """The name of an object that the documents of a program described alike before a change, but not after it."""
+    described, old = _described(after), None
+    for key, values in described.items():
+        if len(values) > 1 and any(value != values[0] for value in values):
+            old = _described(before) if old is None else old
+            unchanged = old.get(key, [])
+            if len(unchanged) > 1 and all(value == unchanged[0] for value in unchanged):
+                return key[1]
+    return None
+
+
+def _described(result: FileResult) -> dict[tuple[str, str], list[object]]:
+    """What the documents of a program say of each object, by section and name."""
+    documents = [document.document for document in result.documents if is_frame_of_program(document.document)]
+    described: dict[tuple[str, str], list[object]] = {}
+    for document in documents if len(documents) > 1 else ():
+        for section in SHARED_SECTIONS:
+            for name, record in getattr(document.description, section).items():
+                described.setdefault((section, name), []).append(plain(record))
+    return described
