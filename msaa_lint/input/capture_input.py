@@ -21,7 +21,8 @@ class CaptureInput(NamedTuple):
     `format` is one of `readers.CAPTURES`. `source` is the text of the description, whose origins are the captured calls; `modules` is the
     code of its shaders by name. `broken` says why the rest of the capture could not be read, which the last line of the text stands for;
     empty if all was read. `limits` say what is not checked because it exceeds a limit, with the lines of the text that stand for it.
-    `notes` are lines for the user about what is missing.
+    `notes` are lines for the user about what is missing. `left_out` counts what has nothing to do with multisampling and is therefore not
+    described; empty if that is nothing.
     """
 
     format: str
@@ -31,6 +32,7 @@ class CaptureInput(NamedTuple):
     broken: str
     limits: tuple[tuple[str, Span], ...]
     notes: tuple[str, ...]
+    left_out: str = ""
 
     @property
     def description(self) -> str:
@@ -62,7 +64,7 @@ def read_capture(stream: BinaryIO, format: str, name: str, path: str | None, is_
         if failure.is_limit:
             tracker.frames.limits[str(failure)] = place
     tracker.finish()
-    text, origins, modules = describe_capture(tracker)
+    text, origins, modules, left_out = describe_capture(tracker)
     notes = []
     if tracker.frames.truncated:
         notes.append(f"{name}: the last entry is truncated and was skipped")
@@ -81,7 +83,7 @@ def read_capture(stream: BinaryIO, format: str, name: str, path: str | None, is_
     if is_binary:
         origins = [origin and origin._replace(line=None, column=None) for origin in origins]
     message = broken.message if broken is not None else ""
-    return CaptureInput(format, Source(name, text, origins), modules, tracker.frames.total, message, tuple(limits), tuple(notes))
+    return CaptureInput(format, Source(name, text, origins), modules, tracker.frames.total, message, tuple(limits), tuple(notes), left_out)
 
 
 def located_findings(capture: CaptureInput, findings: Sequence[Finding]) -> list[Finding]:

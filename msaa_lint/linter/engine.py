@@ -20,7 +20,7 @@ from msaa_lint.frame.description.problems import Problem as DocumentProblem
 from msaa_lint.frame.devices import DeviceProfile
 from msaa_lint.frame.profiles import Problem, device_for, replace_captured
 
-from .programs import is_frame_of_program, merge, merged
+from .programs import is_frame_of_program, merge, merged, of_turns
 from .results import DocumentResult, FileResult, location_order
 from .rules.budget import Budget
 from .rules.registry import Registry, info, load
@@ -256,6 +256,7 @@ class Engine:
         verdicts = self._runner.run(
             subjects, file, options.severity, document.api, missing_keys, options.all_keys, options.keys or Allowance(0)
         )
+        verdicts = of_turns(verdicts, frame.turns.of.values()) if verdicts.findings else verdicts
         at = document.description.place("commands", "renderPasses")
         verdicts.findings.extend(diagnostic("MSAA906", f"limit exceeded: {text}", file, at) for text in frame.limits())
         for loaded in modules:

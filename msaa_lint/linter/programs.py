@@ -10,6 +10,7 @@ from msaa_lint.frame.description.document import Document
 from msaa_lint.frame.description.record import Record
 
 from .results import DocumentResult, FileResult
+from .rules.rule_runner import Verdicts, finding_key
 
 _DOCUMENT = re.compile(r"documents\[(\d+)\]\.")
 _COMMAND = re.compile(r"commands\[\d+\]")
@@ -136,11 +137,33 @@ def _one(findings: list[Finding]) -> Finding:
     if first.capture_location is not None:
         frames = min(sum(location.frames or 0 for location in locations), first.capture_location.of)
         first = first._replace(capture_location=first.capture_location._replace(frames=frames or None))
-    others = sorted({name for finding in findings for name in finding.images} - first.images)
-    if others:
-        names = ", ".join(f"`{name}`" for name in others)
-        first = first._replace(notes=(*first.notes, f"the same applies to {names}, which other frames use in its place"))
-    return first
+    return _with_others(first, sorted({name for finding in findings for name in finding.images} - first.images))
+
+
+def of_turns(verdicts: Verdicts, sets: Iterable[Sequence[str]]) -> Verdicts:
+    """The verdicts with one finding for all images of a set that take turns: its fix is made in all of them."""
+    firsts = {f"images.{name}": f"images.{names[0]}" for names in sets for name in names[1:]}
+    spoken = {(finding.code, finding.subject): finding for finding in verdicts.findings} if firsts else {}
+    others: dict[Hashable, list[str]] = {}
+    remaining = []
+    for finding in verdicts.findings:
+        first = spoken.get((finding.code, firsts.get(finding.subject, "")))
+        if first is None:
+            remaining.append(finding)
+            continue
+        others.setdefault(finding_key(first), []).append(finding.subject.removeprefix("images."))
+        specs = verdicts.fix_specs.pop(finding_key(finding), [])
+        verdicts.fix_specs.setdefault(finding_key(first), []).extend(specs)
+    if not others:
+        return verdicts
+    findings = [_with_others(finding, others.get(finding_key(finding), ())) for finding in remaining]
+    return verdicts._replace(findings=findings)
+
+
+def _with_others(finding: Finding, names: Iterable[str]) -> Finding:
+    """A finding that applies to other images, too, with a note that names them."""
+    text = ", ".join(f"`{name}`" for name in names)
+    return finding._replace(notes=(*finding.notes, f"the same applies to {text}, which other frames use in its place")) if text else finding
 
 
 def plain(value: object) -> object:

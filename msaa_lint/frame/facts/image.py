@@ -31,7 +31,7 @@ _RENDER_TARGET_USAGES = frozenset({"COLOR_ATTACHMENT", "DEPTH_STENCIL_ATTACHMENT
 class Bindings:
     """What a frame does with its images. Images and those that stand for attachments without one go by their records."""
 
-    __slots__ = ("_idle", "attachments", "begun", "reads", "resolved")
+    __slots__ = ("_idle", "attachments", "begun", "reads", "resolved", "resolved_by_command")
 
     def __init__(self, frame: Frame) -> None:
         self.attachments: dict[int, list[Attachment]] = {}
@@ -40,6 +40,8 @@ class Bindings:
         """The images that a pass which the commands begin is bound to."""
         self.resolved: set[int] = set()
         """The images that a resolve within a pass writes."""
+        resolves = (resolve.target_image for _, resolve in frame.resolve_commands)
+        self.resolved_by_command = {image.name for image in resolves if image is not None}
         self.reads: dict[str, list[ReadImage]] = {}
         self._idle: set[int] = set()
         """The attachments, by identity, of passes that the frame does not begin."""
@@ -100,6 +102,7 @@ def image_facts(target: Target, bindings: Bindings, frame: Frame, readers: Reade
         facts.put("image.share_of_devices", sample_count_share(target.samples, tilers=False))
         facts.put("image.share_of_tilers", sample_count_share(target.samples, tilers=True))
     facts.put("image.loaded", _loaded(bound, frame))
+    facts.put("image.resolved_to", id(record) in bindings.resolved or target.name in bindings.resolved_by_command)
     if image is None:
         facts.put("image.is_render_target", rendered)
         return facts

@@ -9,33 +9,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from .facts import Facts, Subject
+from .joined_facts import join_facts
 from .subjects import FrameAnalysis
-
-IN_ONE = (
-    "aspect.read_later",
-    "image.averaged_by_reader",
-    "image.is_render_target",
-    "image.loaded",
-    "image.read",
-    "pass.partial_area",
-    "resolve.target_read",
-    "subpass.partial_coverage",
-)
-"""What is true if it is true in one frame."""
-
-IN_ALL = (
-    "aspect.readers_known",
-    "aspect.store_wasted",
-    "aspect.waste_certain",
-    "aspect.untouched",
-    "aspect.cleared_by_command",
-    "image.turns_stated",
-    "resolve.only_copied",
-    "resolve.repeats",
-    "resolve.resolved_anew",
-    "subpass.full_screen",
-)
-"""What is true only if it is true in all frames."""
 
 
 def join(frames: Sequence[FrameAnalysis]) -> list[list[Subject]]:
@@ -51,7 +26,7 @@ def join(frames: Sequence[FrameAnalysis]) -> list[list[Subject]]:
                 shared.setdefault((subject.kind, subject.path, aspect), []).append(subject.facts)
     for facts in shared.values():
         if len(facts) > 1:
-            _join(facts)
+            join_facts(facts)
     return subjects
 
 
@@ -70,27 +45,8 @@ def _join_images(frames: Sequence[FrameAnalysis]) -> None:
         in_vain = all(facts.values.get("image.read") is False or facts.values["image.read_in_vain"] for facts in used)
         in_vain = in_vain and any(facts.values["image.read_in_vain"] for facts in used)
         turns = [facts.values.get("image.taking_turns") for facts in used]
-        _join(used, every)
+        join_facts(used, every)
         for facts in every:
             facts.put("image.read_in_vain", in_vain)
             if any(names != turns[0] for names in turns):
                 facts.put("image.taking_turns", [])
-
-
-def _join(facts: Sequence[Facts], every: Sequence[Facts] = ()) -> None:
-    """Replaces facts by what holds for all frames that have a say, in `every` frame that has the object."""
-    names = dict.fromkeys(name for each in facts for name in each.values)
-    for joined, decisive in ((IN_ONE, True), (IN_ALL, False)):
-        for name in filter(names.__contains__, joined):
-            values = [each.values.get(name) for each in facts]
-            value = decisive if decisive in values else None if None in values else not decisive
-            for each in every or facts:
-                if value is None:
-                    each.values.pop(name, None)
-                else:
-                    each.put(name, value)
-    for each in facts if "aspect.costly_operations" in names else ():
-        operations = each.values["aspect.costly_operations"]
-        assert isinstance(operations, list)
-        if "STORE" in operations and each.values.get("aspect.read_later") is not False:
-            each.values["aspect.costly_operations"] = [str(operation) for operation in operations if operation != "STORE"]

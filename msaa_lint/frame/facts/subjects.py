@@ -17,6 +17,7 @@ from .facts import Facts, Subject
 from .frame import Frame
 from .global_facts import global_facts, profile
 from .image import Bindings, image_facts
+from .joined_facts import join_facts
 from .lifetimes import lifetime_facts
 from .parts import Aspect, Attachment, Pass, Target
 from .pass_begin import max_uses, uses_at_most
@@ -117,8 +118,18 @@ class FrameAnalysis:
     def _image_facts(self) -> dict[int, Facts]:
         """By the identity of an image's record."""
         in_vain = read_in_vain(self.readers) if self.frame.resolve_commands else set()
-        turns = Turns(self.frame, self.bindings)
-        return {id(target.record): self._facts_of_image(target, turns, in_vain) for target in self.frame.all_targets}
+        facts = {id(target.record): self._facts_of_image(target, self.turns, in_vain) for target in self.frame.all_targets}
+        for names in self.turns.of.values():
+            # A frame may show one of them in use.
+            targets = [self.frame.targets[name] for name in names]
+            used = [facts[id(target.record)] for target in targets if self._is_used(target)]
+            join_facts(used, [facts[id(target.record)] for target in targets])
+        return facts
+
+    @cached_property
+    def turns(self) -> Turns:
+        """The multisampled images that take turns."""
+        return Turns(self.frame, self.bindings)
 
     def _facts_of_image(self, target: Target, turns: Turns, in_vain: set[str]) -> Facts:
         facts = image_facts(target, self.bindings, self.frame, self.readers, self.device)
@@ -136,14 +147,13 @@ class FrameAnalysis:
     def stated_images(self) -> Iterator[tuple[str, Facts, bool]]:
         """The images of the description by name, each with its facts, which may be changed, and whether the frame uses it."""
         for name, target in self.frame.targets.items():
-            record = target.record
-            if self.frame.has_commands:
-                used = bool(self.readers.uses(name)) if self.timeline.followed else True
-                used = used or id(record) in self.bindings.begun
-            else:
-                used = id(record) in self.bindings.attachments
-            if id(record) in self._image_facts:
-                yield name, self._image_facts[id(record)], used
+            yield name, self._image_facts[id(target.record)], self._is_used(target)
+
+    def _is_used(self, target: Target) -> bool:
+        """Whether the frame uses an image."""
+        if not self.frame.has_commands:
+            return id(target.record) in self.bindings.attachments
+        return id(target.record) in self.bindings.begun or not self.timeline.followed or bool(self.readers.uses(target.name))
 
     @cached_property
     def pass_contents(self) -> PassContents:

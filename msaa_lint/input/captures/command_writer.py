@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterable, Iterator, Mapping
+from collections.abc import Collection, Hashable, Iterable, Iterator, Mapping
 from typing import Any
 
 from msaa_lint.core.text.source import Origin
 
-from .command_buffers import PASS_BEGINS, RecordedCommand, RenderPassBegin
+from .command_buffers import PASS_BEGINS, PASS_ENDS, RecordedCommand, RenderPassBegin
 from .frame_boundary import AspectUse, aspect_uses
 from .frame_kinds import FrameKind, Role
 from .labels import FrameLabels
@@ -29,8 +29,8 @@ MAX_LABELS = 16
 class CommandWriter:
     """Writes the commands of one kind of frame.
 
-    `described_images` are the images in its document, `framebuffers` the framebuffer names by pass begin, and `total` is the number of
-    frames in the capture.
+    `described_images` are the images in its document, `passes` the numbers of its passes there, `framebuffers` the framebuffer names by
+    pass begin, and `total` is the number of frames in the capture.
     """
 
     def __init__(
@@ -39,6 +39,7 @@ class CommandWriter:
         names: Names,
         kind: FrameKind,
         described_images: set[Image],
+        passes: Collection[int],
         framebuffers: Mapping[Hashable, str],
         total: int,
         labels: FrameLabels,
@@ -47,6 +48,7 @@ class CommandWriter:
         self.names = names
         self.kind = kind
         self.described_images = described_images
+        self.passes = passes
         self.framebuffers = framebuffers
         self.total = total
         self.renderings: dict[Hashable, str] = {}
@@ -64,7 +66,9 @@ class CommandWriter:
         """Writes the `commands` section."""
         self.lines.line("commands:")
         start = len(self.lines.text)
-        order = list(commands_of(self.kind))
+        order = [
+            (command, number) for command, number, is_in_pass in self._order() if not is_in_pass or self._is_described(command, number)
+        ]
         uses_by_image = aspect_uses(_with_images(self.kind, order))
         for image in self._from_earlier_frames(uses_by_image):
             self._note("writeImage", image, "by an earlier frame")
@@ -84,6 +88,18 @@ class CommandWriter:
             self._note("readImage", image, "by a later frame", None if is_fetched else "MEMORY_READ")
         if len(self.lines.text) == start:
             self.lines.text[-1] += " []"
+
+    def _order(self) -> Iterator[tuple[RecordedCommand, int, bool]]:
+        """The commands as in `commands_of`, and whether each belongs to a pass."""
+        is_in_pass = False
+        for command, number in commands_of(self.kind):
+            is_in_pass = is_in_pass or command.kind in PASS_BEGINS
+            yield command, number, is_in_pass
+            is_in_pass = is_in_pass and command.kind not in PASS_ENDS
+
+    def _is_described(self, command: RecordedCommand, number: int) -> bool:
+        """Whether a command of a pass is described: of a pass that is left out, only what it reads and writes besides its attachments."""
+        return number in self.passes or command.kind in ("readImage", "writeImage")
 
     def _note(self, kind: str, image: Image, why: str, access: str | None = None) -> None:
         """Writes a use of an image by something outside this frame."""

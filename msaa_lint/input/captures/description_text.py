@@ -3,16 +3,15 @@
 `msaa-lint check` checks this text and `msaa-lint convert` prints it, so the two cannot disagree.
 """
 
-from __future__ import annotations
-
-from collections.abc import Hashable
-from typing import Any
+from collections.abc import Collection, Hashable, Sequence
+from typing import Any, NamedTuple
 
 from msaa_lint.core.text.source import Origin
 
 from .command_buffers import RenderPassBegin
 from .command_writer import CommandWriter, commands_of
 from .frame_kinds import FrameKind
+from .multisampled_part import MultisampledPart, is_multisampled
 from .names import Names
 from .objects import CapturedObject, Image, Pipeline, RenderPass, freeze, images_in
 from .tracker import Tracker
@@ -22,71 +21,138 @@ MAX_UNUSED = 500
 """Maximum number of objects of a kind that are written although no frame uses them."""
 
 
-def describe_capture(tracker: Tracker) -> tuple[str, list[Origin | None], dict[str, bytes]]:
-    """The description of a capture: its text, the call behind each line, and the shader code by the names in the text."""
+class CaptureDescription(NamedTuple):
+    """The description of a capture: its text, the call behind each line, and the shader code by the names in the text.
+
+    `left_out` says what has nothing to do with multisampling and is therefore not described; empty if that is nothing.
+    """
+
+    text: str
+    origins: list[Origin | None]
+    modules: dict[str, bytes]
+    left_out: str
+
+
+def describe_capture(tracker: Tracker) -> CaptureDescription:
+    """The description of a capture."""
     lines = Lines()
     writer = _Writer(tracker, lines)
-    kinds = sorted(tracker.frames.kinds.values(), key=lambda kind: (-kind.count, kind.number))
-    for number, kind in enumerate(kinds):
-        if number:
-            lines.document()
-        writer.frame(kind, first=number == 0)
-    if not kinds:
-        writer.structures()
-    return "\n".join(lines.text) + "\n", lines.origins, writer.modules
+    writer.write()
+    return CaptureDescription("\n".join(lines.text) + "\n", lines.origins, writer.modules, writer.left_out)
 
 
 class _Writer:
-    """Writes the documents of one capture."""
+    """Writes the documents of one capture. `left_out` is that of the description."""
 
     def __init__(self, tracker: Tracker, lines: Lines) -> None:
         self.tracker = tracker
         self.lines = lines
         self.names = Names(tracker.frames.kinds.values(), tracker.frames.labels)
         self.modules: dict[str, bytes] = {}
+        self.left_out = ""
         self.described_images: set[Image] = set()
         """The images of the current document."""
+        self._frames: dict[CapturedObject, int] = {}
+        """The number of frames that use one of the images that take turns, by image."""
         self.total = tracker.frames.total
-        self.used_images = {image for kind in tracker.frames.kinds.values() for image in _images(kind)}
-        used_keys = {image_key(image) for image in self.used_images}
-        unused = [each for each in tracker.multisampled.values() if image_key(each) not in used_keys]
+        kinds = sorted(tracker.frames.kinds.values(), key=lambda kind: (-kind.count, kind.number))
+        self.images = {kind: _images(kind) for kind in kinds}
+        used_keys = {image_key(image) for images in self.images.values() for image in images}
+        unused = [alike.first for alike in tracker.multisampled.values() if image_key(alike.first) not in used_keys]
         self.unused_images = unused[:MAX_UNUSED]
-        distinct = list(tracker.distinct.values())
-        self.unused_passes = [each for each in distinct if isinstance(each, RenderPass) and not each.frames][:MAX_UNUSED]
-        self.unused_pipelines = [each for each in distinct if isinstance(each, Pipeline) and not each.frames][:MAX_UNUSED]
+        distinct = [each for each in tracker.distinct.values() if not each.frames and is_multisampled(each)]
+        self.unused_passes = [each for each in distinct if isinstance(each, RenderPass)][:MAX_UNUSED]
+        self.unused_pipelines = [each for each in distinct if isinstance(each, Pipeline)][:MAX_UNUSED]
+        self.part = MultisampledPart(kinds)
+        if kinds and not self.part.images and (self.unused_passes or self.unused_pipelines):
+            # A frame has to show that it does not begin them.
+            self.part.add_pass(kinds[0], 0)
+
+    def write(self) -> None:
+        """Writes all documents."""
+        kinds = [kind for kind, images in self.images.items() if self.part.passes(kind) or not self.part.images.isdisjoint(images)]
+        for number, kind in enumerate(kinds):
+            if number:
+                self.lines.document()
+            self.frame(kind, first=number == 0)
+        if not kinds:
+            self.structures()
+        every = {image for images in self.images.values() for image in images}
+        passes = sum(len(kind.passes) - len(self.part.passes(kind)) for kind in self.images)
+        self.left_out = _left_out(len(every - self.part.images), passes)
 
     def structures(self) -> None:
-        """Writes a capture without frames: only the objects that it creates."""
+        """Writes a capture whose frames, if it has any, show nothing multisampled: only the objects that it creates."""
         self._head(None)
         self._images(self.unused_images)
         self._passes(list(dict.fromkeys([*self.unused_passes, *_render_passes_of(self.unused_pipelines)])))
         self._pipelines(self.unused_pipelines)
+        for kind, images in self.images.items():
+            self._left_out(kind, images)
         # It is unknown which passes a frame begins.
         self.lines.line("commands: []")
 
     def frame(self, kind: FrameKind, first: bool) -> None:
         """Writes one kind of frame. The first document also contains the objects that no frame uses."""
-        begins = [item.key for item in kind.passes if isinstance(item.key, RenderPassBegin)]
-        passes = list(dict.fromkeys(begin.render_pass for begin in begins))
-        draw_counts = [item.key[0] for item, _ in commands_of(kind) if item.kind == "draw" and isinstance(item.key, tuple)]
-        pipelines = [item for item in dict.fromkeys(draw_counts) if isinstance(item, Pipeline)]
-        images = _images(kind)
+        numbers = self.part.passes(kind)
+        begins = [kind.passes[number].key for number in sorted(numbers)]
+        passes = list(dict.fromkeys(begin.render_pass for begin in begins if isinstance(begin, RenderPassBegin)))
+        commands = (command for number in sorted(numbers) for command in kind.pass_commands[number].values())
+        drawn = (command.key[0] for command in commands if command.kind == "draw" and isinstance(command.key, tuple))
+        pipelines = [each for each in dict.fromkeys(drawn) if isinstance(each, Pipeline)]
+        images = self._with_turns(kind, [image for image in self.images[kind] if image in self.part.images])
         if first:
             images = list(dict.fromkeys([*images, *self.unused_images]))
             passes += self.unused_passes
             pipelines = list(dict.fromkeys([*pipelines, *self.unused_pipelines]))
         passes = list(dict.fromkeys([*passes, *_render_passes_of(pipelines)]))
         self._head(kind)
+        self._left_out(kind, self.images[kind])
         self._images(images)
         self._passes(passes)
-        framebuffers = self._framebuffers(kind)
+        framebuffers = self._framebuffers(kind, numbers)
         self._pipelines(pipelines)
-        CommandWriter(self.lines, self.names, kind, self.described_images, framebuffers, self.total, self.tracker.frames.labels).write()
+        labels = self.tracker.frames.labels
+        CommandWriter(self.lines, self.names, kind, self.described_images, numbers, framebuffers, self.total, labels).write()
+
+    def _with_turns(self, kind: FrameKind, images: list[Image]) -> list[Image]:
+        """The images of a kind of frame, with those that take their place in other frames if there is one for each swapchain image."""
+        swapchains = {image.swapchain: None for image in images if image.swapchain is not None}
+        swapchain = next(iter(swapchains), None)
+        if swapchain is None or len(swapchains) > 1 or len(swapchain.images) < 2:
+            return images
+        result: dict[Image, None] = {}
+        for image in images:
+            turns = self._turns(kind, image) if image.samples > 1 else ()
+            if len(turns) == len(swapchain.images):
+                frames = min(sum(each.frames for each in turns), self.total)
+                self._frames.update(dict.fromkeys(turns, frames))
+                result.update(dict.fromkeys((*turns, *swapchain.images)))
+            result[image] = None
+        return list(result)
+
+    def _turns(self, kind: FrameKind, image: Image) -> Sequence[Image]:
+        """The images that exist together and have the same role in other frames, or that no frame uses."""
+        together = image.alike.together if image.alike is not None else ()
+        role = kind.images.index(image) if image in kind.images else -1
+        rotation = kind.rotations.get(role, {image: None})
+        if len(rotation) == 1 and image in together:
+            return [each for each in together if each is image or not each.frames]
+        return [each for each in together if each in rotation] if rotation.keys() <= set(together) else ()
+
+    def _left_out(self, kind: FrameKind, images: list[Image]) -> None:
+        """Writes what of a kind of frame is not described."""
+        count = sum(image not in self.part.images for image in images)
+        text = _left_out(count, len(kind.passes) - len(self.part.passes(kind)))
+        if text:
+            self.lines.line(f"# left out: {text}")
 
     def _head(self, kind: FrameKind | None) -> None:
         lines = self.lines
-        if kind is not None and kind.count < self.total:
-            share = float(f"{kind.count / self.total:.6g}")
+        # What frames that were not kept do is unknown: those that were stand for them, too.
+        known = self.total - self.tracker.frames.dropped
+        if kind is not None and kind.count < known:
+            share = float(f"{kind.count / known:.6g}")
             lines.line(f"frame: {{share: {share!r}}}  # {kind.count} of {self.total} frames")
         for line in self.tracker.device().splitlines():
             lines.line(line)
@@ -96,7 +162,7 @@ class _Writer:
 
     def origin(self, created: CapturedObject) -> Origin:
         """The call that created an object."""
-        return Origin(*created.at, created.by, created.frames or None, self.total)
+        return Origin(*created.at, created.by, self._frames.get(created, created.frames) or None, self.total)
 
     def _images(self, images: list[Image]) -> None:
         self.described_images = set(images)
@@ -120,11 +186,11 @@ class _Writer:
                 for item in tree.get(member, ()):
                     self.lines.item(6, item, origin)
 
-    def _framebuffers(self, kind: FrameKind) -> dict[Hashable, str]:
-        """Writes the framebuffers of the kind's passes, one for each set of images, and returns their names."""
+    def _framebuffers(self, kind: FrameKind, numbers: Collection[int]) -> dict[Hashable, str]:
+        """Writes the framebuffers of some passes of the kind, one for each set of images, and returns their names."""
         names: dict[Hashable, str] = {}
-        for alternates in kind.alternates:
-            for begin in alternates.values():
+        for number in sorted(numbers):
+            for begin in kind.alternates[number].values():
                 key = (begin.framebuffer, begin.images, begin.render_pass)
                 if begin.framebuffer is None or key in names:
                     continue
@@ -159,6 +225,16 @@ def origin_comment(created: CapturedObject) -> str:
 def image_key(image: Image) -> Hashable:
     """The creation parameters of an image, without its memory."""
     return freeze({key: value for key, value in image.tree.items() if key != "memory"})
+
+
+def _left_out(images: int, passes: int) -> str:
+    """What is left out, in words; empty if it is nothing."""
+    counted = [
+        f"{count:,} {noun if count == 1 else plural}"
+        for count, noun, plural in ((images, "image", "images"), (passes, "pass", "passes"))
+        if count
+    ]
+    return f"{' and '.join(counted)} that multisampled images neither depend on nor lead to" if counted else ""
 
 
 def _render_passes_of(pipelines: list[Pipeline]) -> list[RenderPass]:

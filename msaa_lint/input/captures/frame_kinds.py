@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 from .command_buffers import PASS_BEGINS, PASS_ENDS, RecordedCommand, RenderPassBegin
 from .labels import Path
-from .objects import Image, freeze
+from .objects import MAX_ROTATION, Image, freeze
 
 MAX_ALTERNATES = 8
 """Maximum number of framebuffers, each with other images, that a pass alternates between."""
@@ -60,6 +60,8 @@ class FrameKind:
         self.alternates: list[dict[Hashable, RenderPassBegin]] = [{} for _ in passes]
         self.pass_commands: list[dict[Hashable, RecordedCommand]] = [{} for _ in passes]
         self.gaps: list[dict[Hashable, GapVariant]] = [{} for _ in range(len(passes) + 1)]
+        self.rotations: dict[int, dict[Image, None]] = {}
+        """The multisampled images that have a role in some frame, by role."""
         self.is_complete = True
         """Whether the passes have all of their commands."""
         self.later: dict[tuple[Hashable, str], bool] = {}
@@ -124,6 +126,11 @@ def merge(kind: FrameKind, segments: list[Segment], roles: dict[Image, Role], me
     """Merges the contents of a frame's passes into its kind, and returns the commands between them."""
     number = 0
     is_first = not any(kind.pass_commands)
+    for image, role in roles.items():
+        if image.samples > 1:
+            rotation = kind.rotations.setdefault(role, {})
+            if len(rotation) <= MAX_ROTATION:
+                rotation[image] = None
     gaps: list[list[RecordedCommand]] = []
     for begin, items in segments:
         if begin is None:

@@ -14,7 +14,7 @@ from .command_buffers import CommandCache, Parts
 from .devices import Devices
 from .frames import Frames
 from .layouts import ImageLayouts
-from .objects import Image, Swapchain, freeze
+from .objects import AlikeImages, Image, Swapchain, freeze
 from .structures import to_tree
 from .submissions import Submission
 
@@ -44,8 +44,8 @@ class Images(Devices):
         self.swapchains: dict[int, Swapchain] = {}
         self.memory: dict[int, int] = {}
         """The memory type index of each allocation."""
-        self.multisampled: dict[Hashable, Image] = {}
-        """Multisampled images; those created with the same parameters share one entry."""
+        self.multisampled: dict[Hashable, AlikeImages] = {}
+        """Multisampled images by the parameters that they are created with."""
         self.numbers: defaultdict[object, count[int]] = defaultdict(count)
         """The numbers of the next objects, by kind."""
         self.frames = Frames()
@@ -66,7 +66,8 @@ class Images(Devices):
         self.frames.repetitions.created = image.number + 1
         self._add(handle, image)
         if image.samples > 1 and len(self.multisampled) < MAX_DISTINCT:
-            self.multisampled.setdefault(freeze(tree), image)
+            image.alike = self.multisampled.setdefault(freeze(tree), AlikeImages(image))
+            image.alike.add(image)
         image.may_be_read = any(values.chained(info, kind) is not None for kind in EXTERNAL_MEMORY)
 
     def _add(self, handle: int, image: Image) -> None:
@@ -78,6 +79,8 @@ class Images(Devices):
         image = self.images.pop(handle, None)
         if image is not None:
             self.layouts.forget(image)
+            if image.alike is not None:
+                image.alike.remove(image)
 
     def on_DestroyImage(self, call: Call) -> None:
         self._forget(values.handle(call.args.get("image")))

@@ -8,6 +8,9 @@ from msaa_lint.frame.vulkan.formats import format_of
 from .call import Call, Place
 from .structures import Tree
 
+MAX_ROTATION = 16
+"""Maximum number of multisampled images that take turns from frame to frame: more than any swapchain has."""
+
 ATTACHMENT_USAGES = frozenset(("COLOR_ATTACHMENT", "DEPTH_STENCIL_ATTACHMENT", "INPUT_ATTACHMENT"))
 
 
@@ -37,7 +40,7 @@ class Image(CapturedObject):
     """An image, possibly of a swapchain. `aspect_states` holds the state of each aspect after its last use, `present` the submission that
     presents it."""
 
-    __slots__ = ("aspect_states", "aspects", "attachable", "kinds", "layouts", "may_be_read", "present", "swapchain")
+    __slots__ = ("alike", "aspect_states", "aspects", "attachable", "kinds", "layouts", "may_be_read", "present", "swapchain")
 
     def __init__(self, call: Call, number: int, tree: Tree) -> None:
         super().__init__(call, number, tree)
@@ -57,6 +60,8 @@ class Image(CapturedObject):
         )
         """What it can be in such a descriptor, and `layouts`: those in which it is now. Empty if that is no longer followed."""
         self.layouts: frozenset[str] = frozenset()
+        self.alike: AlikeImages | None = None
+        """The images that are created alike, if it is multisampled."""
 
     @property
     def samples(self) -> int:
@@ -73,6 +78,35 @@ class Image(CapturedObject):
         """Whether it has one mip level and one layer, so that one pass can write all of it."""
         depth = self.tree.get("extent", {}).get("depth", 1)
         return all(count == 1 for count in (self.tree.get("mipLevels", 1), self.tree.get("arrayLayers", 1), depth))
+
+
+class AlikeImages:
+    """Multisampled images that are created with the same parameters: the first of them, and `together` the most that exist at a time.
+
+    That is empty if more exist than can take turns.
+    """
+
+    __slots__ = ("_existing", "_is_crowded", "first", "together")
+
+    def __init__(self, first: Image) -> None:
+        self.first = first
+        self.together: tuple[Image, ...] = ()
+        self._existing: dict[Image, None] = {}
+        self._is_crowded = False
+
+    def add(self, image: Image) -> None:
+        """Adds an image that exists from now on."""
+        self._existing[image] = None
+        self._is_crowded = self._is_crowded or len(self._existing) > MAX_ROTATION
+        if self._is_crowded:
+            self._existing.clear()
+            self.together = ()
+        elif len(self._existing) > len(self.together):
+            self.together = tuple(self._existing)
+
+    def remove(self, image: Image) -> None:
+        """Removes an image that no longer exists."""
+        self._existing.pop(image, None)
 
 
 class Swapchain(CapturedObject):

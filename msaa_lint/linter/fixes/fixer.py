@@ -203,7 +203,7 @@ def _leaving_an_entry(plans: Iterable[tuple[Finding, tuple[Change, ...]]]) -> li
     return remaining
 
 
-def _join(fixes: Sequence[_Fix], shared: Callable[[Finding], Hashable | None]) -> list[_Fix]:
+def _join(fixes: Sequence[_Fix], shared: Callable[[Finding], Hashable | None] = lambda _: None) -> list[_Fix]:
     """Joins fixes that have edits in common, or whose findings are about one object, which `shared` returns, at the position of the first.
 
     A fix with edits that overlap others of its group stays apart: it is made after them, or in their place.
