@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
+from functools import cached_property
+from typing import TYPE_CHECKING
 
 from msaa_lint.core.finding import CONFIDENCES, Finding, Price, rank
 from msaa_lint.frame.description.document import Document
@@ -12,8 +14,11 @@ from msaa_lint.frame.description.record import Record
 from .results import DocumentResult, FileResult
 from .rules.rule_runner import Verdicts, finding_key
 
+if TYPE_CHECKING:
+    from msaa_lint.frame.facts.parts import Pass
+
 _DOCUMENT = re.compile(r"documents\[(\d+)\]\.")
-_COMMAND = re.compile(r"commands\[\d+\]")
+_COMMAND = re.compile(r"commands\[(\d+)\]")
 
 SHARED_SECTIONS = ("images", "renderPasses", "framebuffers", "pipelines")
 """The sections in which documents of a program describe the same object under the same name."""
@@ -37,37 +42,33 @@ def merged(result: FileResult) -> FileResult:
 def merge(findings: Sequence[Finding], documents: Sequence[DocumentResult]) -> list[Finding]:
     """The findings, with one for each defect that several kinds of frame of a program have.
 
-    A defect is one if its rule, the member, and the objects are the same. Images are the same, too, if they are created alike, used alike,
-    and no frame uses both: then they take turns. The n-th such finding of a document is the n-th of another.
+    A defect is one if its rule, the member, and the objects are the same. A rendering is the same if its multisampled images are. Images
+    are the same, too, if they are created alike, used alike, and no frame has the defect for both: then they take turns.
     """
-    programs = {document.number: _Likeness(document.document) for document in documents if is_frame_of_program(document.document)}
+    programs = {document.number: _Objects(document.document) for document in documents if is_frame_of_program(document.document)}
     if len(programs) < 2:
         return list(findings)
-    defects: dict[Hashable, dict[int, Finding]] = {}
-    counts: dict[Hashable, int] = {}
+    groups: dict[Hashable, list[tuple[int, Finding]]] = {}
     for finding in findings:
         number, subject = _parts(finding)
-        if number not in programs:
-            defects[len(defects)] = {number: finding}
-            continue
-        key = (finding.code, _COMMAND.sub("commands", subject), finding.images if _COMMAND.match(subject) else None)
-        counts[number, key] = counts.get((number, key), 0) + 1
-        defects.setdefault((key, counts[number, key]), {})[number] = finding
-    alike: dict[Hashable, list[dict[int, Finding]]] = {}
-    for found in defects.values():
-        number, finding = next(iter(found.items()))
-        if number not in programs or not finding.images:
-            alike[id(found)] = [found]
-            continue
-        subject = _parts(finding)[1]
-        place = "images" if subject.startswith("images.") else _COMMAND.sub("commands", subject)
-        groups = alike.setdefault((finding.code, place, programs[number].of(finding.images)), [])
-        group = next((group for group in groups if group.keys().isdisjoint(found)), None)
+        key = programs[number].key(finding, subject) if number in programs else (len(groups),)
+        groups.setdefault(key, []).append((number, finding))
+    defects: dict[Hashable, list[list[tuple[int, Finding]]]] = {}
+    for found in groups.values():
+        number, finding = found[0]
+        alike: Hashable = id(found)
+        if number in programs and finding.images:
+            subject = _parts(finding)[1]
+            place = "images" if subject.startswith("images.") else _COMMAND.sub("commands", subject)
+            alike = (finding.code, finding.context, place, programs[number].likeness(finding.images))
+        same = defects.setdefault(alike, [])
+        numbers = {number for number, _ in found}
+        group = next((group for group in same if numbers.isdisjoint(number for number, _ in group)), None)
         if group is None:
-            groups.append(found)
+            same.append(found)
         else:
-            group.update(found)
-    return [_one(list(group.values())) for groups in alike.values() for group in groups]
+            group += found
+    return [_one(group) for same in defects.values() for group in same]
 
 
 def shared_objects(documents: Sequence[DocumentResult]) -> Callable[[Finding], Hashable | None]:
@@ -88,56 +89,98 @@ def _parts(finding: Finding) -> tuple[int, str]:
     return (int(match[1]), finding.subject[match.end() :]) if match is not None else (-1, finding.subject)
 
 
-class _Likeness:
-    """What the images of a document are by: how they are created, and what passes use them as."""
+class _Objects:
+    """The objects of a document that findings are about."""
 
     def __init__(self, document: Document) -> None:
         self._document = document
-        self._uses: dict[str, set[Hashable]] | None = None
+        self._counts: dict[Hashable, int] = {}
 
-    def of(self, names: Iterable[str]) -> Hashable:
+    def key(self, finding: Finding, subject: str) -> Hashable:
+        """What tells a defect from others."""
+        match = _COMMAND.match(subject)
+        if match is None:
+            return finding.code, subject
+        position = int(match[1])
+        images = self._multisampled(finding.images), self._multisampled(self._rendered.get(position, frozenset()))
+        key = (finding.code, finding.context, _COMMAND.sub("commands", subject), *images)
+        if any(images):
+            return key
+        # The n-th such finding of a document is the n-th of another.
+        self._counts[key] = self._counts.get(key, 0) + 1
+        return (*key, finding.images, self._counts[key])
+
+    def likeness(self, names: frozenset[str]) -> Hashable:
+        """How the images are created, and what passes use them as."""
         images = self._document.description.images
-        return tuple(sorted(repr((plain(images[name]), sorted(map(repr, self._used(name))))) for name in names if name in images))
+        described = [
+            (plain(images[name]), sorted(self._uses.get(name, ()))) for name in self._multisampled(names) or names if name in images
+        ]
+        return tuple(sorted(map(repr, described)))
 
-    def _used(self, name: str) -> set[Hashable]:
-        if self._uses is None:
-            from msaa_lint.frame.facts.frame import Frame
+    def _multisampled(self, names: frozenset[str]) -> frozenset[str]:
+        """Those of some images that have several samples. What they are resolved to differs from frame to frame."""
+        images = self._document.description.images
+        return frozenset(name for name in names if name in images and (images[name].samples or 1) > 1)
 
-            self._uses = {}
-            for render_pass in Frame(self._document).passes:
-                of_pass = render_pass.name if render_pass.kind == "renderPass" else ""
-                for index, attachment in enumerate(render_pass.attachments):
-                    operations = tuple((aspect.name, aspect.load, aspect.store) for aspect in attachment.aspects)
-                    for target in attachment.targets:
-                        self._uses.setdefault(target.name, set()).add((of_pass, index if of_pass else None, operations))
-        return self._uses.get(name, set())
+    @cached_property
+    def _passes(self) -> list[Pass]:
+        from msaa_lint.frame.facts.frame import Frame
+
+        return Frame(self._document).passes
+
+    @cached_property
+    def _rendered(self) -> dict[int, frozenset[str]]:
+        """The images of renderings by the positions of the commands that begin them."""
+        return {
+            position: frozenset(target.name for attachment in each.attachments for target in attachment.targets)
+            for each in self._passes
+            if each.kind == "rendering"
+            for position in each.begun
+        }
+
+    @cached_property
+    def _uses(self) -> dict[str, set[str]]:
+        """What passes use each image as."""
+        uses: dict[str, set[str]] = {}
+        for each in self._passes:
+            of_pass = each.name if each.kind == "renderPass" else ""
+            for index, attachment in enumerate(each.attachments):
+                operations = [(aspect.name, aspect.load, aspect.store) for aspect in attachment.aspects]
+                for target in attachment.targets:
+                    uses.setdefault(target.name, set()).add(repr((of_pass, index if of_pass else None, operations)))
+        return uses
 
 
-def _one(findings: list[Finding]) -> Finding:
+def _one(found: Sequence[tuple[int, Finding]]) -> Finding:
     """One finding for those of a defect: the most severe, of several the first, which is that of the most frequent frame.
 
     Traffic adds up, because that of each frame is weighted by its share. The memory of an image counts once.
     """
+    findings = [finding for _, finding in found]
     first = max(findings, key=lambda finding: (rank(finding.severity), CONFIDENCES.index(finding.confidence)))
     if len(findings) == 1:
         return first
-    subjects = {_parts(finding)[1]: finding for finding in findings}
-    of_commands = _COMMAND.match(_parts(first)[1]) is not None
     prices = [finding.price for finding in findings if finding.price is not None]
     if prices:
-        total = Price(*(sum(column) for column in zip(*prices, strict=True)))
         memory: dict[frozenset[str], float] = {}
         for finding in findings:
             if finding.price is not None:
                 memory[finding.images] = max(memory.get(finding.images, 0.0), finding.price.memory_mib)
+        total = Price(*(sum(column) for column in zip(*prices, strict=True)))
         first = first._replace(price=total._replace(memory_mib=sum(memory.values())))
-    # The location of an object has the frames of all kinds, that of a command the frames of one.
-    located = findings if of_commands else list(subjects.values())
-    locations = [finding.capture_location for finding in located if finding.capture_location is not None]
-    if first.capture_location is not None:
-        frames = min(sum(location.frames or 0 for location in locations), first.capture_location.of)
-        first = first._replace(capture_location=first.capture_location._replace(frames=frames or None))
-    return _with_others(first, sorted({name for finding in findings for name in finding.images} - first.images))
+    location = first.capture_location
+    if location is not None:
+        # The location of an object has the frames of all kinds, that of a command the frames of one.
+        frames: dict[Hashable, int] = {}
+        for number, finding in found:
+            subject = _parts(finding)[1]
+            other = finding.capture_location
+            frames[number if _COMMAND.match(subject) else subject] = (other.frames or 0) if other is not None else 0
+        first = first._replace(capture_location=location._replace(frames=min(sum(frames.values()), location.of) or None))
+    # What a command resolves to differs from frame to frame anyway.
+    others = {name for finding in findings for name in finding.images} - first.images if not _COMMAND.match(_parts(first)[1]) else ()
+    return _with_others(first, sorted(others))
 
 
 def of_turns(verdicts: Verdicts, sets: Iterable[Sequence[str]]) -> Verdicts:

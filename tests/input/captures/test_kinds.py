@@ -31,7 +31,7 @@ def alternating(frames: int = 6, resolves: bool = True) -> Program:
     """Frames that resolve in the pass, and every second one in addition, after drawing something else, by a command."""
     program = Program()
     program.swap(2)
-    color, shown = program.image(usage=COLOR | SOURCE), program.image(samples=1, usage=COLOR | SAMPLED | TARGET | SOURCE)
+    color, shown = program.image(usage=COLOR | SOURCE, name="scene"), program.image(samples=1, usage=COLOR | SAMPLED | TARGET | SOURCE)
     other = program.image(samples=1, usage=COLOR | SAMPLED)
     view, shown_view, other_view = map(program.view, (color, shown, other))
     for frame in range(frames):
@@ -53,7 +53,7 @@ def stored(frames: int = 6) -> Program:
     """The same mistake in frames of two kinds: samples that nothing reads are stored."""
     program = Program()
     program.swap(2)
-    view, shown, other = (program.view(program.image(samples=samples)) for samples in (4, 1, 4))
+    view, shown, other = (program.view(program.image(samples=samples, name=name)) for samples, name in ((4, "scene"), (1, "x"), (4, "y")))
     for frame in range(frames):
         if frame % 2:
             program.submit(drawn(program, info(other)))
@@ -85,7 +85,7 @@ def test_fixes_of_a_description_agree_about_what_its_documents_share(tmp_path: P
         run(tmp_path, "check", "--isolated", "--fix", "--unsafe-fixes", "frame.yaml")
         documents = (tmp_path / "frame.yaml").read_text().split("---\n")
         assert len(documents) == 2
-        of_first_image = [next(line for line in document.split("image_0:")[1].splitlines() if "usage" in line) for document in documents]
+        of_first_image = [next(line for line in document.split("  scene:")[1].splitlines() if "usage" in line) for document in documents]
         assert of_first_image[0] == of_first_image[1]
 
 
