@@ -31,7 +31,7 @@ _RENDER_TARGET_USAGES = frozenset({"COLOR_ATTACHMENT", "DEPTH_STENCIL_ATTACHMENT
 class Bindings:
     """What a frame does with its images. Images and those that stand for attachments without one go by their records."""
 
-    __slots__ = ("_idle", "attachments", "begun", "reads", "resolved", "resolved_by_command")
+    __slots__ = ("_idle", "attachments", "begun", "reads", "resolve_ends", "resolved")
 
     def __init__(self, frame: Frame) -> None:
         self.attachments: dict[int, list[Attachment]] = {}
@@ -40,8 +40,9 @@ class Bindings:
         """The images that a pass which the commands begin is bound to."""
         self.resolved: set[int] = set()
         """The images that a resolve within a pass writes."""
-        resolves = (resolve.target_image for _, resolve in frame.resolve_commands)
-        self.resolved_by_command = {image.name for image in resolves if image is not None}
+        ends = (end for _, resolve in frame.resolve_commands for end in (resolve.source_image, resolve.target_image))
+        self.resolve_ends = {id(end.record) for end in ends if end is not None}
+        """The images that a resolve reads or writes."""
         self.reads: dict[str, list[ReadImage]] = {}
         self._idle: set[int] = set()
         """The attachments, by identity, of passes that the frame does not begin."""
@@ -56,6 +57,8 @@ class Bindings:
                     self.begun |= records
             targets = (resolve.target_image for resolve in render_pass.resolves)
             self.resolved.update(id(target.record) for target in targets if target is not None)
+            sources = (resolve.source_image for resolve in render_pass.resolves)
+            self.resolve_ends.update(id(source.record) for source in sources if source is not None)
         passes = {render_pass.name: render_pass for render_pass in frame.passes if render_pass.kind == RENDER_PASS}
         begun_with = {id(attachment): set(map(id, attachment.targets)) for each in passes.values() for attachment in each.attachments}
         for framebuffer in frame.description.framebuffers.values():
@@ -102,7 +105,7 @@ def image_facts(target: Target, bindings: Bindings, frame: Frame, readers: Reade
         facts.put("image.share_of_devices", sample_count_share(target.samples, tilers=False))
         facts.put("image.share_of_tilers", sample_count_share(target.samples, tilers=True))
     facts.put("image.loaded", _loaded(bound, frame))
-    facts.put("image.resolved_to", id(record) in bindings.resolved or target.name in bindings.resolved_by_command)
+    facts.put("image.resolved", id(record) in bindings.resolved or id(record) in bindings.resolve_ends)
     if image is None:
         facts.put("image.is_render_target", rendered)
         return facts

@@ -45,8 +45,10 @@ def _join_images(frames: Sequence[FrameAnalysis]) -> None:
         in_vain = all(facts.values.get("image.read") is False or facts.values["image.read_in_vain"] for facts in used)
         in_vain = in_vain and any(facts.values["image.read_in_vain"] for facts in used)
         turns = [facts.values.get("image.taking_turns") for facts in used]
+        stated = all(facts.values["image.turns_stated"] for facts in used)
         join_facts(used, every)
         for facts in every:
             facts.put("image.read_in_vain", in_vain)
             if any(names != turns[0] for names in turns):
                 facts.put("image.taking_turns", [])
+            facts.put("image.turns_stated", stated)

@@ -37,7 +37,7 @@ IMAGE = (
     Fact("image.is_data", "BOOL", "its values are stated to be data, not color; never unknown"),
     Fact("image.encoding", "STRING", "what its values mean", "encoding"),
     Fact("image.is_render_target", "BOOL", "a pass draws or resolves to it, or its usage allows that"),
-    Fact("image.resolved_to", "BOOL", "a resolve, in a pass or as a command, writes it; never unknown"),
+    Fact("image.resolved", "BOOL", "a resolve, in a pass or as a command, reads or writes it; never unknown"),
     Fact("image.read", "BOOL", "something other than a resolve inside a pass reads it"),
     Fact(
         "image.read_in_vain",
