@@ -27,6 +27,9 @@ class Scene(NamedTuple):
     packages: tuple[tuple[str, str], ...]
     """Packages of PyPI and the modules that they contain."""
 
+    interpreter: str | None = None
+    """The program of Debian's package of that name that runs the script; else it is Python."""
+
     window: bool = False
     opengl: bool = False
     """Whether the package calls OpenGL, which Mesa's zink turns into Vulkan."""
@@ -38,6 +41,8 @@ def missing(scene: Scene) -> list[str]:
     layers = [Path(folder, "vulkan", "explicit_layer.d") for folder in _LAYER_FOLDERS]
     if shutil.which("gfxrecon-convert") is None or not any(any(each.glob("VkLayer_gfxreconstruct*.json")) for each in layers):
         needs.append("Debian gfxreconstruct")
+    if scene.interpreter is not None and shutil.which(scene.interpreter) is None:
+        needs.append(f"Debian {scene.interpreter}")
     if scene.window and shutil.which("Xvfb") is None:
         needs.append("Debian xvfb")
     return needs
@@ -71,7 +76,7 @@ def capture(scene: Scene, folder: Path) -> Path:
     zink = {"MESA_LOADER_DRIVER_OVERRIDE": "zink", "GALLIUM_DRIVER": "zink", "LIBGL_ALWAYS_SOFTWARE": "1"} if scene.opengl else {}
     with _display(scene.window) as display:
         done = subprocess.run(
-            [sys.executable, SCENES / scene.script, *([scene.mode] if scene.mode else [])],
+            [scene.interpreter or sys.executable, SCENES / scene.script, *([scene.mode] if scene.mode else [])],
             cwd=folder,
             env={**os.environ, **layer, **zink, **display},
             stdout=subprocess.PIPE,
