@@ -8,7 +8,9 @@ from __future__ import annotations
 import json
 import lzma
 from collections import Counter, defaultdict
+from collections.abc import Mapping
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any, NamedTuple
 
 import pytest
@@ -32,17 +34,11 @@ class Program(NamedTuple):
     scene: Scene
     frames: int
     findings: dict[str, int]
-    prices: dict[str, tuple[str, float]] = {}
+    prices: Mapping[str, tuple[str, float]] = MappingProxyType({})
     """The sum over the rule's findings."""
 
     unclear: tuple[str, ...] = ()
     """Rules that may find something: the calls do not tell whether they should."""
-
-
-
-
-def _zink(script: str, package: str, module: str) -> Scene:
-    return Scene(script, None, ((package, module),), window=True, opengl=True)
 
 
 def _moderngl(mode: str) -> Scene:
@@ -65,31 +61,7 @@ PROGRAMS = {
     ),
     # A shader reads every sample of depth: whether one value per pixel would do, only the shader tells.
     "wgpu-depth": Program(Scene("wgpu_triangle.py", "depth", WGPU), 4, {"MSAA205": 1, "MSAA401": 1}, unclear=("MSAA307",)),
-    # The swapchain has three images, each with a multisampled one of its own; the layer's is not transient.
-    "qt-quick": Program(Scene("qt_quick.py", None, (("PySide6", "PySide6"),), window=True), 7, {"MSAA205": 1, "MSAA401": 1, "MSAA406": 1}),
-    # OpenGL resolves when the window is shown, by a command, and stores depth, which nothing reads. In the first frame, zink fills the color
-    # of a window by a pass before the program clears it: MSAA201.
-    "panda3d": Program(_zink("panda3d_card.py", "panda3d", "panda3d"), 5, {"MSAA201": 1, "MSAA203": 1, "MSAA301": 1, "MSAA401": 1}),
-    # One frame of six loads what it drew before, so depth has to be in memory.
-    "pyglet": Program(
-        _zink("pyglet_star.py", "pyglet", "pyglet"),
-        6,
-        {"MSAA201": 1, "MSAA202": 2, "MSAA203": 1, "MSAA301": 1},
-        {"MSAA202": ("read_mb_per_s", 2 * MB_PER_S / 6)},
-    ),
-    # The texture that is drawn first interrupts the window's pass, which then loads color, depth and stencil.
-    "raylib": Program(
-        _zink("raylib_cube.py", "raylib", "pyray"), 7, {"MSAA201": 1, "MSAA202": 2, "MSAA203": 1, "MSAA204": 1, "MSAA301": 1}
-    ),
-    # As raylib's, but the canvas has four samples too, and is resolved by a command of its own.
-    "love": Program(
-        Scene("love_circles", None, (), interpreter="love", window=True, opengl=True),
-        7,
-        {"MSAA201": 1, "MSAA202": 2, "MSAA203": 1, "MSAA204": 1, "MSAA301": 2},
-    ),
     "moderngl-blit": Program(_moderngl("blit"), 7, {"MSAA203": 1, "MSAA301": 1, "MSAA401": 1}),
-    # The shader that averages the samples is not in the capture, but the descriptor and the layout are.
-    "moderngl-shader": Program(_moderngl("shader"), 7, {"MSAA203": 1, "MSAA401": 1}),
     "pygfx": Program(Scene("pygfx_cube.py", None, (("pygfx", "pygfx"), *WGPU)), 4, {}),
 }
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 from msaa_lint.core.text.span import Span
@@ -89,11 +89,14 @@ def recorded_barriers(frame: Frame) -> Barriers:
     return found
 
 
-def external_dependencies(render_pass: Pass, barriers: Barriers, detached: bool = False) -> Iterator[tuple[Record, Facts]]:
+def external_dependencies(
+    render_pass: Pass, barriers: Barriers, alternating: Collection[str], detached: bool = False
+) -> Iterator[tuple[Record, Facts]]:
     """For every subpass with stated dependencies from EXTERNAL: the one to report, and the facts of all of them.
 
     A subpass without any that is the first to use a multisampled attachment is yielded with its own record: what orders it is unknown.
-    It is unknown, too, for passes that are `detached` from a frame, which is where `commands` is stated and empty.
+    It is unknown, too, for passes that are `detached` from a frame, which is where `commands` is stated and empty. Images in `alternating`
+    take turns with those of the swapchain, so that acquiring the swapchain's image orders their reuse.
     """
     if render_pass.kind != RENDER_PASS or not isinstance(render_pass.record, RenderPass):
         return
@@ -103,6 +106,8 @@ def external_dependencies(render_pass: Pass, barriers: Barriers, detached: bool 
             into.setdefault(dependency.dstSubpass, []).append(dependency)
     first_used: dict[int, list[Attachment]] = {}
     for attachment in render_pass.attachments:
+        if attachment.targets and all(target.name in alternating for target in attachment.targets):
+            continue
         if attachment.drawn and _first_use(attachment) in attachment.color | attachment.depth_stencil:
             first_used.setdefault(_first_use(attachment), []).append(attachment)
     for subpass, dependencies in into.items():

@@ -118,7 +118,7 @@ class FrameAnalysis:
     def _image_facts(self) -> dict[int, Facts]:
         """By the identity of an image's record."""
         in_vain = read_in_vain(self.readers) if self.frame.resolve_commands else set()
-        facts = {id(target.record): self._facts_of_image(target, self.turns, in_vain) for target in self.frame.all_targets}
+        facts = {id(target.record): self._facts_of_image(target, in_vain) for target in self.frame.all_targets}
         for names in self.turns.of.values():
             # A frame may show one of them in use.
             targets = [self.frame.targets[name] for name in names]
@@ -131,10 +131,10 @@ class FrameAnalysis:
         """The multisampled images that take turns."""
         return Turns(self.frame, self.bindings)
 
-    def _facts_of_image(self, target: Target, turns: Turns, in_vain: set[str]) -> Facts:
+    def _facts_of_image(self, target: Target, in_vain: set[str]) -> Facts:
         facts = image_facts(target, self.bindings, self.frame, self.readers, self.device)
         facts.put("image.read_in_vain", target.name in in_vain)
-        turns.put(facts, target)
+        self.turns.put(facts, target)
         self.shaders.averaged(facts, target)
         put_study(facts, target.samples, self._studied if id(target) in self._inefficient else UNSTUDIED)
         metal = self.frame.description.metal
@@ -230,7 +230,7 @@ class FrameAnalysis:
 
     def _dependencies(self, render_pass: Pass, shared: Facts) -> Iterator[Subject]:
         detached = self.frame.has_commands and not self.frame.commands
-        for record, facts in external_dependencies(render_pass, self._barriers, detached):
+        for record, facts in external_dependencies(render_pass, self._barriers, self.turns.alternating, detached):
             dependency = record if isinstance(record, SubpassDependency) else None
             yield Subject("dependency", record.path, record.head, Facts(shared, facts), dependency=dependency)
 

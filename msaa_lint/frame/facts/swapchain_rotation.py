@@ -24,6 +24,8 @@ class Turns:
         self.of: dict[int, list[str]] = {}
         """By the identity of the first image of a set: the names of all."""
         self.sure: set[int] = set()
+        self.alternating: set[str] = set()
+        """The names of all images of all sets."""
         presentable = [name for name, target in frame.targets.items() if target.image is not None and target.image.presentable]
         many = [target for target in frame.targets.values() if (target.samples or 1) > 1 and target.format is not None]
         if not 1 < len(presentable) <= MAX_TURNS or len(many) < len(presentable):
@@ -47,6 +49,7 @@ class Turns:
             turns = [uses.get(target.name, set()) for target in group]
             if len(group) == len(presentable) and self._one_each(turns, len(group)) and self._begins_anew(group, bindings):
                 self.of[id(group[0].record)] = [target.name for target in group]
+                self.alternating.update(self.of[id(group[0].record)])
                 if all(turns) and frame.has_commands:
                     self.sure.add(id(group[0].record))
 

@@ -19,10 +19,10 @@ void main() {
 """
 
 glfw.init()
-for hint, value in (
-    (glfw.VISIBLE, False), (glfw.CONTEXT_VERSION_MAJOR, 3), (glfw.CONTEXT_VERSION_MINOR, 3), (glfw.OPENGL_PROFILE, glfw.OPENGL_CORE_PROFILE),
-):  # fmt: skip
-    glfw.window_hint(hint, value)
+glfw.window_hint(glfw.VISIBLE, False)
+glfw.window_hint(glfw.CONTEXT_VERSION_MAJOR, 3)
+glfw.window_hint(glfw.CONTEXT_VERSION_MINOR, 3)
+glfw.window_hint(glfw.OPENGL_PROFILE, glfw.OPENGL_CORE_PROFILE)
 window = glfw.create_window(*SIZE, "triangle", None, None)
 glfw.make_context_current(window)
 context = moderngl.create_context()
