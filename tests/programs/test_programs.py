@@ -41,6 +41,10 @@ class Program(NamedTuple):
     """Rules that may find something: the calls do not tell whether they should."""
 
 
+def _zink(script: str, package: str, module: str) -> Scene:
+    return Scene(script, None, ((package, module),), window=True, opengl=True)
+
+
 def _moderngl(mode: str) -> Scene:
     return Scene("moderngl_triangle.py", mode, (("moderngl", "moderngl"), ("glfw", "glfw")), window=True, opengl=True)
 
@@ -61,7 +65,26 @@ PROGRAMS = {
     ),
     # A shader reads every sample of depth: whether one value per pixel would do, only the shader tells.
     "wgpu-depth": Program(Scene("wgpu_triangle.py", "depth", WGPU), 4, {"MSAA205": 1, "MSAA401": 1}, unclear=("MSAA307",)),
+    # One frame of six loads what it drew before, so depth has to be in memory.
+    "pyglet": Program(
+        _zink("pyglet_star.py", "pyglet", "pyglet"),
+        6,
+        {"MSAA201": 1, "MSAA202": 2, "MSAA203": 1, "MSAA301": 1},
+        {"MSAA202": ("read_mb_per_s", 2 * MB_PER_S / 6)},
+    ),
+    # The texture that is drawn first interrupts the window's pass, which then loads color, depth and stencil.
+    "raylib": Program(
+        _zink("raylib_cube.py", "raylib", "pyray"), 7, {"MSAA201": 1, "MSAA202": 2, "MSAA203": 1, "MSAA204": 1, "MSAA301": 1}
+    ),
+    # As raylib's, but the canvas has four samples too, and is resolved by a command of its own. A first window is never shown.
+    "love": Program(
+        Scene("love_circles", None, (), interpreter="love", window=True, opengl=True),
+        7,
+        {"MSAA201": 2, "MSAA202": 2, "MSAA203": 1, "MSAA204": 1, "MSAA301": 2, "MSAA401": 1},
+    ),
     "moderngl-blit": Program(_moderngl("blit"), 7, {"MSAA203": 1, "MSAA301": 1, "MSAA401": 1}),
+    # The shader that averages the samples is not in the capture, but the descriptor and the layout are.
+    "moderngl-shader": Program(_moderngl("shader"), 7, {"MSAA203": 1, "MSAA401": 1}),
     "pygfx": Program(Scene("pygfx_cube.py", None, (("pygfx", "pygfx"), *WGPU)), 4, {}),
 }
 
