@@ -57,12 +57,16 @@ def merge(findings: Sequence[Finding], documents: Sequence[DocumentResult]) -> l
     for found in groups.values():
         number, finding = found[0]
         alike: Hashable = id(found)
+        numbers = {number for number, _ in found}
         if number in programs and finding.images:
             subject = _parts(finding)[1]
-            place = "images" if subject.startswith("images.") else _COMMAND.sub("commands", subject)
+            is_image = subject.startswith("images.")
+            place = "images" if is_image else _COMMAND.sub("commands", subject)
             alike = (finding.code, finding.context, place, programs[number].likeness(finding.images))
+            if is_image and not programs[number].multisampled(finding.images):
+                # What is only resolved to takes turns even within a kind of frame: commands between passes may name any of several.
+                numbers = set()
         same = defects.setdefault(alike, [])
-        numbers = {number for number, _ in found}
         group = next((group for group in same if numbers.isdisjoint(number for number, _ in group)), None)
         if group is None:
             same.append(found)
@@ -102,7 +106,7 @@ class _Objects:
         if match is None:
             return finding.code, subject
         position = int(match[1])
-        images = self._multisampled(finding.images), self._multisampled(self._rendered.get(position, frozenset()))
+        images = self.multisampled(finding.images), self.multisampled(self._rendered.get(position, frozenset()))
         key = (finding.code, finding.context, _COMMAND.sub("commands", subject), *images)
         if any(images):
             return key
@@ -111,14 +115,14 @@ class _Objects:
         return (*key, finding.images, self._counts[key])
 
     def likeness(self, names: frozenset[str]) -> Hashable:
-        """How the images are created, and what passes use them as."""
+        """How the images are created, and for multisampled ones what passes do with them."""
         images = self._document.description.images
         described = [
-            (plain(images[name]), sorted(self._uses.get(name, ()))) for name in self._multisampled(names) or names if name in images
+            (plain(images[name]), sorted(self._uses.get(name, ()))) for name in self.multisampled(names) or names if name in images
         ]
         return tuple(sorted(map(repr, described)))
 
-    def _multisampled(self, names: frozenset[str]) -> frozenset[str]:
+    def multisampled(self, names: frozenset[str]) -> frozenset[str]:
         """Those of some images that have several samples. What they are resolved to differs from frame to frame."""
         images = self._document.description.images
         return frozenset(name for name in names if name in images and (images[name].samples or 1) > 1)
@@ -141,14 +145,13 @@ class _Objects:
 
     @cached_property
     def _uses(self) -> dict[str, set[str]]:
-        """What passes use each image as."""
+        """The load and store operations that passes have for each image."""
         uses: dict[str, set[str]] = {}
         for each in self._passes:
-            of_pass = each.name if each.kind == "renderPass" else ""
-            for index, attachment in enumerate(each.attachments):
-                operations = [(aspect.name, aspect.load, aspect.store) for aspect in attachment.aspects]
+            for attachment in each.attachments:
+                operations = repr([(aspect.name, aspect.load, aspect.store) for aspect in attachment.aspects])
                 for target in attachment.targets:
-                    uses.setdefault(target.name, set()).add(repr((of_pass, index if of_pass else None, operations)))
+                    uses.setdefault(target.name, set()).add(operations)
         return uses
 
 

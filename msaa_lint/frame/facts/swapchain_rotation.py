@@ -45,7 +45,7 @@ class Turns:
         alike: dict[tuple[object, ...], list[Target]] = {}
         for target in many:
             alike.setdefault(self._kind(target), []).append(target)
-        for group in alike.values():
+        for group in (group for targets in alike.values() for group in self._by_places(targets)):
             turns = [uses.get(target.name, set()) for target in group]
             if len(group) == len(presentable) and self._one_each(turns, len(group)) and self._begins_anew(group, bindings):
                 self.of[id(group[0].record)] = [target.name for target in group]
@@ -65,8 +65,15 @@ class Turns:
         assert isinstance(image, Image)
         usage = frozenset(image.usage) if image.usage is not None else None
         memory = frozenset(image.memory) if image.memory is not None else None
-        places = frozenset(self._columns.get(target.name, ())), frozenset(self._buffers.get(target.name, ()))
-        return target.format, target.samples, target.size, usage, memory, image.arrayLayers, image.mipLevels, places
+        return target.format, target.samples, target.size, usage, memory, image.arrayLayers, image.mipLevels
+
+    def _by_places(self, targets: list[Target]) -> list[list[Target]]:
+        """Images of one kind by where framebuffers have them. Where they have only some of them, the others may take the place of these."""
+        groups: dict[object, list[Target]] = {}
+        for target in targets:
+            places = frozenset(self._columns.get(target.name, ())), frozenset(self._buffers.get(target.name, ()))
+            groups.setdefault(places, []).append(target)
+        return [targets] if len(groups) == 2 and (frozenset(), frozenset()) in groups else list(groups.values())
 
     def _uses(self, count: int) -> dict[str, set[int]] | None:
         """In which of as many frames as there are presentable images each image is used: by passes and by commands; None where frames
