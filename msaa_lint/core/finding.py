@@ -147,12 +147,32 @@ class Unread(NamedTuple):
     message: str
 
 
+class CaptureSummary(NamedTuple):
+    """What a capture contains.
+
+    `program`, `engine`, and `device` are empty if the capture does not state them. `kinds` is the number of kinds of frame, `passes` the
+    number of different passes that frames begin (without frames, of render passes), by their sample count. `multisampled_images` counts
+    images created alike once. `dropped_frames` were not checked, because there are too many kinds of frame. `left_out` is
+    what has nothing to do with multisampling and was not checked; empty if that is nothing.
+    """
+
+    program: str
+    engine: str
+    device: str
+    frames: int
+    kinds: int
+    passes: Mapping[int, int]
+    multisampled_images: int
+    dropped_frames: int
+    left_out: str = ""
+
+
 class InputSummary(NamedTuple):
     """What of one input was checked.
 
     `format` is its `--input-format`; empty if it could not be read. Objects that several documents of the input share count once;
     `shaders` are those of source code that read samples, `choices` the sample count choices. `failed` says that an error kept a document
-    of it from being checked.
+    of it from being checked. `capture` is None for an input that is not a capture.
     """
 
     file: str
@@ -164,6 +184,7 @@ class InputSummary(NamedTuple):
     choices: int = 0
     failed: bool = False
     unread: Unread | None = None
+    capture: CaptureSummary | None = None
 
 
 class RuleInfo(NamedTuple):

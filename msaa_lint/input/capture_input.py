@@ -5,13 +5,14 @@ from importlib import import_module
 from typing import BinaryIO, NamedTuple
 
 from msaa_lint.core.diagnostics import diagnostic
-from msaa_lint.core.finding import CaptureLocation, Finding
+from msaa_lint.core.finding import CaptureLocation, CaptureSummary, Finding
 from msaa_lint.core.text.source import Origin, Source
 from msaa_lint.core.text.span import Span
 
 from .capture_stream import CaptureStream
 from .captures.call import CaptureError, Place
 from .captures.description_text import describe_capture
+from .captures.summary import capture_summary
 from .captures.tracker import Tracker
 
 
@@ -21,8 +22,7 @@ class CaptureInput(NamedTuple):
     `format` is one of `readers.CAPTURES`. `source` is the text of the description, whose origins are the captured calls; `modules` is the
     code of its shaders by name. `broken` says why the rest of the capture could not be read, which the last line of the text stands for;
     empty if all was read. `limits` say what is not checked because it exceeds a limit, with the lines of the text that stand for it.
-    `notes` are lines for the user about what is missing. `left_out` counts what has nothing to do with multisampling and is therefore not
-    described; empty if that is nothing.
+    `notes` are lines for the user about what is missing.
     """
 
     format: str
@@ -32,7 +32,7 @@ class CaptureInput(NamedTuple):
     broken: str
     limits: tuple[tuple[str, Span], ...]
     notes: tuple[str, ...]
-    left_out: str = ""
+    summary: CaptureSummary
 
     @property
     def description(self) -> str:
@@ -83,7 +83,8 @@ def read_capture(stream: BinaryIO, format: str, name: str, path: str | None, is_
     if is_binary:
         origins = [origin and origin._replace(line=None, column=None) for origin in origins]
     message = broken.message if broken is not None else ""
-    return CaptureInput(format, Source(name, text, origins), modules, tracker.frames.total, message, tuple(limits), tuple(notes), left_out)
+    source, summary = Source(name, text, origins), capture_summary(tracker, left_out)
+    return CaptureInput(format, source, modules, tracker.frames.total, message, tuple(limits), tuple(notes), summary)
 
 
 def located_findings(capture: CaptureInput, findings: Sequence[Finding]) -> list[Finding]:

@@ -35,7 +35,8 @@ def input_summary(data: bytes | CaptureInput | SourceFile, result: FileResult) -
         frames = [document for document in documents if not _is_shader(document)]
         unread = _unread_code(data, frames, bool(shaders))
         return _summary(result.file, data.language, frames, failed, unread)._replace(shaders=len(shaders))
-    return _summary(result.file, data.format, documents, failed, _unread_frame(documents, "capture a whole frame"))
+    unread = _unread_frame(documents, "capture a whole frame")
+    return _summary(result.file, data.format, documents, failed, unread)._replace(capture=data.summary)
 
 
 def _summary(file: str, format: str, documents: Iterable[Document], failed: bool, unread: Unread | None) -> InputSummary:

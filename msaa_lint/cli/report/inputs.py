@@ -60,6 +60,35 @@ def _of_format(format: str, inputs: Sequence[InputSummary]) -> str:
     return f"{name}: {', '.join(parts) or ('nothing read' if format in SOURCE else 'nothing to check')}"
 
 
+def captured(result: Result, options: Options) -> list[str]:
+    """A line for each capture: the program, the device, the frames, and the passes; and what of it was left out."""
+    inputs = [each for each in result.inputs if each.capture is not None]
+    lines = [_capture_line(each, options) for each in inputs[: options.max_unread]]
+    return [*lines, *([f"{plural(len(inputs) - len(lines), 'more capture')}"] if len(inputs) > len(lines) else [])]
+
+
+def _capture_line(summary: InputSummary, options: Options) -> str:
+    """`game.jsonl: glxgears (mesa zink) on llvmpipe: 10 frames of 2 kinds, 3 passes, 1 with 4x`."""
+    capture = summary.capture
+    assert capture is not None
+    program = f"{capture.program} ({capture.engine})" if capture.program and capture.engine else capture.program or capture.engine
+    origin = " on ".join(filter(None, (program or ("a program" if capture.device else ""), capture.device)))
+    multisampled = [f"{count} with {samples}x" for samples, count in capture.passes.items() if samples > 1]
+    passes = sum(capture.passes.values())
+    kinds = f" of {capture.kinds} kinds" if capture.kinds > 1 else ""
+    frames = f"{plural(capture.frames, 'frame')}{kinds}" if capture.frames else "no frames"
+    parts = [frames, plural(passes, "pass") if passes else "no passes"]
+    if multisampled:
+        parts += multisampled
+    else:
+        parts.append("none multisampled" if passes and capture.multisampled_images else "nothing is multisampled")
+    if capture.dropped_frames:
+        parts.append(f"{plural(capture.dropped_frames, 'frame')} not checked, because there are too many kinds of frame")
+    if capture.left_out:
+        parts.append(f"without {capture.left_out}")
+    return ": ".join(filter(None, (display_path(summary.file, options.root), display(origin), ", ".join(parts))))
+
+
 def unread(result: Result, options: Options) -> list[str]:
     """A line for each input that creates something multisampled of which no pass was checked, unless a finding says so."""
     reported = {finding.file for finding in result.findings if finding.code == "MSAA931"}

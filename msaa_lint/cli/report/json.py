@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from msaa_lint.core.finding import Finding, Fix, InputSummary, Result, Saving, Suppressed, Undecided
+from msaa_lint.core.finding import CaptureSummary, Finding, Fix, InputSummary, Result, Saving, Suppressed, Undecided
 from msaa_lint.core.text.span import Span
 
 from . import Options, Write
@@ -92,6 +92,20 @@ def _input(entry: InputSummary, result: Result, options: Options) -> Json:
         **{name: getattr(entry, name) for name in COUNTS},
         "failed": entry.failed,
         "unread": {**_place(result, entry.file, unread.span), "message": text(unread.message)} if unread is not None else None,
+        "capture": _capture(entry.capture) if entry.capture is not None else None,
+    }
+
+
+def _capture(capture: CaptureSummary) -> Json:
+    names = ("program", "engine", "device")
+    return {
+        **{name: text(getattr(capture, name)) or None for name in names},
+        "frames": capture.frames,
+        "kinds": capture.kinds,
+        "passes": {str(samples): count for samples, count in capture.passes.items()},
+        "multisampled_images": capture.multisampled_images,
+        "dropped_frames": capture.dropped_frames,
+        "left_out": text(capture.left_out) or None,
     }
 
 

@@ -7,7 +7,7 @@ from msaa_lint.core.finding import CONFIDENCES, Finding, Price, Result, Saving, 
 from msaa_lint.linter.settings.settings import COMMAND_LINE
 
 from . import Options
-from .inputs import checked, unread
+from .inputs import captured, checked, unread
 from .undecided import summary_line
 from .words import plural as plural
 
@@ -63,7 +63,7 @@ def tally(result: Result) -> Tally:
 def summary(result: Result, options: Options) -> list[str]:
     """The lines that end a report: the findings, what fixes do about them, and what was not checked."""
     lines = (sentence(result, options), *fixable(result), summary_line(result, options))
-    return [*(line for line in lines if line), *unread(result, options)]
+    return [*(line for line in lines if line), *captured(result, options), *unread(result, options)]
 
 
 def sentence(result: Result, options: Options) -> str:

@@ -12,6 +12,7 @@ from msaa_lint.frame.devices.reports.reading import report
 
 from . import values
 from .call import Call
+from .labels import printable
 
 MAX_DEVICES = 256
 """Maximum number of physical devices."""
@@ -28,6 +29,8 @@ class Devices:
         """The structures that queries returned, by physical device and by topic."""
         self.used: int | None = None
         self.api: str | None = None
+        self.program = ""
+        self.engine = ""
         self.extensions: list[str] | None = None
         self.features: list[str] | None = None
 
@@ -39,6 +42,8 @@ class Devices:
 
     def on_CreateInstance(self, call: Call) -> None:
         info = values.record(values.record(call.args.get("pCreateInfo")).get("pApplicationInfo"))
+        self.program = _versioned(info.get("pApplicationName"), info.get("applicationVersion")) or self.program
+        self.engine = _versioned(info.get("pEngineName"), info.get("engineVersion")) or self.engine
         version = values.integer(info.get("apiVersion"))
         if version:
             self.api = f"{version >> 22 & 0x7F}.{version >> 12 & 0x3FF}"
@@ -104,6 +109,11 @@ class Devices:
             return self.queried[self.used]
         return next(iter(self.queried.values())) if len(self.queried) == 1 else {}
 
+    def device_name(self) -> str:
+        """The name of the device in use; empty if the capture does not state it."""
+        names = (values.text(structure.get("deviceName")) for each in self.current.get("properties", ()) for structure in _nested(each))
+        return printable(next(filter(None, names), ""))
+
     def memory_flags(self, index: int) -> list[str] | None:
         """The property flags of a memory type."""
         types = self.current.get("memory") or []
@@ -142,6 +152,21 @@ class Devices:
         if self.features is not None:
             section["features"] = self.features
         return section or None
+
+
+def _versioned(name: object, version: object) -> str:
+    """The name of a program with its version, if it has a major one; empty without a name."""
+    text = printable(values.text(name) or "")
+    number = values.integer(version)
+    # Many programs count their versions in another way than VK_MAKE_API_VERSION.
+    if not text or number is None or not 1 << 22 <= number < 1 << 32:
+        return text
+    return f"{text} {number >> 22 & 0x7F}.{number >> 12 & 0x3FF}.{number & 0xFFF}"
+
+
+def _nested(structure: dict[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
+    """A structure of properties, and the one within it: VkPhysicalDeviceProperties2 has the others' names."""
+    return structure, values.record(structure.get("properties"))
 
 
 def _add(structures: list[dict[str, Any]], structure: dict[str, Any]) -> None:

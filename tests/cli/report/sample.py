@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from msaa_lint.cli.report import Options, render
 from msaa_lint.core.finding import (
+    CaptureSummary,
     Finding,
     Fix,
     InputSummary,
@@ -139,12 +140,13 @@ def frame() -> Result:
     sources = {file: Source(file, FORWARD), "broken.yaml": Source("broken.yaml", "a: {b"), code: Source(code, CODE)}
     files = ("broken.yaml", "passes/clean.yaml", file, code, "trace.rdc")
     savings = {file: Savings(Saving(1, Price(0.0, 2248.1, 31.64, 224.8)), Saving(2, Price(562.0, 2248.1, 31.64, 281.0)))}
+    trace = CaptureSummary("game 1.2.0", "engine", "Mali-G76", 30, 2, {1: 2, 4: 1}, 2, 3)
     inputs = (
         InputSummary("broken.yaml", "description", failed=True),
         InputSummary("passes/clean.yaml", "description", 1, 1, 0),
         InputSummary(file, "description", 2, 1, 1),
         InputSummary(code, "cpp", images=1, unread=Unread(span(CODE, "samples = count"), "`samples = count` is in no pass")),
-        InputSummary("trace.rdc", "renderdoc", 4, 2, 12),
+        InputSummary("trace.rdc", "renderdoc", 4, 2, 12, capture=trace),
     )
     return Result((broken, stored, loaded, binary), undecided, (silenced, baseline), files, sources, RULES, savings, inputs=inputs)
 
