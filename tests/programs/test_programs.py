@@ -65,6 +65,8 @@ PROGRAMS = {
     ),
     # A shader reads every sample of depth: whether one value per pixel would do, only the shader tells.
     "wgpu-depth": Program(Scene("wgpu_triangle.py", "depth", WGPU), 4, {"MSAA205": 1, "MSAA401": 1}, unclear=("MSAA307",)),
+    # The swapchain has three images, each with a multisampled one of its own; the layer's is not transient.
+    "qt-quick": Program(Scene("qt_quick.py", None, (("PySide6", "PySide6"),), window=True), 7, {"MSAA205": 1, "MSAA401": 1, "MSAA406": 1}),
     # One frame of six loads what it drew before, so depth has to be in memory.
     "pyglet": Program(
         _zink("pyglet_star.py", "pyglet", "pyglet"),
