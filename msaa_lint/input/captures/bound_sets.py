@@ -119,6 +119,8 @@ class BoundSets(Descriptors):
                 pushed.put(slot, *use)
             pushed.opaque = before.opaque
             pushed.unknown.update(before.unknown)
+            if len(pushed.unknown) > MAX_PUSHED:
+                pushed.opaque = True
         return pushed
 
     @staticmethod

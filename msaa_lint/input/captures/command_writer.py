@@ -175,7 +175,7 @@ class CommandWriter:
 
     def _barrier(self, key: Any) -> Any:
         masks, part, layouts, _ = key
-        body: dict[str, Any] = thaw(masks)
+        body: dict[str, Any] = thaw(masks) or {}
         if part is not None:
             name = self._name(part)
             if name is None:

@@ -72,7 +72,11 @@ class Descriptors(SetLayouts):
         More than one descriptor may continue in the next binding, so all images are copied then: the rules only ask what may be read.
         """
         target.opaque = target.opaque or source.opaque
-        target.unknown.update(source.unknown)
+        if len(source.unknown) > MAX_COPIED and not self.frames.spend(len(source.unknown)):
+            target.opaque = True
+        elif source.unknown:
+            target.unknown.update(source.unknown)
+            target.updates += 1
         if values.integer(copy.get("descriptorCount")) == 1:
             ends = [(values.integer(copy.get(f"{end}Binding")) or 0, values.integer(copy.get(f"{end}ArrayElement")) or 0) for end in _ENDS]
             use = source.images.get(ends[0])
@@ -112,6 +116,7 @@ class Descriptors(SetLayouts):
             unknown = target.unknown.get(run.binding)
             if unknown is not None and not run.element and run.size >= unknown.size:
                 del target.unknown[run.binding]
+                target.updates += 1
 
     def write_template(self, target: DescriptorSet, args: dict[str, Any]) -> None:
         """Applies an update template to a set. What it writes is unknown if the capture omits it, or the template."""
@@ -121,7 +126,7 @@ class Descriptors(SetLayouts):
             # RenderDoc resolves the template.
             for write in writes:
                 self.write(target, values.record(write))
-        elif template is not None:
+        elif template is not None and (len(template.entries) <= MAX_COPIED or self.frames.spend(len(template.entries))):
             self._write_entries(target, template, values.record(args.get("pData")))
         else:
             target.opaque = True
@@ -163,6 +168,7 @@ def _runs(target: DescriptorSet, binding: int, element: int, count: int) -> Iter
 
 def _write_unknown(target: DescriptorSet, entry: TemplateEntry, infos: list[Any]) -> None:
     """Writes descriptors whose images are unknown; the capture may state their layouts."""
+    target.updates += 1
     layouts: frozenset[str] | None = None
     if len(infos) == entry.size:
         names = {values.enum("VkImageLayout", values.record(info).get("imageLayout")) for info in infos}

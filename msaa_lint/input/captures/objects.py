@@ -165,10 +165,12 @@ Use = tuple[Image, bool]
 class ReadableBindings:
     """The bindings of a set that a pipeline can read as images, each with the kinds of image."""
 
-    __slots__ = ("kinds",)
+    __slots__ = ("kinds", "of_all")
 
     def __init__(self, kinds: dict[int, tuple[ImageKind, ...]]) -> None:
         self.kinds = kinds
+        self.of_all = tuple(dict.fromkeys(kind for each in kinds.values() for kind in each))
+        """The kinds of image of all bindings."""
 
     def accept(self, bindings: Mapping[int, int], kind: ImageKind) -> bool:
         """Whether the pipeline can read an image of a kind through one of some bindings."""
@@ -196,7 +198,7 @@ class DescriptorSet:
     order, so that a reader finds what is new since it last read the set; when the log is shortened, `epoch` grows.
     """
 
-    __slots__ = ("epoch", "images", "layout", "log", "opaque", "unknown", "uses")
+    __slots__ = ("epoch", "images", "layout", "log", "opaque", "unknown", "updates", "uses")
 
     def __init__(self, layout: Any = None) -> None:
         self.layout = layout
@@ -207,6 +209,8 @@ class DescriptorSet:
         self.epoch = 0
         self.opaque = False
         self.unknown: dict[int, UnknownDescriptors] = {}
+        self.updates = 0
+        """The number of changes of what is unknown."""
 
     def put(self, slot: tuple[int, int], image: Image, storage: bool) -> None:
         """Writes an image to a slot."""

@@ -1,7 +1,7 @@
 """Tracks the layouts of descriptor sets and pipelines, and update templates: what a pipeline can read of a set."""
 
 from bisect import bisect_left
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any, NamedTuple
 
 from . import values
@@ -26,6 +26,9 @@ _MUTABLE = (1000351000, "VK_DESCRIPTOR_TYPE_MUTABLE_EXT", "VK_DESCRIPTOR_TYPE_MU
 MAX_BINDINGS = 4096
 """Maximum number of bindings in a layout, and of entries in a template; what larger ones contain is unknown."""
 
+MAX_SETS = 64
+"""Maximum number of sets in a layout of a pipeline; devices allow 32."""
+
 MAX_BINDINGS_TOTAL = 1_000_000
 """Maximum number of bindings and entries in all of them; what further ones contain is unknown."""
 
@@ -47,6 +50,9 @@ def storage_of(kind: object) -> Storage:
 
 ShaderImages = dict[tuple[int, int], frozenset[bool]]
 """The images that shaders declare, by set and binding, and whether they are multisampled."""
+
+
+Share = Callable[[dict[int, tuple[ImageKind, ...]]], ReadableBindings]
 
 
 class SetLayout:
@@ -78,12 +84,15 @@ class SetLayout:
             element = max(element - self.counts[at], 0)
             at += 1
 
-    def readable_by(self, stages: int, shaders: Mapping[int, frozenset[bool]] | None) -> ReadableBindings:
-        """What the stages of a bind point can read; `shaders` are the images that they declare in this set, None if that is unknown."""
+    def readable_by(self, stages: int, shaders: Mapping[int, frozenset[bool]] | None, share: Share) -> ReadableBindings:
+        """What the stages of a bind point can read; `shaders` are the images that they declare in this set, None if that is unknown.
+
+        `share` returns one object for equal bindings.
+        """
         if shaders is None:
             if stages not in self.readable:
                 every = (False, True)
-                self.readable[stages] = ReadableBindings(
+                self.readable[stages] = share(
                     {binding: _kinds(storage, every) for binding, (storage, of) in self.images.items() if of & stages}
                 )
             return self.readable[stages]
@@ -92,7 +101,7 @@ class SetLayout:
             for binding, multisampled in shaders.items()
             if binding in self.images and self.images[binding][1] & stages
         }
-        return ReadableBindings(found)
+        return share(found)
 
 
 def _kinds(storage: Storage, multisampled: frozenset[bool] | tuple[bool, ...]) -> tuple[ImageKind, ...]:
@@ -145,7 +154,7 @@ class SetLayouts(Images):
         items = values.items(values.record(call.args.get("pCreateInfo")).get("pSetLayouts"))
         self.pipeline_layouts.pop(handle, None)
         if self._take(items):
-            self.pipeline_layouts[handle] = tuple(self.set_layouts.get(values.handle(item)) for item in items)
+            self.pipeline_layouts[handle] = tuple(self.set_layouts.get(values.handle(item)) for item in items[:MAX_SETS])
 
     def on_CreateDescriptorUpdateTemplate(self, call: Call) -> None:
         handle = values.handle(call.args.get("pDescriptorUpdateTemplate"))
@@ -167,14 +176,17 @@ class SetLayouts(Images):
             for (number, binding), multisampled in shaders.items():
                 by_set.setdefault(number, {})[binding] = multisampled
         return tuple(
-            self._share(each.readable_by(stages, by_set.get(number, {}) if by_set is not None else None)) if each is not None else None
+            each.readable_by(stages, by_set.get(number, {}) if by_set is not None else None, self._share) if each is not None else None
             for number, each in enumerate(sets)
         )
 
-    def _share(self, bindings: ReadableBindings) -> ReadableBindings:
+    def _share(self, kinds: dict[int, tuple[ImageKind, ...]]) -> ReadableBindings:
         if len(self._shared) > MAX_BINDINGS:
             self._shared.clear()
-        return self._shared.setdefault(frozenset(bindings.kinds.items()), bindings)
+        key = frozenset(kinds.items())
+        if key not in self._shared:
+            self._shared[key] = ReadableBindings(kinds)
+        return self._shared[key]
 
 
 def _binding(info: dict[str, Any]) -> tuple[int, int, Storage, int]:

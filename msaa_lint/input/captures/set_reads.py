@@ -8,7 +8,7 @@ from typing import Any
 from .call import Call
 from .command_buffers import PASS_BEGINS, CommandCache, DescriptorReads, RecordedCommand, RenderPassBegin
 from .layouts import CHANGING, ImageLayouts, unreadable_attachments
-from .objects import DescriptorSet, Image, ReadableBindings, images_in
+from .objects import DescriptorSet, Image, ImageKind, ReadableBindings, images_in
 
 BOUNDARIES = (*PASS_BEGINS, "nextSubpass", "endRenderPass", "endRendering")
 """Commands that begin or end a pass or subpass."""
@@ -21,6 +21,10 @@ _TRANSFERS = frozenset(("resolveImage", "copyImage", "blitImage"))
 
 
 EVERY_KIND = tuple((written, multisampled) for written in (False, True) for multisampled in (False, True))
+
+
+UnknownKinds = tuple[tuple[ImageKind, ...], str | None]
+"""Kinds of image that unknown descriptors may hold in a layout, None for any."""
 
 
 class _SetState:
@@ -51,6 +55,8 @@ class SetReads:
         self._readers: dict[Image, dict[tuple[str, str], tuple[int, int]]] = {}
         """By image, then by command and stage: the number of reads since the last write, and the section of the last one."""
         self._section = 0
+        self._unknown: dict[tuple[DescriptorSet, ReadableBindings | None], tuple[int, list[UnknownKinds]]] = {}
+        """By set and what a pipeline can read of it: the number of updates of the set, and what its unknown descriptors may hold."""
         self._attachments: frozenset[Image] = frozenset()
         """The attachments of the current pass that shaders cannot read during it."""
 
@@ -66,7 +72,9 @@ class SetReads:
             if isinstance(key, DescriptorReads):
                 at = Call(command.by, {}, command.at)
                 for descriptors, bindings in key.sets:
-                    _mark_unknown(descriptors, bindings, layouts)
+                    if descriptors.opaque or descriptors.unknown:
+                        for kinds, layout in self._unknown_kinds(descriptors, bindings):
+                            layouts.mark(kinds, layout)
                     reads = self._reads(descriptors, bindings, key.stage)
                     if reads is None:
                         return None
@@ -83,6 +91,22 @@ class SetReads:
                 self._write(command)
             resolved.append(command)
         return resolved
+
+    def _unknown_kinds(self, descriptors: DescriptorSet, bindings: ReadableBindings | None) -> list[UnknownKinds]:
+        """What the descriptors of a set whose contents are unknown may hold, as far as a pipeline can read them."""
+        if descriptors.opaque:
+            return [(bindings.of_all if bindings is not None else EVERY_KIND, None)]
+        updates, found = self._unknown.get((descriptors, bindings), (-1, []))
+        if updates != descriptors.updates:
+            self._spend(len(descriptors.unknown))
+            by_layout: dict[str | None, dict[ImageKind, None]] = {}
+            for binding, unknown in descriptors.unknown.items():
+                kinds = EVERY_KIND if bindings is None else bindings.kinds.get(binding, ())
+                for layout in (None,) if unknown.layouts is None else unknown.layouts:
+                    by_layout.setdefault(layout, {}).update((kind, None) for kind in kinds if kind[0] in unknown.storage)
+            found = [(tuple(kinds), layout) for layout, kinds in by_layout.items() if kinds]
+            self._unknown[descriptors, bindings] = descriptors.updates, found
+        return found
 
     def _write(self, command: RecordedCommand) -> None:
         if command.written is None:
@@ -133,16 +157,3 @@ class SetReads:
             if readers["readImage", stage][0] < MAX_READERS:
                 state.pending[use] = None
         return reads
-
-
-def _mark_unknown(descriptors: DescriptorSet, bindings: ReadableBindings | None, layouts: ImageLayouts) -> None:
-    """Marks the images that the descriptors of a set whose contents are unknown may hold now."""
-    if descriptors.opaque:
-        for kinds in bindings.kinds.values() if bindings is not None else (EVERY_KIND,):
-            layouts.mark(kinds, None)
-    for binding, unknown in descriptors.unknown.items():
-        kinds = EVERY_KIND if bindings is None else bindings.kinds.get(binding, ())
-        if kinds:
-            kinds = tuple(kind for kind in kinds if kind[0] in unknown.storage)
-            for layout in (None,) if unknown.layouts is None else unknown.layouts:
-                layouts.mark(kinds, layout)

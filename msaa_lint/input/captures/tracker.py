@@ -61,6 +61,9 @@ TOO_MANY_STRUCTURES = f"render passes and pipelines have more than {MAX_CONTAINE
 MAX_STAGES = 16
 """Maximum number of stages of a pipeline whose shaders are read; with more, it is unknown what they read."""
 
+MAX_SHADER_IMAGES = 256
+"""Maximum number of images that a shader declares; of a shader with more it is unknown what it reads."""
+
 MAX_WORDS = 4_000_000
 """Maximum number of words of declarations in shaders; what further shaders read is unknown."""
 
@@ -320,7 +323,7 @@ class Tracker(Transfers):
         except SpirvError:
             return None
         self._words_left -= words
-        return images
+        return images if len(images) <= MAX_SHADER_IMAGES else None
 
     # Names.
 

@@ -32,8 +32,11 @@ RENAMED = {
     "destBuffer": "dstBuffer",
     "destStageMask": "dstStageMask",
     "memoryRequirements": "",
+    "Decoded Writes": "pDescriptorWrites",
 }
 """C names of chunk, unless they are RenderDoc's name with `p` before a capital; empty if C has no such parameter."""
+
+_PIPELINES = {"count": "createInfoCount", "CreateInfo": "pCreateInfos", "Pipeline": "pPipelines"}
 
 RENAMED_BY_CALL: dict[str, dict[str, str]] = {
     "vkBeginCommandBuffer": {"CommandBuffer": "commandBuffer", "device": "", "AllocateInfo": ""},
@@ -46,7 +49,9 @@ RENAMED_BY_CALL: dict[str, dict[str, str]] = {
     "vkCmdResolveImage2": {"ResolveInfo": "pResolveImageInfo"},
     "vkCmdCopyImageToBuffer2": {"CopyInfo": "pCopyImageToBufferInfo"},
     "vkCmdCopyBufferToImage2": {"CopyInfo": "pCopyBufferToImageInfo"},
-    "vkCreateGraphicsPipelines": {"count": "createInfoCount", "CreateInfo": "pCreateInfos", "Pipeline": "pPipelines"},
+    "vkCreateGraphicsPipelines": _PIPELINES,
+    "vkCreateComputePipelines": _PIPELINES,
+    "vkCreateRayTracingPipelinesKHR": _PIPELINES,
     "vkAllocateCommandBuffers": {"CommandBuffer": "pCommandBuffers"},
     "vkAllocateDescriptorSets": {"DescriptorSet": "pDescriptorSets"},
     "vkQueuePresentKHR": {"PresentedImage": ""},
@@ -123,10 +128,6 @@ class CallConverter:
             arguments = self.debug_name(name, chunk)
         else:
             arguments = _renamed(name, chunk)
-        if name == "vkUpdateDescriptorSetWithTemplate" and isinstance(chunk.get("Decoded Writes"), list):
-            # These writes do not name their set.
-            writes = [{**item, "dstSet": chunk.get("descriptorSet")} for item in chunk["Decoded Writes"] if isinstance(item, dict)]
-            name, arguments = "vkUpdateDescriptorSets", {"device": chunk.get("device"), "pDescriptorWrites": writes}
         self.sets.observe(name, arguments)
         yield Call(name, arguments, at)
         if name == "vkCreateImage" and isinstance(chunk.get("memoryRequirements"), dict):

@@ -54,6 +54,37 @@ def passes_of_unknown_sets(program: Program, count: int) -> None:
     program.submit(buffer)
 
 
+def layouts_of_pipelines(program: Program, count: int) -> None:
+    """Pipelines with one layout of many bindings, each drawn with a set that a template of as many entries writes."""
+    target = Target(program)
+    kind = "VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE"
+    size = min(count, 4000)
+    bindings = [{"binding": each, "descriptorType": kind, "descriptorCount": 1, "stageFlags": 16} for each in range(size)]
+    program.call("vkCreateDescriptorSetLayout", device=2, pCreateInfo={"pBindings": bindings}, pSetLayout=70)
+    program.call("vkCreatePipelineLayout", device=2, pCreateInfo={"pSetLayouts": [70] * 8}, pPipelineLayout=71)
+    entries = [{"dstBinding": each, "descriptorType": kind, "descriptorCount": 1} for each in range(size)]
+    info = {"pDescriptorUpdateEntries": entries, "pipelineBindPoint": 0}
+    program.call("vkCreateDescriptorUpdateTemplate", device=2, pCreateInfo=info, pDescriptorUpdateTemplate=72)
+    bound = program.descriptor_set()
+    buffer = program.buffer()
+    for number in range(count):
+        image = program.image(samples=1, usage=COLOR | SAMPLED)
+        change = {"image": image, "oldLayout": "VK_IMAGE_LAYOUT_UNDEFINED", "newLayout": "VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL"}
+        program.call("vkCmdPipelineBarrier", commandBuffer=buffer, pImageMemoryBarriers=[change])
+        pipeline = program.pipeline(target.render_pass)
+        program.calls[-1][1]["pCreateInfos"][0]["layout"] = 71
+        program.begin(buffer, target.render_pass, target.framebuffer)
+        if number % 2:
+            program.call("vkUpdateDescriptorSetWithTemplate", device=2, descriptorSet=bound, descriptorUpdateTemplate=72, pData={})
+            program.bind(buffer, bound)
+        else:
+            pushed = {"descriptorUpdateTemplate": 72, "layout": 71, "set": 0, "pData": {}}
+            program.call("vkCmdPushDescriptorSetWithTemplate", commandBuffer=buffer, **pushed)
+        program.draw(buffer, pipeline)
+        program.end(buffer)
+    program.submit(buffer)
+
+
 def dispatches_of_sets(program: Program, count: int) -> None:
     target = Target(program)
     bound = program.descriptor_set()

@@ -15,6 +15,7 @@ from .capture_commands import (
     dispatches_of_sets,
     executions,
     frame,
+    layouts_of_pipelines,
     many_sets,
     nested,
     nested_once,
@@ -305,6 +306,7 @@ PROGRAMS: dict[str, Callable[[Program, int], None]] = {
 LIMITED: dict[str, Callable[[Program, int], None]] = {
     "secondary command buffers, doubling": nested,
     "executions of a secondary": executions,
+    "unknown sets of many bindings": layouts_of_pipelines,
     "submissions of many passes": submissions,
     "clears": clears,
     "chained structures": chained,

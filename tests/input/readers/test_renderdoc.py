@@ -370,16 +370,19 @@ def test_wherever_a_large_set_is_cut_the_rest_is_told(block: int, limit: int) ->
     assert found[0].name in ("vkUpdateDescriptorSets", "vkUpdateDescriptorSetWithTemplate")
 
 
-def test_an_update_by_template_is_an_update() -> None:
+def test_the_writes_of_a_template_are_decoded() -> None:
     capture = RenderDoc()
     capture.chunk(
         "vkUpdateDescriptorSetWithTemplate", {"device": 1, "descriptorSet": 20, "Decoded Writes": [{"dstSet": 0, "dstBinding": 2}]}
     )
     capture.chunk("vkUpdateDescriptorSetWithTemplate", {"device": 1, "descriptorSet": 20})
+    writes = [{"dstSet": 0, "dstBinding": 3}]
+    capture.chunk("vkCmdPushDescriptorSetWithTemplateKHR", {"commandBuffer": 7, "set": 0, "Decoded Writes": writes})
     found, _ = read(capture.text())
     assert [(call.name, call.args) for call in found] == [
-        ("vkUpdateDescriptorSets", {"device": 1, "pDescriptorWrites": [{"dstSet": 20, "dstBinding": 2}]}),
+        ("vkUpdateDescriptorSetWithTemplate", {"device": 1, "descriptorSet": 20, "pDescriptorWrites": [{"dstSet": 0, "dstBinding": 2}]}),
         ("vkUpdateDescriptorSetWithTemplate", {"device": 1, "descriptorSet": 20}),
+        ("vkCmdPushDescriptorSetWithTemplateKHR", {"commandBuffer": 7, "set": 0, "pDescriptorWrites": writes}),
     ]
 
 
