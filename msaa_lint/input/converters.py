@@ -31,6 +31,9 @@ BLOCK = 1 << 16
 
 MAX_LOG_LINE = 1 << 16
 
+MAX_WARNINGS, MAX_WARNING = 4, 200
+"""How many warnings of a converter are shown, and how many characters of each."""
+
 _MARK = b"[gfxrecon]"
 _LOG_START = re.compile(rb"(?<=[}\n])\[gfxrecon\](?:\[\d{1,20}\])? (DEBUG|INFO|WARNING|ERROR|FATAL)\b")
 _LOG_LINE = re.compile(_LOG_START.pattern + rb"([^\n]*)\n")
@@ -42,10 +45,14 @@ _FAILURE = re.compile(rb"\[gfxrecon\][^\n]{0,40}? (?:(?:ERROR|FATAL)\b[^\n]*? - 
 
 
 class ConvertedCapture(NamedTuple):
-    """The text of a converted capture. The files that belong to it are beside `path`, where there may be no file."""
+    """The text of a converted capture. The files that belong to it are beside `path`, where there may be no file.
+
+    `warnings` has what the converter warned of before the stream ended, each text once.
+    """
 
     stream: CaptureStream
     path: str
+    warnings: list[str]
 
 
 def is_installed(kind: BinaryCapture) -> bool:
@@ -75,7 +82,8 @@ def _gfxreconstruct(path: str, folder: str, stack: ExitStack) -> ConvertedCaptur
     # Version 0.9 writes JSON Lines alone, and has no such option.
     lines = ["--format", "jsonl"] if "--format" in program.text() else []
     program = stack.enter_context(_Program(["gfxrecon-convert", *lines, "--output", "stdout", path], folder))
-    return ConvertedCapture(CaptureStream(_without_log(program)), target)
+    warnings: list[str] = []
+    return ConvertedCapture(CaptureStream(_without_log(program, warnings)), target, warnings)
 
 
 def _renderdoc(path: str, folder: str, stack: ExitStack) -> ConvertedCapture:
@@ -94,7 +102,7 @@ def _renderdoc(path: str, folder: str, stack: ExitStack) -> ConvertedCapture:
         if failure is not None:
             raise failure
 
-    return ConvertedCapture(CaptureStream(pieces()), target)
+    return ConvertedCapture(CaptureStream(pieces()), target, [])
 
 
 def _found(program: str) -> str | None:
@@ -187,11 +195,11 @@ class _Program:
                 self._process.kill()
 
 
-def _without_log(program: _Program) -> Iterator[bytes]:
+def _without_log(program: _Program, warnings: list[str]) -> Iterator[bytes]:
     """The output of gfxrecon-convert without its log, which it writes to the same stream.
 
     Line ends are escaped within JSON, so none of it looks like a line of the log. Raises StreamFailure if the log says that the capture
-    was not read to its end.
+    was not read to its end. Adds what it warns of to `warnings`.
     """
     failure: StreamFailure | None = None
     problem = b""
@@ -199,7 +207,11 @@ def _without_log(program: _Program) -> Iterator[bytes]:
     def drop(line: re.Match[bytes]) -> bytes:
         nonlocal problem
         found = _FAILURE.match(line[0])
-        problem = found[1] if found is not None else problem
+        text = line[2].removeprefix(b" - ")[:MAX_WARNING].decode("utf-8", "replace")
+        if found is not None:
+            problem = found[1]
+        elif line[1] == b"WARNING" and len(warnings) < MAX_WARNINGS and text not in warnings:
+            warnings.append(text)
         return b""
 
     rest = b"\n"

@@ -150,7 +150,8 @@ def _convert(kind: BinaryCapture, name: str, path: str | None, is_named: bool) -
         where = f"install it ({kind.source}), or convert the capture elsewhere with {kind.command}"
         raise UnsupportedFormat(f"{kind.name}, and {kind.program}, which reads it, is not installed: {where}")
     with converted(kind, path) as capture:
-        return read_capture(capture.stream, kind.format, name, capture.path, is_binary=True)
+        result = read_capture(capture.stream, kind.format, name, capture.path, is_binary=True)
+        return result._replace(notes=(*result.notes, *(f"{name}: {kind.program}: {warning}" for warning in capture.warnings)))
 
 
 def _language(name: str, head: bytes, format: str | None) -> str | None:

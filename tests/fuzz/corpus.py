@@ -17,6 +17,7 @@ import yaml
 from tests.frame.devices import reported
 from tests.input.captures.program import Program
 from tests.input.captures.test_hostile import CALLS
+from tests.input.compressed import COMPRESS
 from tests.input.readers import dialects
 from tests.input.readers.dialects_binary import fossilize, renderdoc
 from tests.pages import all_examples
@@ -89,6 +90,15 @@ def gfxreconstruct() -> Iterator[bytes]:
     yield dialects.lined(dialects.new_lines(CALLS, expand=True))
     yield dialects.new_array(CALLS[:60])
     yield from samples("captures/gfxr*")
+
+
+def compressed() -> Iterator[bytes]:
+    """Captures of each format, compressed each in another way, in one member and in several."""
+    text = dialects.lined(dialects.new_lines(CALLS[:60]))
+    for compress in COMPRESS.values():
+        yield compress(text)
+        yield b"".join(map(compress, text.splitlines(keepends=True)))
+        yield compress(fossilize(CALLS))
 
 
 def api_dump() -> Iterator[bytes]:

@@ -88,6 +88,7 @@ KINDS = {
         files={"capture.zip.xml": renderdoc(corpus.shader_program().calls).text()},
         input="capture.zip.xml",
     ),
+    "compressed": Kind("capture", corpus.compressed, CAPTURES, ("binary",)),
     "fossilize": Kind("capture.foz", corpus.fossilize_databases, CAPTURES, ("binary",)),
     "c": _source("frame.c", "c", "tests/input/code/corpus/*.c", "examples/capture/*.c"),
     "cpp": _source("frame.cpp", "cpp", "tests/input/code/corpus/*.cpp", "examples/code/*.cpp"),

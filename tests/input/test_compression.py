@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-import bz2
 import gzip
 import json
 import lzma
-import sys
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -16,23 +13,13 @@ import pytest
 from msaa_lint.input import compression
 from msaa_lint.input.capture_stream import CaptureStream, pieces_of
 from tests.command import Done, run, run_process
+from tests.input.compressed import COMPRESS
 from tests.paths import ROOT
-
-if sys.version_info >= (3, 14):
-    from compression import zstd
-else:
-    from backports import zstd
 
 FORWARD = (ROOT / "examples/capture/forward.jsonl").read_bytes()
 XML = (ROOT / "examples/capture/forward.xml").read_bytes()
 FOZ = next((ROOT / "tests/data").rglob("*.foz")).read_bytes()
 
-COMPRESS: dict[str, Callable[[bytes], bytes]] = {
-    "gz": lambda data: gzip.compress(data, mtime=0),
-    "xz": lzma.compress,
-    "zst": zstd.compress,
-    "bz2": bz2.compress,
-}
 NAMES = {"gz": "gzip", "xz": "xz", "zst": "zstd", "bz2": "bzip2"}
 
 
@@ -150,7 +137,7 @@ def test_only_captures_may_be_compressed(tmp_path: Path) -> None:
 
 def test_a_folder_has_compressed_captures(tmp_path: Path) -> None:
     (tmp_path / "a.jsonl.gz").write_bytes(gzip.compress(FORWARD))
-    (tmp_path / "b.foz.zst").write_bytes(zstd.compress(FOZ))
+    (tmp_path / "b.foz.zst").write_bytes(COMPRESS["zst"](FOZ))
     for name, data in (("c.json.gz", b'{"images": {"c": {"format": "R8_UNORM"}}}'), ("d.jsonl.xz", b""), ("e.txt.gz", FORWARD)):
         (tmp_path / name).write_bytes(gzip.compress(data))
     (tmp_path / "f.jsonl.gz").write_bytes(b"not compressed")

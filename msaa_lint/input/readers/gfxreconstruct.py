@@ -210,7 +210,8 @@ class Reader:
             return Mark("frame", place)
         path = header.get("source-path") if isinstance(header, dict) else None
         if isinstance(path, str):
-            self.extracted = self.extracted or _extracted_shaders(self.file, re.split(r"[/\\]", path)[-1])
+            path = re.split(r"[/\\]", path)[-1]
+            self.extracted = self.extracted or _extracted_shaders(self.file, path)
         begins = isinstance(state, dict) and state.get("marker_type") == "BeginMarker"
         if self.trimmed or not (begins or (isinstance(path, str) and TRIMMED.search(path))):
             return None

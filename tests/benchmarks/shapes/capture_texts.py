@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import gzip
 import json
+import lzma
 import zlib
 from collections.abc import Callable
 from pathlib import Path
@@ -95,6 +97,8 @@ SHAPES = (
     shape("stray backslashes", "a.jsonl", lambda count: line(b'"%b"' % (b"\\q" * count))),
     shape("numbers that are none", "a.jsonl", lambda count: line(b"[" + b"-nan," * count + b"1]")),
     shape("empty lines", "a.jsonl", lambda count: HEADER + b" \n" * count + line(b"1").removeprefix(HEADER)),
+    shape("members of gzip", "a.jsonl.gz", lambda count: gzip.compress(HEADER) + gzip.compress(b" \n") * count, (2,)),
+    shape("members of xz without contents", "a.jsonl.xz", lambda count: lzma.compress(HEADER) + lzma.compress(b"") * count, (2,)),
     shape("many keys", "a.jsonl", lambda count: line(b"{" + b",".join(b'"k%d":1' % number for number in range(count)) + b"}")),
     shape("unusual indentation", "a.json", staircase),
     shape("brackets in a string", "a.json", lambda count: b"[\n" + line(b'"%b"' % (b"{}[]" * count)).removeprefix(HEADER) + b"]\n"),
