@@ -5,7 +5,6 @@ A chunk is a call. `renderdoc_calls` converts RenderDoc's names to C's; `renderd
 
 from __future__ import annotations
 
-import codecs
 import re
 from collections.abc import Callable, Iterator
 from typing import Any, BinaryIO
@@ -14,6 +13,8 @@ from msaa_lint.input.captures.call import Call, CaptureError, Mark, Place, is_wa
 
 from .renderdoc_blobs import Blobs
 from .renderdoc_calls import INITIAL_CONTENTS, NEEDED_FOR, CallConverter
+from .renderdoc_elements import BUFFERS, CHUNK, END, MAX_SIZE, NAME, SPECIAL, VALUES, ElementParser, Unusual
+from .renderdoc_repair import XmlRepair
 from .renderdoc_sets import unknown_set
 
 BLOCK = 1 << 16
@@ -29,12 +30,15 @@ MAX_ELEMENTS = 1_000_000
 MAX_NAMES = 20_000
 """Maximum number of element and attribute names in a file, which expat keeps; RenderDoc writes about 30."""
 
+MAX_CACHE = 8 << 20
+"""Maximum total size of cached chunks, in bytes of text; the parsed calls take about three times as much memory."""
+
 MAX_DEPTH = 100
 
+CHUNKS = ["rdc", "chunks"]
+"""The elements around chunks."""
+
 _HEAD = re.compile(rb"\s*+(?:<\?xml[^>]{0,200}\?>\s*+)?<rdc>\s*+(?:<header\b|\Z)")
-# References to control characters, which XML 1.0 forbids; two digits each.
-_CONTROL = re.compile(rb"&#(?:0[0-8]|1[124-9]|2\d|3[01]);")
-_PARTIAL_REFERENCE = re.compile(rb"&(?:#(?:\d\d?)?)?\Z")
 
 
 def claims(head: bytes) -> bool:
@@ -49,15 +53,16 @@ def calls(stream: BinaryIO, wanted: frozenset[str], name: str | None) -> Iterato
     """
     blobs = Blobs(name)
     parser = _ChunkParser(wanted, blobs)
-    repair = _XmlRepair()
+    repair = XmlRepair()
     failure: CaptureError | None = None
     last = False
+    rest = b""
     try:
         while not last and failure is None:
-            block = stream.read(BLOCK)
+            block = stream.read(max(BLOCK, len(rest)))
             last = not block
             try:
-                parser.feed(repair.repair(block, last), last)
+                rest = parser.take(rest + repair.repair(block, last), last)
             except CaptureError as error:
                 failure = error
             yield from parser.take_calls()
@@ -66,33 +71,6 @@ def calls(stream: BinaryIO, wanted: frozenset[str], name: str | None) -> Iterato
         parser.release()
     if failure is not None:
         raise failure
-
-
-class _XmlRepair:
-    """Repairs RenderDoc's XML, which has names verbatim, in any encoding, block by block.
-
-    Control characters become question marks, invalid UTF-8 becomes U+FFFD. Positions do not change."""
-
-    def __init__(self) -> None:
-        self.decoder = codecs.getincrementaldecoder("utf-8")("replace")
-        self.ascii = True
-        self.rest = b""
-
-    def repair(self, block: bytes, last: bool) -> bytes:
-        """Repairs the next block. A reference or character that continues in the following block is held back."""
-        if not (self.ascii and block.isascii()):
-            self.ascii = False
-            block = self.decoder.decode(block, last).encode()
-        if self.rest:
-            block = self.rest + block
-            self.rest = b""
-        if b"&" not in block:
-            return block
-        partial = None if last else _PARTIAL_REFERENCE.search(block, max(0, len(block) - 4))
-        if partial is not None:
-            self.rest = block[partial.start() :]
-            block = block[: partial.start()]
-        return _CONTROL.sub(b"&#63;", block)
 
 
 class _ChunkParser:
@@ -113,6 +91,16 @@ class _ChunkParser:
         self.wanted = wanted
         self.blobs = blobs
         self.converter = CallConverter()
+        self.elements = ElementParser(self.special_value)
+        self.is_usual = True
+        """Whether the file may still have chunks in RenderDoc's layout: so far it has no comments, CDATA, or very long lines."""
+        self.skipped_lines = 0
+        self.fed_lines = 0
+        """The numbers of lines that the XML parser did not get, and that it got."""
+        self.needed: dict[str, bool] = {}
+        self.cache: dict[bytes, Call] = {}
+        """The calls of commands by the text of their chunks, which recurs."""
+        self.cache_size = 0
         self.output: list[Call | Mark] = []
         self.path: list[str] = []
         self.driver = ""
@@ -128,13 +116,93 @@ class _ChunkParser:
         """Returns how many elements are open in the current chunk."""
         self.expect_chunk()
 
+    def take(self, text: bytes, last: bool) -> bytes:
+        """Takes the next text of the file, and returns the end of it that is needed again with what follows.
+
+        Chunks in RenderDoc's own layout are skipped, or parsed by `elements`: the XML parser gets the others, line by line.
+        """
+        at = 0
+        while self.is_usual:
+            if self.in_chunk or self.path != CHUNKS:
+                found = text.find(b"</chunk>" if self.in_chunk else b"<chunks", at)
+                end = (text.find(b"\n", found) if found >= 0 else text.rfind(b"\n", at)) + 1
+            else:
+                end = self.take_chunk(text, at)
+                if end:
+                    at = end
+                    continue
+                is_incomplete = CHUNK.match(text, at) is not None and text.find(b"</chunk>", at) < 0
+                if is_incomplete and not last and len(text) - at <= MAX_SIZE:
+                    break
+                end = text.find(b"\n", at) + 1
+            if not end:
+                break
+            line_text = text[at:end]
+            self.is_usual = b"<!" not in line_text and (b"<?" not in line_text or not self.fed)
+            self.feed(line_text, False)
+            self.fed_lines += line_text.count(b"\n")
+            at = end
+        if self.is_usual and not last and len(text) - at <= MAX_SIZE:
+            return text[at:]
+        self.is_usual = False
+        self.feed(text[at:], False)
+        if last:
+            self.feed(b"", True)
+        return b""
+
+    def take_chunk(self, text: bytes, at: int) -> int:
+        """Takes a chunk in RenderDoc's layout, and returns where it ends; 0 if there is none, or only a part of it."""
+        start = CHUNK.match(text, at)
+        stop = text.find(b"</chunk>", start.end()) if start is not None else -1
+        end = END.match(text, stop) if stop >= 0 else None
+        name_match = NAME.search(start[1]) if start is not None else None
+        if start is None or end is None or name_match is None or self.number < 0:
+            return 0
+        if stop - at > MAX_SIZE or text.find(b"<!", at, stop) >= 0:
+            return 0
+        name = name_match[1].decode("utf-8", "replace")
+        if self.is_needed(name):
+            place = Place(self.fed_lines + self.skipped_lines + 1, start.start(1) - at - len("<chunk") + 1, self.number + 1)
+            body = text[start.end() : stop]
+            cached = self.cache.get(body)
+            if cached is not None and cached.name == name:
+                self.output.append(cached._replace(at=place))
+            else:
+                self.blobs.start_chunk()
+                try:
+                    arguments = self.elements.parse(body)
+                except Unusual:
+                    return 0
+                self.add_calls(name, arguments, place)
+                call = self.output[-1] if self.output else None
+                if name.startswith("vkCmd") and isinstance(call, Call) and call.at is place:
+                    self.cache_size += len(body)
+                    if self.cache_size > MAX_CACHE:
+                        self.cache.clear()
+                        self.cache_size = len(body)
+                    self.cache[body] = call
+        self.number += 1
+        self.skipped_lines += text.count(b"\n", at, end.end())
+        return end.end()
+
+    def is_needed(self, name: str) -> bool:
+        """Whether chunks with this name are read."""
+        needed = self.needed.get(name)
+        if needed is None:
+            needed = is_wanted(self.wanted, name) or (name in NEEDED_FOR and not self.wanted.isdisjoint(NEEDED_FOR[name]))
+            if len(self.needed) < MAX_NAMES:
+                self.needed[name] = needed
+        return needed
+
     def feed(self, block: bytes, last: bool) -> None:
         """Parses a block of the file."""
         try:
             self.parser.Parse(block, last)
         except self.error as error:
             what = "the XML is truncated" if last else f"invalid XML: {self.error_text(error.code) or error.code}"
-            raise CaptureError(what, Place(error.lineno, error.offset + 1, self.number if self.in_chunk else None)) from None
+            raise CaptureError(
+                what, Place(error.lineno + self.skipped_lines, error.offset + 1, self.number if self.in_chunk else None)
+            ) from None
         self.fed += len(block)
         done = self.parser.CurrentByteIndex
         if self.fed - done > MAX_TOKEN:
@@ -156,8 +224,12 @@ class _ChunkParser:
 
     def error_here(self, message: str) -> CaptureError:
         """An error at the parser's position."""
-        at = Place(self.parser.CurrentLineNumber, self.parser.CurrentColumnNumber + 1, self.number if self.in_chunk else None)
-        return CaptureError(message, at)
+        line, column = self.position()
+        return CaptureError(message, Place(line, column, self.number if self.in_chunk else None))
+
+    def position(self) -> tuple[int, int]:
+        """The line and column that the XML parser is at."""
+        return self.parser.CurrentLineNumber + self.skipped_lines, self.parser.CurrentColumnNumber + 1
 
     def reject_doctype(self, name: str, system: str | None, public: str | None, subset: int) -> None:
         raise self.error_here("unexpected document type declaration; RenderDoc does not write one, and entities are not supported")
@@ -200,15 +272,14 @@ class _ChunkParser:
 
     def start_chunk(self, attributes: list[str]) -> None:
         """Starts a chunk: reads it if it is needed, otherwise skips it."""
-        parser, wanted = self.parser, self.wanted
         self.number += 1
         self.in_chunk = True
-        self.place = Place(parser.CurrentLineNumber, parser.CurrentColumnNumber + 1, self.number)
+        self.place = Place(*self.position(), self.number)
         self.name = name = _attribute(attributes, "name") or ""
         if not self.number:
             self.output.append(Mark("frameless", self.place))
-        if is_wanted(wanted, name) or (name in NEEDED_FOR and not wanted.isdisjoint(NEEDED_FOR[name])):
-            self.chunk_start = parser.CurrentByteIndex
+        if self.is_needed(name):
+            self.chunk_start = self.parser.CurrentByteIndex
             self.blobs.start_chunk()
             self.read()
         else:
@@ -284,9 +355,9 @@ class _ChunkParser:
                 container.append(value)
                 return
             name = attributes[1] if attributes and attributes[0] == "name" else _attribute(attributes, "name")
-            if name in _SPECIAL:
+            if name in SPECIAL:
                 value = self.special_value(name, value, attributes)
-                if value is _SPECIAL:
+                if value is SPECIAL:
                     return
             if name is not None:
                 container[name] = value
@@ -296,23 +367,27 @@ class _ChunkParser:
         self.parser.CharacterDataHandler = text.append
 
     def special_value(self, name: str, value: Any, attributes: list[str]) -> Any:
-        """The C value of a member that RenderDoc writes differently; `_SPECIAL` itself if C has no such member."""
+        """The C value of a member that RenderDoc writes differently; `SPECIAL` itself if C has no such member."""
         if name == "sType":
             return _attribute(attributes, "string") or value
         if name == "pSampleMask":
             # RenderDoc writes only the first word of the array.
             return [value] if type(value) is int else value
-        if name in _BUFFERS:
+        if name in BUFFERS:
             if type(value) is not int:
                 return value
             content = self.blobs.read(value, _attribute(attributes, "byteLength") or "")
-            return _SPECIAL if content is None else content
-        return _SPECIAL
+            return SPECIAL if content is None else content
+        return SPECIAL
 
     def finish_chunk(self) -> None:
         """Converts a chunk that is complete."""
-        self.output += [call for call in self.converter.calls(self.name, self.arguments, self.place) if is_wanted(self.wanted, call.name)]
+        self.add_calls(self.name, self.arguments, self.place)
         self.expect_chunk()
+
+    def add_calls(self, name: str, arguments: dict[str, Any], place: Place) -> None:
+        """Adds the calls for a chunk."""
+        self.output += [call for call in self.converter.calls(name, arguments, place) if is_wanted(self.wanted, call.name)]
 
     def reject_large_chunk(self, limit: str) -> None:
         """Raises CaptureError for a chunk above a limit. The contents of a large descriptor set are unknown instead."""
@@ -329,22 +404,3 @@ def _attribute(attributes: list[str], name: str) -> str | None:
         if attributes[at] == name:
             return attributes[at + 1]
     return None
-
-
-VALUES: dict[str, Callable[[str], Any]] = {
-    "uint": int,
-    "int": int,
-    "enum": int,
-    "ResourceId": int,
-    "buffer": int,
-    "float": float,
-    "bool": {"true": True, "false": False}.__getitem__,
-    "string": str,
-    "char": str,
-    "null": lambda text: None,
-}
-"""The elements that hold a value, with their parsers."""
-
-_BUFFERS = ("pCode", "pData")
-_SPECIAL = frozenset({"sType", "pNextType", "pSampleMask", "DebugMessages", "BakedCommandBuffer", *_BUFFERS})
-"""Members that `special_value` converts."""

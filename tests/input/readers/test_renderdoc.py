@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import os
+import re
 import zipfile
 from collections.abc import Iterator
 from pathlib import Path
@@ -347,6 +348,7 @@ def test_a_set_of_an_unknown_layout_holds_what_is_not_told() -> None:
 
 def test_a_large_set_is_not_told_and_stops_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(renderdoc, "MAX_ELEMENTS", 40)
+    monkeypatch.setattr(renderdoc, "MAX_SIZE", 0)
     capture = with_sets([sampled(71)] * 50)
     capture.chunk("vkCmdDraw", {"vertexCount": 3})
     found, broken = read(capture.text())
@@ -355,6 +357,32 @@ def test_a_large_set_is_not_told_and_stops_nothing(monkeypatch: pytest.MonkeyPat
         ("vkUpdateDescriptorSetWithTemplate", {"descriptorSet": 20}),
         ("vkCmdDraw", {"vertexCount": 3}),
     ]
+
+
+@given(
+    programs,
+    st.floats(0, 1),
+    st.sampled_from(["", "<", ">", "/", '"', "x", " ", "&", "&amp;", "<!-- -->", "\n", "é", "<uint>", "</chunk>"]),
+    st.integers(1, 300),
+)
+@examples(2)
+def test_text_is_read_as_by_the_xml_parser(program: list[tuple[str, dict[str, Any]]], place: float, insertion: str, block: int) -> None:
+    text = written(program).text()
+    at = int(place * len(text))
+    text = text[:at] + insertion.encode() + text[at:]
+    names = frozenset(re.findall(rb' name="(vk\w+)"', text)) | {b"vkUpdateDescriptorSets"}
+    results = []
+    for size in (1 << 20, 0):
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(renderdoc, "MAX_SIZE", size)
+            found: list[Call | Mark] = []
+            broken = None
+            try:
+                found += renderdoc.calls(Slow(text, block), frozenset(name.decode() for name in names), None)
+            except CaptureError as error:
+                broken = error.message, error.place
+            results.append((found, broken))
+    assert results[0] == results[1]
 
 
 @given(block=st.integers(1, 400), limit=st.integers(1500, 5000))
