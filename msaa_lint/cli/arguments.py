@@ -89,7 +89,7 @@ def _read_option(name: str, word: str, rest: Iterator[str]) -> tuple[Option, boo
 
 def _value(option: Option, text: str) -> str | int | float:
     """What `text` means to an option. UsageError if it is malformed."""
-    if option.kind == "choice" and text not in option.choices:
+    if option.kind == "choice" and text not in option.choices and not any(_is_form(choice, text) for choice in option.choices):
         raise UsageError(f"unknown value {quoted(text)} of `{option.flag}`: {_near_or_all(text, option.choices)}")
     if option.kind == "integer":
         if not (text.isascii() and text.isdigit() and len(text) < 12 and int(text) > 0):
@@ -104,6 +104,12 @@ def _value(option: Option, text: str) -> str | int | float:
             raise UsageError(f"`{option.flag}` must be a number above 0, found {quoted(text)}")
         return number
     return text
+
+
+def _is_form(choice: str, text: str) -> bool:
+    """Whether a text is one of the form `choice`: that of `label:TEXT` is any text after `label:`."""
+    prefix, colon, _ = choice.partition(":")
+    return bool(colon) and text.startswith(prefix + colon) and text != prefix + colon
 
 
 def _check(name: str, command: Command, arguments: Arguments) -> None:

@@ -263,6 +263,7 @@ def input_options(arguments: Arguments) -> dict[str, Any]:
         "config": arguments.get("config"),
         "isolated": bool(arguments.get("isolated")),
         "format": arguments.get("input_format"),
+        "frame_end": arguments.get("frame_end"),
         "stdin_filename": arguments.get("stdin_filename"),
         "log": log(arguments),
         "traceback": bool(arguments.get("traceback")),

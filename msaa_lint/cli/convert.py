@@ -25,10 +25,11 @@ def convert(arguments: Arguments) -> int:
 
 def _convert(arguments: Arguments) -> int:
     (path,) = arguments["paths"]
-    return convert_input(path, arguments.get("output"), arguments.get("input_format"), bool(arguments.get("force")))
+    format, frame_end = arguments.get("input_format"), arguments.get("frame_end")
+    return convert_input(path, arguments.get("output"), format, bool(arguments.get("force")), frame_end)
 
 
-def convert_input(path: str, output: str | None, format: str | None, force: bool) -> int:
+def convert_input(path: str, output: str | None, format: str | None, force: bool, frame_end: str | None = None) -> int:
     """Writes the description to a file, with the shader modules that it names in `shaders/` next to it, or prints it.
 
     Returns 2 if the input cannot be read, has mistakes, or is a plain description already; and if a capture is truncated, whose readable
@@ -38,12 +39,12 @@ def convert_input(path: str, output: str | None, format: str | None, force: bool
     if output is not None:
         refuse_inputs([output], [path])
     with internal_errors_of(name):
-        return _convert_file(name, path, output, format, force)
+        return _convert_file(name, path, output, format, force, frame_end)
 
 
-def _convert_file(name: str, path: str, output: str | None, format: str | None, force: bool) -> int:
+def _convert_file(name: str, path: str, output: str | None, format: str | None, force: bool, frame_end: str | None) -> int:
     try:
-        data = load(path, Limits(), format=format)
+        data = load(path, Limits(), format=format, frame_end=frame_end)
         if isinstance(data, bytes):
             _write(_convert_text(name, data, format), {}, output, force)
         elif isinstance(data, SourceFile):

@@ -35,7 +35,7 @@ def _facts(arguments: Arguments) -> int:
     output = arguments.get("output", "text")
     if not arguments["paths"]:
         return print_reference(output)
-    return print_facts(arguments["paths"][0], output, arguments.get("profile"))
+    return print_facts(arguments["paths"][0], output, arguments.get("profile"), arguments.get("frame_end"))
 
 
 def print_reference(output: str) -> int:
@@ -83,7 +83,7 @@ def _subjects(fact: Fact) -> list[str]:
     return [subject for subject, facts in SUBJECTS.items() if fact in facts]
 
 
-def print_facts(path: str, output: str, profile: str | None) -> int:
+def print_facts(path: str, output: str, profile: str | None, frame_end: str | None = None) -> int:
     """Prints the facts of every subject of an input; returns 2 if it, or a part of it, cannot be read."""
     from msaa_lint.input import readers
     from msaa_lint.input.shader_modules import ShaderAnalyses
@@ -94,7 +94,7 @@ def print_facts(path: str, output: str, profile: str | None) -> int:
     analyses = ShaderAnalyses()
     with internal_errors_of(path):
         try:
-            data = load(path, Limits())
+            data = load(path, Limits(), frame_end=frame_end)
             source = Source(path, decode(data)) if isinstance(data, bytes) else data.source
         except (OSError, Unreadable) as error:
             warn(f"{path}: {getattr(error, 'strerror', None) or error}")

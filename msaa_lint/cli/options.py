@@ -117,10 +117,17 @@ GLOBAL = (
 )
 """Options of all commands."""
 
-SHARED = (_STDIN_FILENAME, _input_format(*INPUT_FORMATS), *_CONFIGURATION, _COLOR, *GLOBAL)
+_FRAME_END = Option(
+    "frame_end",
+    "choice",
+    "What ends a frame of a capture.",
+    "END",
+    ("present", "submit", "label:TEXT"),
+)
+SHARED = (_STDIN_FILENAME, _input_format(*INPUT_FORMATS), _FRAME_END, *_CONFIGURATION, _COLOR, *GLOBAL)
 """Options of `check`, `cost`, `confirm`, and `study`."""
 
-_INPUTS = SHARED[:2]
+_INPUTS = SHARED[:3]
 _SIZE = Option("size", "text", "Size in pixels of inputs that state none.", "WxH")
 
 COMMANDS = {
@@ -328,6 +335,7 @@ COMMANDS = {
             "Options": (
                 _text_output("text", "json", "markdown"),
                 _PROFILE._replace(help="Device to assume for an input that names none."),
+                _FRAME_END,
                 *GLOBAL,
             ),
         },
@@ -345,6 +353,7 @@ COMMANDS = {
                 Option("output", "text", "Write to this file, shaders next to it.", "FILE", short="-o"),
                 Option("force", "flag", "Overwrite an existing file."),
                 _input_format(*INPUT_FORMATS[2:]),
+                _FRAME_END,
                 *GLOBAL,
             ),
         },

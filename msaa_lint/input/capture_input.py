@@ -6,7 +6,9 @@ from typing import BinaryIO, NamedTuple
 
 from msaa_lint.core.diagnostics import diagnostic
 from msaa_lint.core.finding import CaptureLocation, CaptureSummary, Finding
-from msaa_lint.core.text.source import Origin, Source
+from msaa_lint.core.quote import quoted
+from msaa_lint.core.suggestions import did_you_mean
+from msaa_lint.core.text.source import Origin, Source, Unreadable
 from msaa_lint.core.text.span import Span
 
 from .capture_stream import CaptureStream
@@ -40,14 +42,17 @@ class CaptureInput(NamedTuple):
         return self.source.text
 
 
-def read_capture(stream: BinaryIO, format: str, name: str, path: str | None, is_binary: bool = False) -> CaptureInput:
+def read_capture(
+    stream: BinaryIO, format: str, name: str, path: str | None, is_binary: bool = False, frame_end: str | None = None
+) -> CaptureInput:
     """Reads a capture of a format (one of `readers.CAPTURES`) from a binary stream, in memory that does not grow with its length.
 
     `name` is the capture's name in findings. `path` locates the files that belong to it; None for a stream. The lines of the stream are not
-    those of the capture if it `is_binary`. An invalid capture does not raise.
+    those of the capture if it `is_binary`. `frame_end` says what ends a frame: `present`, `submit`, or `label:` and the text of a debug
+    label; None if the capture shows it. An invalid capture does not raise; Unreadable if a capture lacks the label.
     """
     module = import_module(f".readers.{format.replace('-', '_')}", __package__)
-    tracker = Tracker()
+    tracker = Tracker(frame_end)
     broken: CaptureError | None = None
     place = Place(1, 1)
     try:
@@ -65,7 +70,7 @@ def read_capture(stream: BinaryIO, format: str, name: str, path: str | None, is_
             tracker.frames.limits[str(failure)] = place
     tracker.finish()
     text, origins, modules, left_out = describe_capture(tracker)
-    notes = []
+    notes = _frame_end_notes(tracker, name)
     if tracker.frames.truncated:
         notes.append(f"{name}: the last entry is truncated and was skipped")
     if tracker.frames.dropped:
@@ -85,6 +90,23 @@ def read_capture(stream: BinaryIO, format: str, name: str, path: str | None, is_
     message = broken.message if broken is not None else ""
     source, summary = Source(name, text, origins), capture_summary(tracker, left_out)
     return CaptureInput(format, source, modules, tracker.frames.total, message, tuple(limits), tuple(notes), summary)
+
+
+def _frame_end_notes(tracker: Tracker, name: str) -> list[str]:
+    """What the option for the end of frames did not do. Unreadable if the capture lacks the label."""
+    frames = tracker.frames
+    if frames.frame_end is None:
+        return []
+    if frames.frameless:
+        return [f"{name}: `--frame-end` is ignored: the capture is a single frame"]
+    label = frames.frame_label
+    if label is not None and not label.is_found:
+        others = list(label.others)
+        hint = did_you_mean(label.text, others) or (f"; it has {', '.join(map(quoted, others[:5]))}" if others else "; it has no labels")
+        raise Unreadable(f"the capture has no debug label {quoted(label.text)}, which `--frame-end` names{hint}")
+    if frames.frame_end == "present" and frames.total and not frames.is_marked:
+        return [f"{name}: the capture presents nothing, so that it is one frame: `--frame-end submit` ends frames at submissions"]
+    return []
 
 
 def located_findings(capture: CaptureInput, findings: Sequence[Finding]) -> list[Finding]:

@@ -59,39 +59,48 @@ def load(
     format: str | None = None,
     data: bytes | None = None,
     project: str | None = None,
+    frame_end: str | None = None,
 ) -> bytes | CaptureInput | SourceFile:
     """The bytes of a text, source code read as documents, or a capture read as far as possible.
 
     `path` is `-` for standard input, which `data` replaces. `name` is the input's name in findings; `format` forces a reader. `project` is
-    that of a file in a named folder, None for a named file. Raises OSError if the file cannot be read, and Unreadable if a text is larger
-    than the limit, if the format is not supported, or if the extra for source code is missing.
+    that of a file in a named folder, None for a named file. `frame_end` says where the frames of a capture end. Raises OSError if the file
+    cannot be read, and Unreadable if a text is larger than the limit, if the format is not supported, if the extra for source code is
+    missing, or if a capture lacks the debug label that `frame_end` names.
     """
     if path == STDIN:
         stream: BinaryIO = sys.stdin.buffer if data is None else io.BytesIO(data)
-        return _load(stream, None, limits, name or "<stdin>", format, None, False)
+        return _load(stream, None, limits, name or "<stdin>", format, None, False, frame_end)
     file, size = open_file(path, project)
     with file:
         # Other files belong to a file only: there is no folder beside a pipe.
-        return _load(file, size, limits, name or path, format, None if size is None else os.path.abspath(path), project is None)
+        return _load(file, size, limits, name or path, format, None if size is None else os.path.abspath(path), project is None, frame_end)
 
 
 def _load(
-    stream: BinaryIO, size: int | None, limits: Limits, name: str, format: str | None, path: str | None, is_named: bool
+    stream: BinaryIO,
+    size: int | None,
+    limits: Limits,
+    name: str,
+    format: str | None,
+    path: str | None,
+    is_named: bool,
+    frame_end: str | None,
 ) -> bytes | CaptureInput | SourceFile:
     # Python allocates as much memory as it is asked to read, so a file is asked for no more than its size.
     head = stream.read(HEAD_BYTES if size is None else min(size, HEAD_BYTES) + 1)
     compression = compression_of(head)
     if compression is not None:
-        return _decompress(_from_beginning(head, stream, path), compression, name, format, path)
+        return _decompress(_from_beginning(head, stream, path), compression, name, format, path, frame_end)
     kind = binary_capture(head)
     if kind is not None and format in (None, kind.format):
-        return _convert(kind, name, path, is_named)
+        return _convert(kind, name, path, is_named, frame_end)
     language = _language(name, head, format)
     capture = format if format in CAPTURES else None if format is not None or language is not None else capture_format(head)
     if capture is not None:
         from .capture_input import read_capture
 
-        return read_capture(_from_beginning(head, stream, path), capture, name, path)
+        return read_capture(_from_beginning(head, stream, path), capture, name, path, frame_end=frame_end)
     output = own_output(head) if format is None else None
     if output is not None:
         raise NotAnInput(output)
@@ -119,7 +128,9 @@ def _from_beginning(head: bytes, stream: BinaryIO, path: str | None) -> BinaryIO
     return CaptureStream(chain((head,), pieces_of(stream, HEAD_BYTES)))
 
 
-def _decompress(stream: BinaryIO, compression: Compression, name: str, format: str | None, path: str | None) -> CaptureInput:
+def _decompress(
+    stream: BinaryIO, compression: Compression, name: str, format: str | None, path: str | None, frame_end: str | None
+) -> CaptureInput:
     """Reads a compressed capture."""
     from .capture_input import read_capture
     from .compression import decompressed, without_ending
@@ -128,7 +139,7 @@ def _decompress(stream: BinaryIO, compression: Compression, name: str, format: s
     head = text.head()
     capture = format if format in CAPTURES else None if format is not None else capture_format(head)
     if capture is not None:
-        return read_capture(text, capture, name, path and without_ending(path))
+        return read_capture(text, capture, name, path and without_ending(path), frame_end=frame_end)
     kind = binary_capture(head)
     reason = f" ({text.failure})" if text.failure is not None else ""
     content = (
@@ -137,7 +148,7 @@ def _decompress(stream: BinaryIO, compression: Compression, name: str, format: s
     raise UnsupportedFormat(f"{content}: decompress it with `{compression.command} FILE`")
 
 
-def _convert(kind: BinaryCapture, name: str, path: str | None, is_named: bool) -> CaptureInput:
+def _convert(kind: BinaryCapture, name: str, path: str | None, is_named: bool, frame_end: str | None) -> CaptureInput:
     """Reads a binary capture through the converter of its tool."""
     if path is None:
         raise UnsupportedFormat(f"{kind.name}, which cannot be read from a pipe: name the file, or convert it with {kind.command}")
@@ -150,7 +161,7 @@ def _convert(kind: BinaryCapture, name: str, path: str | None, is_named: bool) -
         where = f"install it ({kind.source}), or convert the capture elsewhere with {kind.command}"
         raise UnsupportedFormat(f"{kind.name}, and {kind.program}, which reads it, is not installed: {where}")
     with converted(kind, path) as capture:
-        result = read_capture(capture.stream, kind.format, name, capture.path, is_binary=True)
+        result = read_capture(capture.stream, kind.format, name, capture.path, is_binary=True, frame_end=frame_end)
         return result._replace(notes=(*result.notes, *(f"{name}: {kind.program}: {warning}" for warning in capture.warnings)))
 
 

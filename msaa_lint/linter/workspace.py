@@ -37,7 +37,8 @@ class Request(NamedTuple):
     """What a run is asked to do.
 
     `overrides` are keyword arguments of `settings.override`. `data` replaces standard input, which findings call `stdin_filename`.
-    `format` forces a reader. `formats` are the outputs to print instead of those in the settings, and `fallback` is the output if neither
+    `format` forces a reader, `frame_end` says what ends the frames of captures. `formats` are the outputs to print instead of those in the
+    settings, and `fallback` is the output if neither
     names one: findings get prices only if an output shows them. `by_price` sorts findings by price, highest first. `fix` is `write` to
     fix files in place, or `show` to compute the fixes only; `unsafe_fixes` includes fixes that may change the picture. Standard input is
     never written. `keys` is the number of undecided rules for which a key is looked up
@@ -52,6 +53,7 @@ class Request(NamedTuple):
     isolated: bool = False
     ignores: bool = True
     format: str | None = None
+    frame_end: str | None = None
     stdin_filename: str | None = None
     data: bytes | None = None
     full_rules: bool = False
@@ -228,7 +230,7 @@ class Workspace:
         request, name = self.request, self.request.input_name(path)
         resolved = self.resolve(request.stdin_filename or os.curdir if path == STDIN else path)
         try:
-            data = opening.load(path, resolved.limits, name, request.format, request.data, self._projects.get(path))
+            data = opening.load(path, resolved.limits, name, request.format, request.data, self._projects.get(path), request.frame_end)
         except (OSError, Unreadable) as error:
             self.findings.append(opening.unreadable(error, name))
             return None

@@ -124,8 +124,25 @@ class BindPoint:
 class CommandBuffer:
     """A command buffer: its state during recording, and its commands."""
 
-    __slots__ = ("commands", "compute", "counted", "executes", "fresh", "graphics", "labels", "many", "omitted", "pipeline",
-                 "ray_tracing", "reads", "samples", "submission", "submitted_length", "subpass_commands")  # fmt: skip
+    __slots__ = (
+        "commands",
+        "compute",
+        "counted",
+        "executes",
+        "fresh",
+        "graphics",
+        "label_depth",
+        "labels",
+        "many",
+        "omitted",
+        "pipeline",
+        "ray_tracing",
+        "reads",
+        "samples",
+        "submission",
+        "submitted_length",
+        "subpass_commands",
+    )  # fmt: skip
 
     def __init__(self) -> None:
         self.commands: list[RecordedCommand | Execution] = []
@@ -151,6 +168,8 @@ class CommandBuffer:
         self.fresh = True
         """Whether descriptor sets, or a pipeline that reads others, were bound since the last draw of the current subpass."""
         self.samples: int | None = None
+        self.label_depth: Any = None
+        """How many labels are open, if one of them ends frames."""
         self.labels = BufferLabels()
 
     @property

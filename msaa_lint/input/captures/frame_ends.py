@@ -13,6 +13,9 @@ from .command_buffers import PASS_BEGINS, PASS_ENDS, RecordedCommand, RenderPass
 from .objects import Image
 from .submissions import Submission
 
+MAX_OTHER_LABELS = 1000
+"""Maximum number of labels among which the nearest is searched."""
+
 MAX_USES = 64
 """Maximum number of similar passes of a frame that are compared."""
 
@@ -37,6 +40,34 @@ class PassIdentity(NamedTuple):
     area: Area
     pipelines: frozenset[Hashable]
     loads: bool
+
+
+class FrameLabel:
+    """The debug label with which frames end. `is_found` says whether the capture has it, `others` which other labels it has."""
+
+    def __init__(self, text: str) -> None:
+        self.text = text
+        self.is_found = False
+        self.others: dict[str, None] = {}
+        self._is_open = False
+
+    def matches(self, text: str) -> bool:
+        """Whether a label is this one."""
+        if text == self.text:
+            self.is_found = True
+            return True
+        if len(self.others) < MAX_OTHER_LABELS:
+            self.others[text] = None
+        return False
+
+    def ends_frame(self, mark: str) -> bool:
+        """Whether a mark ends the frame: the label ends or is inserted, or it begins again although it has not ended."""
+        return mark in ("end", "insert") or self._is_open
+
+    def follow(self, mark: str) -> None:
+        """Processes a mark."""
+        if mark != "insert":
+            self._is_open = mark == "begin"
 
 
 class _Use(NamedTuple):

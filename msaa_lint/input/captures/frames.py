@@ -12,7 +12,7 @@ from itertools import count
 from .call import Place
 from .command_buffers import MAX_COMMANDS, CommandBuffer, CommandCache, RecordedCommand
 from .frame_boundary import aspect_uses
-from .frame_ends import Repetitions, passes_of
+from .frame_ends import FrameLabel, Repetitions, passes_of
 from .frame_kinds import (
     MAX_MERGED,
     MAX_PASS_COMMANDS,
@@ -30,7 +30,7 @@ from .labels import BufferLabels, FrameLabels, Path
 from .layouts import ImageLayouts
 from .objects import Image
 from .set_reads import SetReads
-from .submissions import MAX_REPEATED, Executions, Submission
+from .submissions import MAX_REPEATED, Executions, Submission, parts_of
 
 MAX_KINDS = 32
 """Maximum number of frame kinds."""
@@ -86,6 +86,14 @@ class Frames:
         self.dropped = 0
         """The number of frames whose kind was not kept."""
         self.presents = False
+        self.frame_end: str | None = None
+        """What the user says ends a frame: `present`, `submit`, or `label`."""
+        self.frame_label: FrameLabel | None = None
+        self._is_openxr = False
+        self.is_marked = False
+        """Whether a frame ended at a present, mark, or label."""
+        self._has_pass = False
+        """Whether the current frame begins a pass."""
         self.frameless = False
         self.truncated = False
         self.limits: dict[str, Place] = {}
@@ -124,10 +132,39 @@ class Frames:
         """Processes a mark."""
         if kind == "frameless":
             self.frameless = True
+            self.frame_label = None
         elif kind == "truncated":
             self.truncated = True
-        elif kind == "frame" and not self.presents:
+        elif kind == "frame" and not self.presents and self.frame_end is None:
+            self.is_marked = True
             self.end()
+
+    def end_of_present(self) -> None:
+        """A present ends the frame, unless OpenXR does: a program then also shows what it draws in a window."""
+        if self.frame_end in (None, "present") and not self._is_openxr:
+            self.is_marked = True
+            self.end()
+
+    def start_openxr(self) -> None:
+        """xrEndFrame ends frames from now on."""
+        self.presents = self._is_openxr = True
+
+    def end_of_openxr_frame(self) -> None:
+        """xrEndFrame ends the frame."""
+        self._is_openxr = True
+        if self.frame_end in (None, "present"):
+            self.is_marked = True
+            self.end()
+
+    def label_mark(self, mark: str) -> None:
+        """The label that ends frames begins, ends, or is inserted."""
+        label = self.frame_label
+        if label is None:
+            return
+        if self._has_pass and label.ends_frame(mark):
+            self.is_marked = True
+            self.end()
+        label.follow(mark)
 
     def spend(self, work: int) -> bool:
         """Takes so much from the work that is left; False if there is none."""
@@ -142,7 +179,11 @@ class Frames:
                 buffer.counted = True
                 self._recorded += len(buffer.commands)
                 self._work_left += WORK_PER_COMMAND * len(buffer.commands)
-        if not self.presents and not self.frameless:
+        if self.frame_end == "submit" and not self.frameless:
+            executions = Executions()
+            if self._has_pass and any(executions.submission(buffer).begins for buffer in buffers):
+                self.end()
+        elif self.frame_end is None and not self.presents and not self.is_marked and not self.frameless:
             self._split_frames(buffers)
 
     def submit(self, buffer: CommandBuffer, at: Place, cache: CommandCache, layouts: ImageLayouts, outer: Path = ()) -> None:
@@ -173,10 +214,17 @@ class Frames:
         if self._length > MAX_FRAME_COMMANDS:
             self.limits.setdefault(TOO_LONG, at)
             return
-        self._current.append(submission)
         count = len(submission.begins)
         is_labeled = labels is not None and labels.is_complete and len(labels.passes) == count
-        self._labels += labels.paths(outer) if labels is not None and is_labeled else [()] * count
+        paths = labels.paths(outer) if labels is not None and is_labeled else [()] * count
+        first = 0
+        for part, mark in parts_of(submission) if self.frame_label is not None else ((submission, ""),):
+            self._current.append(part)
+            self._labels += paths[first : first + len(part.begins)]
+            first += len(part.begins)
+            self._has_pass = self._has_pass or bool(part.begins)
+            if mark:
+                self.label_mark(mark)
 
     def _skip(self, at: Place) -> None:
         """Gives up the current frame: looking at it would take too long."""
@@ -193,15 +241,20 @@ class Frames:
             self.repetitions.add(passes)
 
     def end_of_capture(self) -> None:
-        """Ends the capture. The remaining commands are a frame if they begin a pass."""
-        if any(submission.begins for submission in self._current):
+        """Ends the capture. The remaining commands are a frame if they begin a pass, unless what ends frames is missing."""
+        if self._has_pass and not (self.is_marked and self.total):
             self.end()
+        elif self.is_marked and not self._is_skipped:
+            # What they read is not stored in vain.
+            commands = [command for submission in self._current for command in submission.commands]
+            self._track_contents(FrameKind(-1, [], [], 0), commands, {})
         self._add_counts()
 
     def end(self) -> None:
         """Ends the frame."""
         submissions, labels, is_skipped = tuple(self._current), self._labels, self._is_skipped
         self._current = []
+        self._has_pass = False
         self._labels = []
         self._length = 0
         self._is_skipped = False

@@ -158,9 +158,12 @@ class Images(Devices):
 
     def on_GetSwapchainImages(self, call: Call) -> None:
         swapchain = self.swapchains.get(values.handle(call.args.get("swapchain")))
-        if swapchain is None:
-            return
-        for item in values.items(call.args.get("pSwapchainImages"))[:64]:
+        if swapchain is not None:
+            self.add_swapchain_images(swapchain, values.items(call.args.get("pSwapchainImages")), call)
+
+    def add_swapchain_images(self, swapchain: Swapchain, handles: list[object], call: Call, shared: bool = False) -> None:
+        """Adds the images of a swapchain that are not known yet."""
+        for item in handles[:64]:
             handle = values.handle(item)
             existing = self.images.get(handle)
             if existing is not None and existing.swapchain is swapchain:
@@ -168,6 +171,7 @@ class Images(Devices):
             image = Image(call, len(swapchain.images), dict(swapchain.tree))
             image.by, image.at = swapchain.by, swapchain.at
             image.swapchain = swapchain
+            image.may_be_read = shared
             swapchain.images.append(image)
             swapchain.handles.append(handle)
             self._add(handle, image)
@@ -180,7 +184,7 @@ class Images(Devices):
             number = values.integer(index)
             if swapchain is not None and number is not None and 0 <= number < len(swapchain.images):
                 self.frames.add(self._present(swapchain.images[number], call), call.at)
-        self.frames.end()
+        self.frames.end_of_present()
 
     def _present(self, image: Image, call: Call) -> Submission:
         """The present of an image, one object for all of its presents."""
@@ -190,5 +194,4 @@ class Images(Devices):
         return present
 
     def on_FrameBoundaryANDROID(self, call: Call) -> None:
-        if not self.frames.presents:
-            self.frames.end()
+        self.frames.mark("frame")

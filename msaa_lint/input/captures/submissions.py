@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-from .command_buffers import PASS_BEGINS, CommandBuffer, Execution, RecordedCommand
+from .command_buffers import PASS_BEGINS, PASS_ENDS, CommandBuffer, Execution, RecordedCommand
 
 MAX_REPEATED = 20_000
 """Maximum number of commands that a frame executes again: those of command buffers that it has executed before."""
@@ -16,15 +16,42 @@ Item = RecordedCommand | Execution
 class Submission:
     """The commands that a command buffer executes, and those of them that begin passes."""
 
-    __slots__ = ("begins", "commands", "layout_changes", "passes")
+    __slots__ = ("begins", "commands", "layout_changes", "parts", "passes")
 
     def __init__(self, commands: list[RecordedCommand]) -> None:
         self.commands = commands
         self.begins = tuple(command for command in commands if command.kind in PASS_BEGINS)
         self.passes: tuple[Any, ...] | None = None
         """The identities of the passes; None until they are asked."""
+        self.parts: list[tuple[Submission, str]] | None = None
+        """The commands up to each mark of a frame's end, with the mark; None until that is asked."""
         self.layout_changes: Any = None
         """The changes of layouts that the commands make together; None until that is asked."""
+
+
+def parts_of(submission: Submission) -> list[tuple[Submission, str]]:
+    """The commands of a submission up to each mark of a frame's end, with the mark, and those after the last one, with an empty mark.
+
+    A pass is not divided.
+    """
+    if submission.parts is None:
+        submission.parts = []
+        commands: list[RecordedCommand] = []
+        pending: list[str] = []
+        in_pass = False
+        for command in submission.commands:
+            if command.kind == "frameMark":
+                pending.append(str(command.key))
+            else:
+                commands.append(command)
+                in_pass = command.kind in PASS_BEGINS or (in_pass and command.kind not in PASS_ENDS)
+            if pending and not in_pass:
+                for mark in pending:
+                    submission.parts.append((Submission(commands), mark))
+                    commands = []
+                pending.clear()
+        submission.parts.append((Submission(commands) if submission.parts or pending else submission, ""))
+    return submission.parts
 
 
 class Executions:

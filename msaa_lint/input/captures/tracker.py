@@ -19,6 +19,8 @@ from . import set_layouts, values
 from .call import Call, Mark, without_vendor
 from .command_buffers import RecordedCommand
 from .create_infos import pipeline_of, render_pass_of
+from .frame_ends import FrameLabel
+from .frame_marks import FrameMarks, xr_handlers
 from .labels import printable
 from .layouts import UNSEEN
 from .objects import CapturedObject, Framebuffer, Pipeline, RenderPass
@@ -92,11 +94,14 @@ class CachedCommand(NamedTuple):
     commands: list[RecordedCommand]
 
 
-class Tracker(Transfers):
-    """The state of one capture. Call `feed` for each call in order, then `finish`."""
+class Tracker(FrameMarks):
+    """The state of one capture. Call `feed` for each call in order, then `finish`. `frame_end` is the option `--frame-end`."""
 
-    def __init__(self) -> None:
+    def __init__(self, frame_end: str | None = None) -> None:
         super().__init__()
+        if frame_end is not None:
+            self.frames.frame_end, _, text = frame_end.partition(":")
+            self.frames.frame_label = FrameLabel(text) if text else None
         self.modules: dict[int, bytes] = {}
         self.shader_images: dict[int, dict[str, ShaderImages | None]] = {}
         """The images that the entry points of modules declare, as far as pipelines have used them."""
@@ -117,6 +122,7 @@ class Tracker(Transfers):
         }
         for name, (parameter, objects) in DESTROYERS.items():
             self.handlers[f"vk{name}"] = partial(_remove, getattr(self, objects), parameter)
+        self.handlers |= xr_handlers(self)
         self.handlers["SetDevicePropertiesCommand"] = self.device_properties_command
         self.handlers["SetDeviceMemoryPropertiesCommand"] = self.memory_properties_command
 
@@ -138,7 +144,8 @@ class Tracker(Transfers):
                 self._replay(cached, call)
             else:
                 self._record(handler, call, way == BEGINS_OR_ENDS)
-        elif call.result is None or not call.result.startswith("VK_ERROR"):
+        elif call.result is None or not call.result.startswith(("VK_ERROR", "XR_ERROR")) or call.name == "vkQueuePresentKHR":
+            # A present ends the frame although the surface is out of date.
             if way == DESTROYS:
                 self.generation += 1
             handler(call)

@@ -3,11 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from io import BytesIO
+from pathlib import Path
 
 import pytest
 
-from tests.input.captures.program import COLOR, D32, DEPTH, SOURCE, Program, attachment, info, lint
+from msaa_lint.input.capture_input import read_capture
+from tests.command import run
+from tests.input.captures.program import COLOR, D32, DEPTH, SOURCE, Program, attachment, codes, info, lint
 from tests.input.captures.test_frames import read
+from tests.input.captures.test_tracking import tree
+from tests.input.readers.dialects_binary import renderdoc
 
 Area = tuple[int, int, int, int]
 
@@ -242,3 +248,201 @@ def test_many_submissions_on_top_of_another_are_frames_in_the_end() -> None:
     for _ in range(20):
         program.submission([view], program.loads)
     assert read(program).frames == 1 + 20 - 8
+
+
+# What the user says.
+
+
+def frames(program: Program, end: str) -> int:
+    """The number of frames if they end as the user says."""
+    return read_capture(BytesIO(program.text()), "gfxreconstruct", "p.jsonl", None, frame_end=end).frames
+
+
+def labeled(program: Offscreen, buffer: int, call: str, text: str = "") -> None:
+    """A debug label, in a command buffer or (0) in the queue."""
+    place = {"commandBuffer": buffer} if buffer else {"queue": 5}
+    program.call(
+        f"vk{'Cmd' if buffer else 'Queue'}{call}DebugUtilsLabelEXT", **place, **({"pLabelInfo": {"pLabelName": text}} if text else {})
+    )
+
+
+def a_pass(program: Offscreen, buffer: int, view: int) -> None:
+    program.rendering(buffer, [info(view, store="STORE")])
+    program.end(buffer, rendering=True)
+
+
+def in_one_buffer(program: Offscreen, view: int) -> None:
+    """Three frames in one command buffer."""
+    buffer = program.buffer()
+    for _ in range(3):
+        labeled(program, buffer, "Begin", "Frame")
+        labeled(program, buffer, "Begin", "Shadow")
+        a_pass(program, buffer, view)
+        labeled(program, buffer, "End")
+        a_pass(program, buffer, view)
+        labeled(program, buffer, "End")
+    program.submit(buffer)
+
+
+def in_the_queue(program: Offscreen, view: int) -> None:
+    for _ in range(3):
+        labeled(program, 0, "Begin", "Frame")
+        for _ in range(2):
+            buffer = program.buffer()
+            a_pass(program, buffer, view)
+            program.submit(buffer)
+        labeled(program, 0, "End")
+
+
+def inserted(program: Offscreen, view: int) -> None:
+    """The label is inserted in a pass, which is not divided, and before the first frame, where nothing ends."""
+    labeled(program, 0, "Insert", "Frame")
+    for _ in range(3):
+        buffer = program.buffer()
+        program.rendering(buffer, [info(view, store="STORE")])
+        labeled(program, buffer, "Insert", "Frame")
+        program.end(buffer, rendering=True)
+        program.submit(buffer)
+
+
+def across_buffers(program: Offscreen, view: int) -> None:
+    """It begins in a command buffer, and ends in another."""
+    for _ in range(3):
+        buffers = [program.buffer(), program.buffer()]
+        labeled(program, buffers[0], "Begin", "Frame")
+        for buffer in buffers:
+            a_pass(program, buffer, view)
+        labeled(program, buffers[1], "End")
+        program.submit(*buffers)
+
+
+def never_ended(program: Offscreen, view: int) -> None:
+    """It begins again and again."""
+    for _ in range(4):
+        buffer = program.buffer()
+        labeled(program, buffer, "Begin", "Frame")
+        a_pass(program, buffer, view)
+        program.submit(buffer)
+
+
+@pytest.mark.parametrize("draw", [in_one_buffer, in_the_queue, inserted, across_buffers, never_ended], ids=lambda draw: draw.__name__)
+@pytest.mark.parametrize("presents", [False, True])
+def test_a_label_ends_frames(draw: Callable[[Offscreen, int], None], presents: bool) -> None:
+    program = Offscreen()
+    if presents:
+        program.swap(1)
+    draw(program, program.view(program.image()))
+    if presents:
+        program.present()
+    # What follows the last mark is no frame.
+    assert frames(program, "label:Frame") == 3
+
+
+def test_each_submission_of_a_pass_or_only_presents_end_frames() -> None:
+    program = Offscreen()
+    program.swap(1)
+    view, other = program.view(program.image()), program.view(program.image(samples=1))
+    for _ in range(3):
+        program.submission([view])
+        buffer = program.buffer()
+        program.call("vkCmdDispatch", commandBuffer=buffer)
+        program.submit(buffer)
+        program.submission([other])
+        program.present()
+    assert [frames(program, end) for end in ("present", "submit")] == [3, 6]
+    assert read(program).frames == 3
+
+
+def test_a_submission_after_the_last_present_is_no_frame_but_reads() -> None:
+    program = Offscreen()
+    program.swap(1)
+    image = program.image(usage=COLOR | SOURCE)
+    view = program.view(image)
+    for _ in range(3):
+        program.submission([view])
+        program.present()
+    assert codes(lint(program.text())).count("MSAA201") == 1
+    buffer = program.buffer()
+    program.call("vkCmdCopyImageToBuffer", commandBuffer=buffer, srcImage=image, dstBuffer=7, pRegions=[])
+    a_pass(program, buffer, view)
+    program.submit(buffer)
+    assert read(program).frames == 3
+    assert "MSAA201" not in codes(lint(program.text()))
+
+
+def test_without_a_present_the_capture_is_one_frame_if_only_presents_end_frames() -> None:
+    program = Offscreen()
+    same_images(program, 3)
+    made = read_capture(BytesIO(program.text()), "gfxreconstruct", "p.jsonl", None, frame_end="present")
+    assert (made.frames, made.notes) == (
+        1, ("p.jsonl: the capture presents nothing, so that it is one frame: `--frame-end submit` ends frames at submissions",)
+    )  # fmt: skip
+
+
+def test_a_frame_of_renderdoc_is_one_frame() -> None:
+    program = Offscreen()
+    same_images(program, 3)
+    made = read_capture(BytesIO(renderdoc(program.calls).text()), "renderdoc", "p.xml", None, frame_end="submit")
+    assert (made.frames, made.notes) == (1, ("p.xml: `--frame-end` is ignored: the capture is a single frame",))
+
+
+@pytest.mark.parametrize("command", ["check", "cost", "facts", "convert", "confirm"])
+def test_a_label_that_the_capture_lacks_is_an_error_of_the_capture(command: str, tmp_path: Path) -> None:
+    program = Offscreen()
+    in_the_queue(program, program.view(program.image()))
+    (tmp_path / "p.jsonl").write_bytes(program.text())
+    result = run(tmp_path, command, "p.jsonl", "--frame-end", "label:Frmae")
+    assert result.returncode == 2
+    assert "has no debug label `Frmae`, which `--frame-end` names; did you mean `Frame`?" in result.stdout + result.stderr
+    if command != "confirm":
+        assert run(tmp_path, command, "p.jsonl", "--frame-end=label:Frame").returncode in (0, 1)
+
+
+def test_an_end_that_is_not_one_of_the_forms_is_refused(tmp_path: Path) -> None:
+    for end in ("presents", "label:", "label"):
+        result = run(tmp_path, "check", "x.jsonl", "--frame-end", end)
+        assert result.returncode == 2 and f"unknown value `{end}` of `--frame-end`" in result.stderr
+
+
+# OpenXR.
+
+
+def openxr(mirror: bool, flags: object = "0x00000021") -> Program:
+    """A program that draws to the images of an OpenXR swapchain, as the source of gfxreconstruct's converter writes its calls."""
+    program = Program()
+    if mirror:
+        program.swap(1)
+    info_of_swapchain = {
+        "type": "XR_TYPE_SWAPCHAIN_CREATE_INFO", "createFlags": "0x00000000", "usageFlags": flags, "format": 37, "sampleCount": 1,
+        "width": 256, "height": 128, "faceCount": 1, "arraySize": 2, "mipCount": 1, "next": None,
+    }  # fmt: skip
+    program.call("xrCreateSwapchain", session=20, createInfo=info_of_swapchain, swapchain=21)
+    images = [{"type": "XR_TYPE_SWAPCHAIN_IMAGE_VULKAN_KHR", "image": handle, "next": None} for handle in (30, 31, 32)]
+    program.call("xrEnumerateSwapchainImages", swapchain=21, imageCapacityInput=0, imageCountOutput=3, images=None)
+    program.call("xrEnumerateSwapchainImages", swapchain=21, imageCapacityInput=3, imageCountOutput=3, images=images)
+    eye, resolved = program.view(program.image(layers=2)), [program.view(handle) for handle in (30, 31, 32)]
+    for number in range(6):
+        for _ in range(2):
+            buffer = program.buffer()
+            program.rendering(buffer, [info(eye, resolve=resolved[number % 3], store="DONT_CARE")])
+            program.end(buffer, rendering=True)
+            program.submit(buffer)
+            if mirror:
+                program.present()
+        program.call("xrEndFrame", session=20, frameEndInfo={"type": "XR_TYPE_FRAME_END_INFO"})
+    return program
+
+
+@pytest.mark.parametrize("mirror", [False, True])
+@pytest.mark.parametrize("flags", ["0x00000021", 33, "XR_SWAPCHAIN_USAGE_COLOR_ATTACHMENT_BIT|XR_SWAPCHAIN_USAGE_SAMPLED_BIT"])
+def test_frames_of_an_openxr_program_end_with_its_end_of_a_frame(mirror: bool, flags: object) -> None:
+    program = openxr(mirror, flags)
+    made = read(program)
+    assert made.frames == 6
+    images = tree(program)["images"].values()
+    swapchain_image = next(image for image in images if image["samples"] == 1 and image["arrayLayers"] == 2)
+    assert swapchain_image == {
+        "format": "R8G8B8A8_UNORM", "samples": 1, "usage": ["COLOR_ATTACHMENT", "SAMPLED"], "mipLevels": 1, "arrayLayers": 2,
+        "extent": {"width": 256, "height": 128, "depth": 1}, "imageType": "2D", "mayBeRead": True,
+    }  # fmt: skip
+    assert not [found for found in lint(program.text()) if found.code == "MSAA201"]
