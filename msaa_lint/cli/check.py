@@ -7,7 +7,7 @@ import sys
 from collections.abc import Sequence
 from functools import partial
 from time import perf_counter
-from typing import IO, Any
+from typing import IO
 
 from msaa_lint.core.diagnostics import diagnostic, internal_error
 from msaa_lint.core.finding import Result, is_confident, rank
@@ -32,6 +32,7 @@ from .common import (
     write_output,
 )
 from .options import Arguments
+from .progress import input_progress, shows_progress
 from .report.summary import plural
 
 EXAMPLE = "sarif=findings.sarif"
@@ -56,7 +57,7 @@ def _check(arguments: Arguments) -> int:
     refuse_inputs([target.path for target in targets], arguments["paths"])
     fallback = "full" if sys.stdout.isatty() else "concise"
     start = perf_counter()
-    outcome = _outcome(request(arguments, targets, fallback), None if arguments.get("quiet") else _progress())
+    outcome = _outcome(request(arguments, targets, fallback), input_progress() if shows_progress(bool(arguments.get("quiet"))) else None)
     if arguments.get("verbose"):
         warn(f"checked {plural(len(outcome.result.files), 'input')} in {perf_counter() - start:.2f} s")
     if not targets:
@@ -195,33 +196,3 @@ def _render(format: str, outcome: Outcome, arguments: Arguments, out: IO[str]) -
         statistics.render(outcome.result, out.write, options._replace(width=output_width(out)))
     else:
         render(format, outcome.result, out.write, options._replace(statistics=bool(arguments.get("statistics"))))
-
-
-PROGRESS_INPUTS = 200
-"""The number of inputs from which a progress bar is worth the 40 ms that importing rich takes."""
-
-
-def _progress() -> Any:
-    """A callback that draws a progress bar if standard error is a terminal and there are many inputs; None if it is not."""
-    if not sys.stderr.isatty():
-        return None
-    bar: Any = None
-
-    def advance(done: int, total: int, name: str) -> None:
-        nonlocal bar
-        if total < PROGRESS_INPUTS:
-            return
-        if bar is None:
-            from rich.console import Console
-            from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
-
-            bar = Progress(
-                TextColumn("linting", markup=False), BarColumn(), MofNCompleteColumn(), console=Console(stderr=True), transient=True
-            )
-            bar.start()
-            bar.add_task("linting", total=total)
-        bar.update(0, completed=done + 1)
-        if done + 1 == total:
-            bar.stop()
-
-    return advance

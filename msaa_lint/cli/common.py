@@ -16,6 +16,7 @@ from msaa_lint.core.project import resolved
 from msaa_lint.core.quote import quoted
 
 from .options import Arguments
+from .progress import capture_progress
 from .report import Options
 from .report.escape import escape
 from .streams import OutputError
@@ -69,7 +70,8 @@ def run_command(
     previous = _unwind_on_signals() if terminable else {}
     try:
         _check_current_folder()
-        return command(arguments)
+        with capture_progress(_quiet):
+            return command(arguments)
     except reported as error:
         warn(str(error))
         return 2

@@ -11,11 +11,13 @@ from msaa_lint.core.suggestions import did_you_mean
 from msaa_lint.core.text.source import Origin, Source, Unreadable
 from msaa_lint.core.text.span import Span
 
+from . import reading_progress
 from .capture_stream import CaptureStream
 from .captures.call import CaptureError, Place
 from .captures.description_text import describe_capture
 from .captures.summary import capture_summary
 from .captures.tracker import Tracker
+from .reading_progress import ObservedStream
 
 
 class CaptureInput(NamedTuple):
@@ -55,13 +57,17 @@ def read_capture(
     tracker = Tracker(frame_end)
     broken: CaptureError | None = None
     place = Place(1, 1)
+    observer = reading_progress.observer
+    observed = stream if observer is None else ObservedStream(stream, name, lambda: tracker.frames.total, observer)
     try:
-        for call in module.calls(stream, tracker.wanted, path):
+        for call in module.calls(observed, tracker.wanted, path):
             tracker.feed(call)
             place = call.at
     except CaptureError as error:
         broken = error
         place = error.place
+    if observer is not None:
+        observer.finish()
     failure = stream.failure if isinstance(stream, CaptureStream) else None
     if failure is not None:
         # The reader only saw that the text ended, perhaps between two calls.
