@@ -151,9 +151,10 @@ def bind_point(buffer: CommandBuffer, point: object) -> BindPoint:
 def _points(buffer: CommandBuffer, call: Call) -> list[tuple[dict[str, Any], BindPoint]]:
     """The parameters of a call that binds descriptors, and what it binds them for: a bind point, or those of some stages."""
     args = call.args
-    info = next((args[name] for name in INFOS if isinstance(args.get(name), dict)), None)
+    point = args.get("pipelineBindPoint")
+    info = next((args[name] for name in INFOS if isinstance(args.get(name), dict)), None) if point is None else None
     if info is None:
-        return [(args, bind_point(buffer, args.get("pipelineBindPoint")))]
+        return [(args, bind_point(buffer, point))]
     stages = values.bits("VkShaderStageFlagBits", info.get("stageFlags"))
     points = ((buffer.graphics, set_layouts.GRAPHICS), (buffer.compute, set_layouts.COMPUTE), (buffer.ray_tracing, set_layouts.RAY_TRACING))
     return [(info, point) for point, mask in points if stages is None or stages & mask]

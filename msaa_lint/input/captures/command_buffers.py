@@ -35,7 +35,7 @@ class RecordedCommand:
     first mip level and layer of each attachment of a pass, empty if all are 0.
     """
 
-    __slots__ = ("at", "by", "detail", "identity", "key", "kind", "parts", "written")
+    __slots__ = ("at", "by", "detail", "identity", "key", "kind", "layouts", "parts", "written")
 
     def __init__(self, kind: str, key: Hashable, at: Place, by: str, detail: tuple[int | None, int | None] | None = None) -> None:
         self.kind = kind
@@ -48,6 +48,8 @@ class RecordedCommand:
         """The PassIdentity of a pass that it begins, without pipelines; None until that is asked."""
         self.written: tuple[Image | None, ...] | None = None
         """The images that it writes; None until that is asked."""
+        self.layouts: Any = None
+        """What it does to layouts, as `layouts.command_layouts` determines it."""
 
 
 class DescriptorReads(NamedTuple):

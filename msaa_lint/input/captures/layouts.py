@@ -53,7 +53,7 @@ class ImageLayouts:
         self._images: dict[ImageKind, dict[str, dict[Image, None]]] = {}
         self._asked: dict[Image, None] = {}
         """The images that such a descriptor may have held before the first command that tells their layout."""
-        self._begin: RenderPassBegin | None = None
+        self._begin: RecordedCommand | None = None
 
     def add(self, image: Image) -> None:
         """Follows a new image."""
@@ -114,21 +114,14 @@ class ImageLayouts:
 
     # What commands do.
 
-    def changes(self, command: RecordedCommand) -> list[Change]:
+    def changes(self, command: RecordedCommand) -> tuple[Change, ...]:
         """The changes of layouts that a command makes. The commands of a submission come in order."""
-        key: Any = command.key
-        if command.kind == "pipelineBarrier":
-            _, image, (before, layout), is_whole = key
-            return [(image, readable(layout), is_whole, readable(before))] if image is not None and layout != "UNDEFINED" else []
-        if command.kind in ("beginRenderPass", "beginRendering"):
-            self._begin = key if isinstance(key, RenderPassBegin) else None
-            return [(image, layouts, image.is_single_level, before) for image, (layouts, before) in _attached(command).items()]
-        if command.kind == "endRenderPass" and self._begin is not None:
+        if command.kind == "endRenderPass":
             begin, self._begin = self._begin, None
-            finals = _pass_layouts(begin.render_pass)
-            pairs = zip(begin.images, finals, strict=False)
-            return [(image, each.after, image.is_single_level, NONE) for image, each in pairs if image is not None]
-        return []
+            return command_layouts(begin).at_end if begin is not None else ()
+        if command.kind != "pipelineBarrier":
+            self._begin = command
+        return command_layouts(command).changes
 
     def net_changes(self, commands: list[RecordedCommand]) -> list[Change]:
         """The changes of layouts that commands make together."""
@@ -153,9 +146,38 @@ class AttachmentLayouts(NamedTuple):
     after: Layouts
 
 
-def unreadable_attachments(command: RecordedCommand) -> frozenset[Image]:
-    """The attachments of the pass that a command begins that shaders cannot read during it."""
-    return frozenset(image for image, (layouts, _) in _attached(command).items() if not layouts)
+class CommandLayouts(NamedTuple):
+    """The changes of layouts that a command makes, those at the end of the pass that it begins, and the attachments of this pass that
+    shaders cannot read during it."""
+
+    changes: tuple[Change, ...] = ()
+    at_end: tuple[Change, ...] = ()
+    unreadable: frozenset[Image] = frozenset()
+
+
+def command_layouts(command: RecordedCommand) -> CommandLayouts:
+    """What a command does to layouts."""
+    if command.layouts is None:
+        command.layouts = _layouts_of(command)
+    found: CommandLayouts = command.layouts
+    return found
+
+
+def _layouts_of(command: RecordedCommand) -> CommandLayouts:
+    key: Any = command.key
+    if command.kind == "pipelineBarrier":
+        _, image, (before, layout), is_whole = key
+        if image is None or not image.kinds or layout == "UNDEFINED":
+            return CommandLayouts()
+        return CommandLayouts(((image, readable(layout), is_whole, readable(before)),))
+    attachments = _attached(command)
+    unreadable = frozenset(image for image, (layouts, _) in attachments.items() if not layouts)
+    changes = tuple((image, layouts, image.is_single_level, before) for image, (layouts, before) in attachments.items() if image.kinds)
+    if not changes or not isinstance(key, RenderPassBegin):
+        return CommandLayouts(changes, (), unreadable)
+    ends = zip(key.images, _pass_layouts(key.render_pass), strict=False)
+    at_end = tuple((image, each.after, image.is_single_level, NONE) for image, each in ends if image is not None and image.kinds)
+    return CommandLayouts(changes, at_end, unreadable)
 
 
 def _attached(command: RecordedCommand) -> dict[Image, tuple[Layouts, Layouts]]:

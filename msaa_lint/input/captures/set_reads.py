@@ -7,7 +7,7 @@ from typing import Any
 
 from .call import Call
 from .command_buffers import PASS_BEGINS, CommandCache, DescriptorReads, RecordedCommand, RenderPassBegin
-from .layouts import CHANGING, ImageLayouts, unreadable_attachments
+from .layouts import CHANGING, ImageLayouts, command_layouts
 from .objects import DescriptorSet, Image, ImageKind, ReadableBindings, images_in
 
 BOUNDARIES = (*PASS_BEGINS, "nextSubpass", "endRenderPass", "endRendering")
@@ -84,7 +84,7 @@ class SetReads:
             if command.kind in BOUNDARIES:
                 self._section += 1
                 if command.kind != "nextSubpass":
-                    self._attachments = unreadable_attachments(command) if command.kind in PASS_BEGINS else frozenset()
+                    self._attachments = command_layouts(command).unreadable if command.kind in PASS_BEGINS else frozenset()
             if command.kind in CHANGING:
                 layouts.apply(layouts.changes(command))
             if command.kind in _WRITERS or command.kind in _TRANSFERS:

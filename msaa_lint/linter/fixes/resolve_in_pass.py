@@ -141,7 +141,9 @@ def _color_resolve(drawing: DrawnSamples, name: str, mode: str, final_layout: st
 def _has_other_readers(drawing: DrawnSamples, context: FixContext) -> bool:
     """Whether anything other than the command may read the samples."""
     readers = context.analysis.readers
-    return not readers.timeline.followed or any(event.position != drawing.position for event in readers.reads(drawing.image.key))
+    if not readers.timeline.followed or readers.frame.may_be_read(drawing.image.key):
+        return True
+    return any(event.position != drawing.position for event in readers.reads(drawing.image.key))
 
 
 def _without_reader(drawing: DrawnSamples, read_layout: str, subject: Subject, context: FixContext) -> list[Change]:
