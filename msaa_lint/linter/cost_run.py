@@ -59,6 +59,9 @@ def _frames(workspace: Workspace, path: str, terms: Terms, counts: Sequence[int]
     if result.source is None:
         return []
     workspace.sources[result.file] = result.source
+    left_out = getattr(file.data, "left_out", "")
+    if left_out:
+        notes.append(f"{result.file}: the costs do not include {left_out}")
     documents = _valid_documents(result) if errors else list(result.documents)
     trials = _trials(file, result) if not errors and can_try_fixes(result) else None
     if not can_try_fixes(result):

@@ -18,7 +18,11 @@ if TYPE_CHECKING:
     from msaa_lint.frame.facts.parts import Pass
 
 _DOCUMENT = re.compile(r"documents\[(\d+)\]\.")
+_DIGITS = re.compile(r"\d+")
 _COMMAND = re.compile(r"commands\[(\d+)\]")
+
+MAX_TURNS = 64
+"""Maximum number of defects of alike images of which each may be that of another frame."""
 
 SHARED_SECTIONS = ("images", "renderPasses", "framebuffers", "pipelines")
 """The sections in which documents of a program describe the same object under the same name."""
@@ -67,7 +71,7 @@ def merge(findings: Sequence[Finding], documents: Sequence[DocumentResult]) -> l
                 # What is only resolved to takes turns even within a kind of frame: commands between passes may name any of several.
                 numbers = set()
         same = defects.setdefault(alike, [])
-        group = next((group for group in same if numbers.isdisjoint(number for number, _ in group)), None)
+        group = next((group for group in same[:MAX_TURNS] if numbers.isdisjoint(number for number, _ in group)), None)
         if group is None:
             same.append(found)
         else:
@@ -115,10 +119,13 @@ class _Objects:
         return (*key, finding.images, self._counts[key])
 
     def likeness(self, names: frozenset[str]) -> Hashable:
-        """How the images are created, and for multisampled ones what passes do with them."""
+        """How the images are named, but for numbers, how they are created, and for multisampled ones what passes do with them."""
         images = self._document.description.images
+        many = self.multisampled(names)
         described = [
-            (plain(images[name]), sorted(self._uses.get(name, ()))) for name in self.multisampled(names) or names if name in images
+            (_DIGITS.sub("", name), plain(images[name]), sorted(self._uses.get(name, ())) if many else ())
+            for name in many or names
+            if name in images
         ]
         return tuple(sorted(map(repr, described)))
 

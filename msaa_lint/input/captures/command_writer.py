@@ -74,6 +74,9 @@ class CommandWriter:
             self._note("writeImage", image, "by an earlier frame")
         samples: int | None = None
         for command, number in order:
+            if self.lines.is_full:
+                # The pass that is open stays so.
+                break
             origin = Origin(*command.at, command.by, self.kind.count, self.total)
             if command.kind == "draw":
                 key: Any = command.key

@@ -3,7 +3,7 @@
 `msaa-lint check` checks this text and `msaa-lint convert` prints it, so the two cannot disagree.
 """
 
-from collections.abc import Collection, Hashable, Sequence
+from collections.abc import Collection, Hashable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 from msaa_lint.core.text.source import Origin
@@ -16,6 +16,9 @@ from .names import Names
 from .objects import CapturedObject, Image, Pipeline, RenderPass, freeze, images_in
 from .tracker import Tracker
 from .yaml_text import Lines, scalar
+
+TOO_MUCH = "the description would be too large to be read again; commands and kinds of frame beyond that are not checked"
+"""The limit of a description, as a finding states it."""
 
 MAX_UNUSED = 500
 """Maximum number of objects of a kind that are written although no frame uses them."""
@@ -72,9 +75,16 @@ class _Writer:
         """Writes all documents."""
         kinds = [kind for kind, images in self.images.items() if self.part.passes(kind) or not self.part.images.isdisjoint(images)]
         for number, kind in enumerate(kinds):
+            start = len(self.lines.text)
             if number:
                 self.lines.document()
             self.frame(kind, first=number == 0)
+            if self.lines.is_full:
+                if number:
+                    # Part of a frame would be taken for all of it.
+                    self.lines.cut(start)
+                self.tracker.frames.limits.setdefault(TOO_MUCH, kind.passes[0].at)
+                break
         if not kinds:
             self.structures()
         every = {image for images in self.images.values() for image in images}
@@ -122,8 +132,9 @@ class _Writer:
         if swapchain is None or len(swapchains) > 1 or len(swapchain.images) < 2:
             return images
         result: dict[Image, None] = {}
+        roles = {image: role for role, image in enumerate(kind.images)}
         for image in images:
-            turns = self._turns(kind, image) if image.samples > 1 else ()
+            turns = self._turns(image, kind.rotations.get(roles.get(image, -1))) if image.samples > 1 else ()
             if len(turns) == len(swapchain.images):
                 frames = min(sum(each.frames for each in turns), self.total)
                 self._frames.update(dict.fromkeys(turns, frames))
@@ -131,11 +142,10 @@ class _Writer:
             result[image] = None
         return list(result)
 
-    def _turns(self, kind: FrameKind, image: Image) -> Sequence[Image]:
-        """The images that exist together and have the same role in other frames, or that no frame uses."""
+    def _turns(self, image: Image, rotation: Mapping[Image, None] | None) -> Sequence[Image]:
+        """The images that exist together and have the same role in other frames, as `rotation`, or that no frame uses."""
         together = image.alike.together if image.alike is not None else ()
-        role = kind.images.index(image) if image in kind.images else -1
-        rotation = kind.rotations.get(role, {image: None})
+        rotation = rotation or {image: None}
         if len(rotation) == 1 and image in together:
             return [each for each in together if each is image or not each.frames]
         return [each for each in together if each in rotation] if rotation.keys() <= set(together) else ()

@@ -11,6 +11,12 @@ from msaa_lint.core.text.source import Origin
 WIDTH = 110
 """Maximum line width; longer structures take several lines."""
 
+MAX_NODES = 900_000
+"""Maximum number of nodes of a description: other commands accept 1,000,000."""
+
+MAX_BYTES = 48 << 20
+"""Maximum size of a description: other commands accept 64 MiB."""
+
 _PLAIN = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 _NOT_PLAIN = frozenset(("true", "false", "null", "yes", "no", "on", "off"))
 
@@ -31,12 +37,27 @@ class Lines:
     def __init__(self) -> None:
         self.text: list[str] = []
         self.origins: list[Origin | None] = []
-        self._anchors: set[str] = set()
+        self._size = 0
+        self.nodes = 0
+        """An upper bound of the number of nodes, those of aliases included."""
+        self._anchors: dict[str, int] = {}
+        """The anchors of the document, with the number of nodes of each."""
 
     def line(self, text: str, origin: Origin | None = None) -> None:
         """Adds a line."""
         self.text.append(text)
+        self._size += len(text.encode("utf-8", "replace")) + 1
+        self.nodes += 2 * text.count(":") + text.count(",") + text.count("{") + text.count("[") + 2
         self.origins.append(origin)
+
+    @property
+    def is_full(self) -> bool:
+        """Whether more lines might make the description too large to be read."""
+        return self.nodes > MAX_NODES or self._size > MAX_BYTES
+
+    def cut(self, count: int) -> None:
+        """Leaves the first lines and nothing else. The limits still count the others."""
+        del self.text[count:], self.origins[count:]
 
     def document(self) -> None:
         """Begins another document."""
@@ -62,9 +83,12 @@ class Lines:
         if isinstance(value, Alias):
             if value.name in self._anchors:
                 self.line(f"{head} *{value.name}{_remark(comment)}", origin)
+                self.nodes += self._anchors[value.name]
                 return
-            self._anchors.add(value.name)
-            head, value = f"{head} &{value.name}", value.value
+            before = self.nodes
+            self._put(f"{head} &{value.name}", indent, value.value, origin, comment)
+            self._anchors[value.name] = self.nodes - before
+            return
         if not isinstance(value, (dict, list)) or not value or self._fits(head, value):
             self.line(f"{head} {flow(value)}{_remark(comment)}", origin)
             return

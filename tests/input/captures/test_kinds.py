@@ -7,6 +7,8 @@ from pathlib import Path
 import pytest
 
 from msaa_lint.core.finding import Finding
+from msaa_lint.input.captures import yaml_text
+from msaa_lint.input.captures.description_text import TOO_MUCH
 from tests.command import run
 from tests.input.captures.program import COLOR, SAMPLED, SOURCE, TARGET, Program, attachment, codes, info, lint
 
@@ -214,3 +216,34 @@ def test_what_feeds_a_multisampled_pass_is_described(tmp_path: Path) -> None:
     description = (tmp_path / "frame.yaml").read_text()
     assert "left out" not in description
     assert description.count("beginRendering") == 2
+
+
+def test_a_description_is_not_larger_than_what_is_read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(yaml_text, "MAX_NODES", 400)
+    findings, text = converted(stored(), tmp_path)
+    assert [finding.message for finding in findings if finding.code == "MSAA906"] == [f"limit exceeded: {TOO_MUCH}"]
+    assert (tmp_path / "frame.yaml").read_text().count("share:") == 1
+    assert not any(finding.fatal for finding in text)
+
+
+def test_costs_say_what_they_do_not_include(tmp_path: Path) -> None:
+    (tmp_path / "p.jsonl").write_bytes(interface(5).text())
+    said = run(tmp_path, "cost", "p.jsonl")
+    assert said.returncode == 0
+    assert "p.jsonl: the costs do not include 5 images and 5 passes that multisampled images neither depend on nor lead to" in said.stderr
+
+
+@pytest.mark.parametrize("pair", [("left", "right"), ("scene 0", "scene 1")])
+def test_names_tell_whether_images_of_different_frames_take_turns(pair: tuple[str, str], tmp_path: Path) -> None:
+    """Images with names of their own are two things, those that are numbered are one."""
+    program = Program()
+    shown = [program.view(image) for image in program.swap(2)]
+    views = [program.view(program.image(name=name)) for name in pair]
+    extra = program.view(program.image(samples=1))
+    for frame in range(4):
+        if frame % 2:
+            program.submit(drawn(program, info(views[1], store="STORE", resolve=extra)))
+        program.submit(drawn(program, info(views[frame % 2], store="STORE", resolve=shown[0])))
+        program.present(0)
+    for findings in converted(program, tmp_path):
+        assert codes(findings).count("MSAA201") == (2 if pair[0] == "left" else 1)
