@@ -21,6 +21,7 @@ from .report.data import dump_indented
 from .report.escape import escape
 
 if TYPE_CHECKING:
+    from msaa_lint.frame.facts.subjects import FrameAnalysis
     from msaa_lint.input.shader_modules import ShaderAnalyses
 
 TYPES = {"BOOL": "bool", "INT": "int", "DOUBLE": "double", "STRING": "string", "LIST": "list(string)", "INTS": "list(int)"}
@@ -85,6 +86,7 @@ def _subjects(fact: Fact) -> list[str]:
 
 def print_facts(path: str, output: str, profile: str | None, frame_end: str | None = None) -> int:
     """Prints the facts of every subject of an input; returns 2 if it, or a part of it, cannot be read."""
+    from msaa_lint.frame.facts.program import subjects_of
     from msaa_lint.input import readers
     from msaa_lint.input.shader_modules import ShaderAnalyses
     from msaa_lint.input.source_file import SourceFile
@@ -111,15 +113,18 @@ def print_facts(path: str, output: str, profile: str | None, frame_end: str | No
                 warn(f"{path}: {problem.message}")
             failed = bool(parsed.problems)
             documents = (readers.read(source, root) for root in parsed.documents)
+        frames: list[FrameAnalysis] = []
         for document in documents:
             if isinstance(data, CaptureInput):
                 document = document._replace(modules=data.modules)
             try:
-                rows += _rows(document, source, path, profile, analyses)
+                frames.append(_analysis(document, source, path, profile, analyses))
             except UsageError as error:
                 failed = True
                 for line in error.args:
                     warn(line)
+        for subjects in subjects_of(frames):
+            rows += (_row(subject, source) for subject in subjects)
     if output == "json":
         print(dump_indented(rows))
     else:
@@ -128,9 +133,11 @@ def print_facts(path: str, output: str, profile: str | None, frame_end: str | No
     return 2 if failed else 0
 
 
-def _rows(document: Document, source: Source, path: str, profile: str | None, analyses: ShaderAnalyses) -> list[dict[str, object]]:
-    """The facts of every subject of a document. UsageError, with a line for each problem, if it has mistakes."""
-    from msaa_lint.frame.facts.subjects import subjects
+def _analysis(document: Document, source: Source, path: str, profile: str | None, analyses: ShaderAnalyses) -> FrameAnalysis:
+    """What is known of a document's frame. UsageError, with a line for each problem, if it has mistakes."""
+    from msaa_lint.frame.facts.frame import Frame
+    from msaa_lint.frame.facts.global_facts import profile as profile_of
+    from msaa_lint.frame.facts.subjects import FrameAnalysis
     from msaa_lint.frame.profiles import Problem, device_for, device_of, replace_captured
     from msaa_lint.input.shader_modules import Modules
     from msaa_lint.linter.study_record import studied
@@ -145,7 +152,8 @@ def _rows(document: Document, source: Source, path: str, profile: str | None, an
         if isinstance(device, Problem):
             raise UsageError(f"{path}: {device.message}")
         study = partial(studied, file=path)
-        return [_row(subject, source) for subject in subjects(document, device, study, Modules(document, path, analyses).reflected)]
+        shaders = Modules(document, path, analyses).reflected
+        return FrameAnalysis(Frame(document), profile_of(document.description, device), study, shaders)
 
 
 def _row(subject: Subject, source: Source) -> dict[str, object]:

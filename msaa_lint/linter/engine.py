@@ -20,7 +20,7 @@ from msaa_lint.frame.description.problems import Problem as DocumentProblem
 from msaa_lint.frame.devices import DeviceProfile
 from msaa_lint.frame.profiles import Problem, device_for, replace_captured
 
-from .programs import is_frame_of_program, merge, merged, of_turns
+from .programs import merge, merged, of_turns
 from .results import DocumentResult, FileResult, location_order
 from .rules.budget import Budget
 from .rules.registry import Registry, info, load
@@ -206,7 +206,7 @@ class Engine:
         self, documents: Sequence[Document], file: str, options: LintOptions
     ) -> dict[int, tuple[_Analysis, list[Subject]]]:
         """The analyses and subjects of documents, by number, that are the kinds of frame of one program; none if there is only one."""
-        numbers = [number for number, document in enumerate(documents) if is_frame_of_program(document)]
+        numbers = [number for number, document in enumerate(documents) if document.is_frame_of_program]
         if len(numbers) < 2:
             return {}
         from msaa_lint.frame.facts.program import join

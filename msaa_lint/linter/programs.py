@@ -28,12 +28,6 @@ SHARED_SECTIONS = ("images", "renderPasses", "framebuffers", "pipelines")
 """The sections in which documents of a program describe the same object under the same name."""
 
 
-def is_frame_of_program(document: Document) -> bool:
-    """Whether a document states how often its frame occurs in its program."""
-    frame = document.description.frame
-    return frame is not None and frame.share is not None and not document.problems
-
-
 def merged(result: FileResult) -> FileResult:
     """The result of linting a file, with one finding for each defect of a program whose frames it describes.
 
@@ -49,7 +43,7 @@ def merge(findings: Sequence[Finding], documents: Sequence[DocumentResult]) -> l
     A defect is one if its rule, the member, and the objects are the same. A rendering is the same if its multisampled images are. Images
     are the same, too, if they are created alike, used alike, and no frame has the defect for both: then they take turns.
     """
-    programs = {document.number: _Objects(document.document) for document in documents if is_frame_of_program(document.document)}
+    programs = {document.number: _Objects(document.document) for document in documents if document.document.is_frame_of_program}
     if len(programs) < 2:
         return list(findings)
     groups: dict[Hashable, list[tuple[int, Finding]]] = {}
@@ -81,7 +75,7 @@ def merge(findings: Sequence[Finding], documents: Sequence[DocumentResult]) -> l
 
 def shared_objects(documents: Sequence[DocumentResult]) -> Callable[[Finding], Hashable | None]:
     """A function that returns the rule of a finding and the object that it is about, if documents of a program share such objects."""
-    programs = {document.number for document in documents if is_frame_of_program(document.document)}
+    programs = {document.number for document in documents if document.document.is_frame_of_program}
 
     def shared(finding: Finding) -> Hashable | None:
         number, subject = _parts(finding)
@@ -242,7 +236,7 @@ def contradiction(before: FileResult, after: FileResult) -> str | None:
 
 def _described(result: FileResult) -> dict[tuple[str, str], list[object]]:
     """What the documents of a program say of each object, by section and name."""
-    documents = [document.document for document in result.documents if is_frame_of_program(document.document)]
+    documents = [document.document for document in result.documents if document.document.is_frame_of_program]
     described: dict[tuple[str, str], list[object]] = {}
     for document in documents if len(documents) > 1 else ():
         for section in SHARED_SECTIONS:

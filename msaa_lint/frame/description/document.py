@@ -60,6 +60,12 @@ class Document(NamedTuple):
     """The format that it was read in, as `--input-format` names it; empty for source code."""
 
     @property
+    def is_frame_of_program(self) -> bool:
+        """Whether it states how often its frame occurs in its program, and has no problems."""
+        frame = self.description.frame
+        return frame is not None and frame.share is not None and not self.problems
+
+    @property
     def api(self) -> str:
         """The API whose rules apply: VULKAN or METAL."""
         return "VULKAN" if self.metal is None else self.metal.api

@@ -6,11 +6,19 @@ is said of an image or a render pass then holds for all of these frames: what on
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 from .facts import Facts, Subject
 from .joined_facts import join_facts
 from .subjects import FrameAnalysis
+
+
+def subjects_of(frames: Sequence[FrameAnalysis]) -> Iterator[Iterable[Subject]]:
+    """The subjects of the frames of a file, frame by frame."""
+    program = [frame for frame in frames if frame.frame.document.is_frame_of_program]
+    joined = dict(zip(map(id, program), join(program), strict=True)) if len(program) > 1 else {}
+    for frame in frames:
+        yield joined.pop(id(frame)) if id(frame) in joined else frame.subjects()
 
 
 def join(frames: Sequence[FrameAnalysis]) -> list[list[Subject]]:

@@ -61,7 +61,11 @@ class _Writer:
         kinds = sorted(tracker.frames.kinds.values(), key=lambda kind: (-kind.count, kind.number))
         self.images = {kind: _images(kind) for kind in kinds}
         used_keys = {image_key(image) for images in self.images.values() for image in images}
-        unused = [alike.first for alike in tracker.multisampled.values() if image_key(alike.first) not in used_keys]
+        # What frames that are not described use is unknown.
+        idle = (
+            alike for alike in tracker.multisampled.values() if not alike.first.frames and not any(each.frames for each in alike.together)
+        )
+        unused = [alike.first for alike in idle if image_key(alike.first) not in used_keys]
         self.unused_images = unused[:MAX_UNUSED]
         distinct = [each for each in tracker.distinct.values() if not each.frames and is_multisampled(each)]
         self.unused_passes = [each for each in distinct if isinstance(each, RenderPass)][:MAX_UNUSED]
