@@ -68,7 +68,7 @@ PROGRAMS = {
     # The swapchain has three images, each with a multisampled one of its own; the layer's is not transient.
     "qt-quick": Program(Scene("qt_quick.py", None, (("PySide6", "PySide6"),), window=True), 7, {"MSAA205": 1, "MSAA401": 1, "MSAA406": 1}),
     # OpenGL resolves when the window is shown, by a command, and stores depth, which nothing reads. In the first frame, zink fills the
-    # window by a pass before the program clears it: MSAA201. The last of the frames is not presented.
+    # window by a pass before the program clears it: MSAA201.
     "panda3d": Program(_zink("panda3d_card.py", "panda3d", "panda3d"), 6, {"MSAA201": 1, "MSAA203": 1, "MSAA301": 1, "MSAA401": 1}),
     # One frame of six loads what it drew before, so depth has to be in memory.
     "pyglet": Program(
