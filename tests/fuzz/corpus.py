@@ -17,6 +17,20 @@ import yaml
 from tests.frame.devices import reported
 from tests.input.captures.program import Program
 from tests.input.captures.test_hostile import CALLS
+from tests.input.captures.test_reads import (
+    COMPUTE,
+    FRAGMENT,
+    READ_ONLY,
+    SAMPLER_TYPE,
+    SHADER,
+    pipeline,
+    pipeline_layout,
+    scene,
+    set_layout,
+    shape_of_data,
+    template,
+    unknown_set,
+)  # fmt: skip
 from tests.input.compressed import COMPRESS
 from tests.input.readers import dialects
 from tests.input.readers.dialects_binary import fossilize, renderdoc
@@ -89,7 +103,22 @@ def gfxreconstruct() -> Iterator[bytes]:
     yield from (dialects.lined(lines(CALLS)) for lines in (dialects.old_lines, dialects.new_lines))
     yield dialects.lined(dialects.new_lines(CALLS, expand=True))
     yield dialects.new_array(CALLS[:60])
+    yield unknown_reads().text()
     yield from samples("captures/gfxr*")
+
+
+def unknown_reads() -> Program:
+    """Draws with sets that templates write, and a pipeline whose layout is known."""
+    program = Program()
+    made = template(program, (0, SAMPLER_TYPE, 2))
+    layout = pipeline_layout(program, set_layout(program, (0, SAMPLER_TYPE, 1, FRAGMENT), (1, SAMPLER_TYPE, 4, COMPUTE)))
+
+    def bind(program: Program, buffer: int, view: int) -> None:
+        unknown_set(program, buffer, view)
+        pushed = {"descriptorUpdateTemplate": made, "layout": layout, "set": 0, "pData": shape_of_data([READ_ONLY, SHADER])}
+        program.call("vkCmdPushDescriptorSetWithTemplateKHR", commandBuffer=buffer, **pushed)
+
+    return scene(bind, pipeline=pipeline(program, layout), program=program)
 
 
 def compressed() -> Iterator[bytes]:
