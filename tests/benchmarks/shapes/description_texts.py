@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from .descriptions import BEGINS, FRAME, IMAGES, PAIR, PASSES, TEXTURES, documents, many, names
+from .descriptions import BEGINS, FRAME, IMAGES, PAIR, PASSES, TEXTURES, documents, many, names, program
 from .shape import Shape, text
 
 DRAWN = ("images:", "  ms@: {format: R8G8B8A8_UNORM, samples: 4, usage: [COLOR_ATTACHMENT]}")
@@ -233,6 +233,7 @@ REPORTED = (
         "--unsafe-fixes",
     ),
     outputs("fixes that fail", many(*IMAGES, *PASSES, "commands:", BEGINS), "--diff", "--unsafe-fixes"),
+    outputs("fixes of kinds of frame", program(*DRAWN, *PASSES), "--diff"),
     outputs("fixes of documents", documents(*DRAWN, *PASSES), "--diff"),
     outputs(
         "unsafe fixes of documents",

@@ -102,6 +102,22 @@ def documents(*parts: str) -> Callable[[int], str]:
     return lambda count: "---\n".join([many(*parts)(1)] * count)
 
 
+def program(*parts: str) -> Callable[[int], str]:
+    """A stream of the kinds of frame of a program, which have the same objects; their number grows with the objects."""
+
+    def stream(count: int) -> str:
+        side = max(int(count**0.5), 1)
+        return "---\n".join([many(*parts)(side).replace("frame: {", "frame: {share: 0.001, ", 1)] * side)
+
+    return stream
+
+
+def alike(count: int) -> str:
+    """Two kinds of frame with many images that are alike, each in one of them."""
+    first, second = (many(*IMAGES, *PASSES)(count).replace("frame: {", "frame: {share: 0.5, ", 1) for _ in range(2))
+    return f"{first}---\n{second.replace('ms', 'ms9').replace('  pass', '  other')}"
+
+
 LISTS = (
     Shape("images", text("a.msaa.yaml", images)),
     described(
@@ -257,6 +273,8 @@ LISTS = (
         "    - {tests: 8, gives: 4}  # @",
     ),
     Shape("documents", text("a.msaa.yaml", documents(*PAIR, *PASS))),
+    Shape("kinds of frame", text("a.msaa.yaml", program(*IMAGES, *PASSES))),
+    Shape("alike images of kinds of frame", text("a.msaa.yaml", alike)),
     described(
         "render targets",
         "device: adreno-740\nrenderTargets:",
