@@ -37,6 +37,9 @@ VENDORS = {"": "all", "ARM": "Arm", "IMG": "IMG", "AMD": "AMD", "NVIDIA": "NVIDI
 PROFILE = "mali-g76"
 """The device for the rules. The captures are from lavapipe, which is not tile-based; the layer's vendor checks ignore the device."""
 
+BEGIN, END = "<!-- programs: made by docs/programs_replayed.py -->", "<!-- end of programs -->"
+"""The section of real programs on the page."""
+
 UNRELATED = ("DevLimit-MissingQueryCount", "vkCreateSampler-lod-clamping")
 """Messages unrelated to multisampling, in addition to those of `confirm.noise`."""
 
@@ -129,13 +132,12 @@ def replay(capture: Path) -> list[str]:
     return ["gfxrecon-replay", "--log-level", "error", str(capture)]
 
 
-def messages(capture: Path, vendor: str) -> Counter[str] | None:
-    """The ids of the layer's messages about multisampling, with counts. None if the replay crashes."""
+def messages(capture: Path, vendor: str, command: Sequence[str] = ()) -> Counter[str] | None:
+    """The ids of the layer's messages about multisampling, with counts. None if the replay, by `command` if stated, crashes."""
     log = capture.parent / "log.txt"
     log.unlink(missing_ok=True)
-    process = subprocess.run(
-        replay(capture), cwd=capture.parent, env=layer_environment(capture.parent, [vendor]), capture_output=True, check=False
-    )
+    environment = layer_environment(capture.parent, [vendor])
+    process = subprocess.run(command or replay(capture), cwd=capture.parent, env=environment, capture_output=True, check=False)
     if process.returncode:
         return None
     counts: Counter[str] = Counter()
@@ -289,6 +291,7 @@ def page(folder: Path) -> str:
         crashed=", ".join(sorted(crashed)) or "none",
         answers=table(("message", "checks", "count", "mistakes", "rules"), answers(together, captures)),
         findings=sum(map(len, together.findings.values())),
+        programs=BEGIN + PAGE.read_text(encoding="utf-8").split(BEGIN)[1].split(END)[0] + END,
         times=time_table(folder),
     )
 
@@ -326,6 +329,10 @@ The layer does not report {silent}. The rules miss {missed}.
 
 The layer's messages contain handles and attachment indices, and are repeated for every frame and every framebuffer. A finding contains the
 debug name of the pass, pipeline or image, the call, the line, and the number of frames.
+
+## Real programs
+
+{programs}
 
 ## Limitations
 

@@ -213,7 +213,8 @@ NOISE = (
     Noise(("MinimizeNumDynamicStates", "CreatePipelinesLayout-KeepLayoutSmall", "CreatePipelineLayout"), _CALLS),
     Noise(("SpirvDeprecated_WorkgroupSize",), "it is about a built-in shader of confirm"),
     Noise(("redundant-attachment-on-tile", "depth-pre-pass-usage", "Zcull-LessGreaterRatio"), _SCENE),
-    Noise(("small-indexed-drawcalls", "SwitchTessGeometryMesh", "Shader-OutputNotConsumed"), _SCENE),
+    Noise(("small-indexed-drawcalls", "SwitchTessGeometryMesh"), _SCENE),
+    Noise(("Shader-OutputNotConsumed", "Shader-InputNotProduced"), _SCENE),
     Noise(("ClearColor-NotCompressed", "ClearAttachment-FastClearValues", "ClearValueCountHigherThanAttachmentCount"), _VALUES),
     Noise(("CreateImage-Depth32Format", "depthbias-zero", "DepthBiasNoAttachment", "AvoidPrimitiveRestart"), _OTHER),
 )
