@@ -124,7 +124,7 @@ class CommandTracker(BoundSets):
                 buffer.omitted = buffer.omitted or secondary.omitted
                 if secondary.commands:
                     buffer.executes = True
-                    buffer.labels.execute(secondary.labels)
+                    buffer.labels.execute(secondary.labels, pass_is_empty=not buffer.subpass_commands)
                     buffer.record(Execution(secondary.commands, len(secondary.commands)))
         # vkCmdExecuteCommands makes all bound state undefined.
         buffer.pipeline = None

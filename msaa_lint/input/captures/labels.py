@@ -46,7 +46,7 @@ class BufferLabels:
     for that pass, unless another one follows beside it.
     """
 
-    __slots__ = ("_deeper", "_depth", "_in_pass", "_inserted", "_outer", "ended", "is_complete", "open", "passes")
+    __slots__ = ("_deeper", "_depth", "_in_pass", "_inserted", "_lead", "_outer", "ended", "is_complete", "open", "passes")
 
     def __init__(self) -> None:
         self.ended = 0
@@ -58,6 +58,8 @@ class BufferLabels:
         """Whether `passes` has an entry for each pass."""
         self._inserted = ""
         self._in_pass = False
+        self._lead: str | None = None
+        """The label that the command buffer begins with; empty if it has none, None before the first label."""
         self._depth = -1
         """The number of open labels when a label that counts for the current pass began; -1 before the first label in the pass."""
         self._outer = NO_LABELS
@@ -66,20 +68,29 @@ class BufferLabels:
     def begin(self, text: str, pass_is_empty: bool) -> None:
         """Opens a label. `pass_is_empty`: the current pass has no draw so far."""
         depth = len(self.open) + self._deeper
-        if self._in_pass and self.passes:
-            if self._depth < 0:
-                self._depth = depth if pass_is_empty else MAX_DEPTH
-                if pass_is_empty:
-                    self._outer = self.passes[-1]
-                    self.passes[-1] = (self._outer[0], (*self._outer[1], text))
-            elif self._depth == depth:
-                self.passes[-1] = self._outer
-                self._depth = MAX_DEPTH
+        if self._in_pass:
+            self._begin_in_pass(text, depth, pass_is_empty)
+        elif not depth and not self.passes:
+            is_lead = pass_is_empty if self._lead is None else text == self._lead
+            self._lead = text if is_lead else ""
         self._inserted = ""
         if depth < MAX_DEPTH:
             self.open.append(text)
         else:
             self._deeper += 1
+
+    def _begin_in_pass(self, text: str, depth: int, pass_is_empty: bool) -> None:
+        """Counts a label for the current pass if it is the first or, beside that, the same again."""
+        if not self.passes:
+            return
+        if self._depth < 0:
+            self._depth = depth if pass_is_empty and text else MAX_DEPTH
+            if self._depth == depth:
+                self._outer = self.passes[-1]
+                self.passes[-1] = (self._outer[0], (*self._outer[1], text))
+        elif self._depth == depth and self.passes[-1][1][-1:] != (text,):
+            self.passes[-1] = self._outer
+            self._depth = MAX_DEPTH
 
     def end(self) -> None:
         """Closes a label, of this command buffer or of an earlier one."""
@@ -108,8 +119,10 @@ class BufferLabels:
         self._inserted = ""
         self._add((path,))
 
-    def execute(self, executed: BufferLabels) -> None:
-        """Adds the passes of a secondary command buffer."""
+    def execute(self, executed: BufferLabels, pass_is_empty: bool) -> None:
+        """Adds the passes of a secondary command buffer, or the label that it begins with, if it continues the current pass."""
+        if self._in_pass:
+            self._begin_in_pass(executed._lead or "", len(self.open) + self._deeper, pass_is_empty)
         self.is_complete = self.is_complete and executed.is_complete
         self._add(
             [(self.ended + max(ended - len(self.open), 0), inner_path(self.open, ended, path)) for ended, path in executed.passes]

@@ -76,6 +76,7 @@ PLACES = {
     "( !inner . )": [None],
     "> > <a > ( . ) >": [None],
     "<a ( . > ) ( . )": ["a", None],
+    "( <a . > <a . > )": ["a"],
 }
 
 
@@ -118,6 +119,21 @@ def test_renderings_of_a_secondary_command_buffer_are_within_the_labels_that_exe
     program.call("vkCmdExecuteCommands", commandBuffer=primary, pCommandBuffers=[secondary])
     program.submit(primary)
     assert labels(program) == ["outer / inner"]
+
+
+@pytest.mark.parametrize(("texts", "label"), [(["a"], "a"), (["a", "a"], "a"), (["a", "b"], None), (["", "a"], None)])
+def test_a_pass_has_the_label_that_all_secondary_command_buffers_in_it_begin_with(texts: list[str], label: str | None) -> None:
+    program = Labeled()
+    begun = target(program)
+    primary = program.buffer()
+    secondaries = [program.buffer(secondary=True) for _ in texts]
+    for secondary, text in zip(secondaries, texts, strict=True):
+        run_steps(program, f"<{text} . >" if text else ".", secondary, begun)
+    program.begin(primary, *begun)
+    program.call("vkCmdExecuteCommands", commandBuffer=primary, pCommandBuffers=secondaries)
+    program.end(primary)
+    program.submit(primary)
+    assert labels(program) == [label]
 
 
 def test_a_render_pass_is_named_by_its_labels_if_they_are_always_the_same() -> None:
