@@ -15,7 +15,7 @@ BLOCK = 1 << 13
 STEP = 1 << 14
 """Bytes decompressed at a time: what is lost before invalid data."""
 
-MAX_BYTES = 4 << 30
+MAX_BYTES = 2 << 30
 MAX_RATIO = 256
 """A capture may decompress to MAX_BYTES, and MAX_RATIO times its size more: 1 MB of zeros could decompress for hours."""
 
