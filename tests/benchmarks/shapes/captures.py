@@ -10,6 +10,7 @@ from tests.input.captures.program import COLOR, SAMPLED, Program, attachment, in
 from tests.input.readers.dialects import api_dump, new_array
 from tests.input.readers.dialects_binary import fossilize, renderdoc
 
+from . import capture_frames
 from .capture_commands import (
     Target,
     dispatches_of_sets,
@@ -274,6 +275,37 @@ def chained(program: Program, count: int) -> None:
     frames(program, 1)
 
 
+def layers_as_frames(program: Program, count: int) -> None:
+    """Submissions without presents, each to other layers of an image: one frame, and each again: another one."""
+    target = Target(program)
+    for _ in range(2):
+        for layer in range(count):
+            view = program.view(target.image)
+            program.calls[-1][1]["pCreateInfo"]["subresourceRange"]["baseArrayLayer"] = layer
+            buffer = program.buffer()
+            program.begin(buffer, target.render_pass, program.framebuffer(target.render_pass, [view]))
+            program.end(buffer)
+            program.submit(buffer)
+
+
+def labeled_frames(program: Program, count: int) -> None:
+    """Frames that end with a label in a single command buffer, among many other labels."""
+    target = Target(program)
+    buffer = program.buffer()
+    for number in range(count):
+        for text in ("Frame", f"Pass {number}"):
+            program.call("vkCmdBeginDebugUtilsLabelEXT", commandBuffer=buffer, pLabelInfo={"pLabelName": text})
+        pass_of(program, target, buffer)
+        for _ in range(2):
+            program.call("vkCmdEndDebugUtilsLabelEXT", commandBuffer=buffer)
+    program.submit(buffer)
+
+
+def never_alike(folder: Path, size: int) -> None:
+    """Frames of which no two are alike, about 6 kB each."""
+    (folder / "a.jsonl").write_bytes(b"".join(capture_frames.text(6000 * size)))
+
+
 PROGRAMS: dict[str, Callable[[Program, int], None]] = {
     "frames": frames,
     "frames on new images": new_images,
@@ -301,6 +333,7 @@ PROGRAMS: dict[str, Callable[[Program, int], None]] = {
     "queries": queries,
     "unknown calls": unknown_calls,
     "imageless framebuffer": imageless,
+    "submissions to layers as frames": layers_as_frames,
 }
 
 LIMITED: dict[str, Callable[[Program, int], None]] = {
@@ -316,6 +349,8 @@ LIMITED: dict[str, Callable[[Program, int], None]] = {
 SHAPES = (
     *(shape(name, build) for name, build in PROGRAMS.items()),
     *(shape(name, build, codes=(0, 1, 2)) for name, build in LIMITED.items()),
+    Shape("capture: frames of which no two are alike", never_alike, ("check", "--isolated", "a.jsonl")),
+    shape("labeled frames", labeled_frames)._replace(arguments=("check", "--isolated", "--frame-end=label:Frame", "a.jsonl")),
     *(shape(f"frames, {form}", frames, form) for form in ("array", "api_dump", "renderdoc")),
     *(shape(f"objects, {form}", unused, form) for form in ("api_dump", "renderdoc", "fossilize")),
     *(shape(f"sets, {form}", passes_of_sets, form) for form in ("api_dump", "renderdoc")),
