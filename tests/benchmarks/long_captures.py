@@ -1,8 +1,7 @@
-"""Long captures of programs that do not exist, as gfxrecon-convert 0.9 and 1.x and RenderDoc write them, in blocks of text.
+"""Long captures of programs that do not exist, in blocks of text without end, as gfxrecon-convert 0.9 and 1.x write them.
 
-`repeating`: every frame has the lines of the first. `changing`: no two frames are alike, and hardly a line recurs: attachments, command
-buffers and sets are made anew, and draws differ in number, pipelines and arguments. `game`: 1,000 draws with dynamic state, and descriptors
-by template in sets that are allocated anew.
+`changing`: no two frames are alike, and hardly a line recurs: attachments and command buffers are made anew, and draws differ in number,
+pipelines and arguments. `game`: 1,000 draws a frame with dynamic state, and descriptors by template in sets that are allocated anew.
 """
 
 from __future__ import annotations
@@ -28,11 +27,7 @@ VIEW = (
     '"format":"%s","components":{"r":"VK_COMPONENT_SWIZZLE_R","g":"VK_COMPONENT_SWIZZLE_G","b":"VK_COMPONENT_SWIZZLE_B",'
     '"a":"VK_COMPONENT_SWIZZLE_A"},"subresourceRange":{"aspectMask":%d,"baseMipLevel":0,"levelCount":1,"baseArrayLayer":0,"layerCount":1}}'
 )
-WRITE = (
-    '{"sType":"VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET","pNext":null,"dstSet":%s,"dstBinding":0,"dstArrayElement":0,'
-    '"descriptorCount":1,"descriptorType":"VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER","pImageInfo":[{"sampler":9,"imageView":%d,'
-    '"imageLayout":"VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL"}],"pBufferInfo":null,"pTexelBufferView":null}'
-)
+IMAGE_INFO = '{"sampler":10,"imageView":%d,"imageLayout":"VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL"}'
 BARRIER = (
     '{"sType":"VK_STRUCTURE_TYPE_DEPENDENCY_INFO","pNext":null,"dependencyFlags":0,"memoryBarrierCount":1,"pMemoryBarriers":[{'
     '"sType":"VK_STRUCTURE_TYPE_MEMORY_BARRIER_2","pNext":null,"srcStageMask":"VK_PIPELINE_STAGE_2_VERTEX_INPUT_BIT",'
@@ -63,6 +58,10 @@ class Scene:
         images = [program.image(RGBA8, 4, COLOR | TRANSIENT), program.image(D32, 4, DEPTH | TRANSIENT)]
         views = [program.view(image) for image in images]
         self.framebuffers = [program.framebuffer(self.render_pass, [*views, view]) for view in self.swapchain_views]
+        entry = {"dstBinding": 0, "dstArrayElement": 0, "descriptorCount": 1, "offset": 0, "stride": 24}
+        entry["descriptorType"] = "VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER"
+        template = {"descriptorUpdateEntryCount": 1, "pDescriptorUpdateEntries": [entry], "templateType": 0, "descriptorSetLayout": 11}
+        program.call("vkCreateDescriptorUpdateTemplate", device=2, pCreateInfo=template, pAllocator=None, pDescriptorUpdateTemplate=9)
         self.program = program
         self.next = itertools.count(10_000).__next__
 
@@ -186,7 +185,7 @@ def _game_frame(scene: Scene, number: int) -> list[tuple[str, str]]:
             handles = ",".join(str(descriptors + each) for each in range(25))
             call("vkAllocateDescriptorSets", f'"device":2,"pAllocateInfo":{{"descriptorPool":4}},"pDescriptorSets":[{handles}]')
         texture = scene.textures[(number + draw * 7) % TEXTURES]
-        data = WRITE % ("0", texture)
+        data = f'{{"imageInfos":[{IMAGE_INFO % texture}]}}'
         call("vkUpdateDescriptorSetWithTemplate", f'"device":2,"descriptorSet":{descriptors},"descriptorUpdateTemplate":9,"pData":{data}')
         bound = f'"firstSet":0,"descriptorSetCount":1,"pDescriptorSets":[{descriptors}],"dynamicOffsetCount":0,"pDynamicOffsets":null'
         call("vkCmdBindDescriptorSets", f'"commandBuffer":{buffer},{GRAPHICS},"layout":8,{bound}')

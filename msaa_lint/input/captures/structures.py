@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cache
 from typing import Any
 
 from msaa_lint.frame.description.dumps import DECISIVE, OTHER_NAMES, PNEXT, WITHIN
@@ -25,29 +26,25 @@ def to_tree(kind: type[Record], structure: object, depth: int = 0) -> Tree:
     """A structure in the form of a description, including its pNext chain. Unknown and empty members are omitted."""
     tree: Tree = {}
     members = values.record(structure)
-    for member, shape in kind.SHAPE.items():
-        given_value = _member(members, member)
-        if given_value is not None:
-            value = _value(shape, given_value, depth)
-            if value is not None and not (value in ([], ()) and getattr(kind, member) is not None):
-                tree[member] = value
+    for member, shape, names in _members(kind):
+        for name in names:
+            if name in members:
+                given_value = members[name]
+                value = _value(shape, given_value, depth) if given_value is not None else None
+                if value is not None and not (value in ([], ()) and getattr(kind, member) is not None):
+                    tree[member] = value
+                break
     if members.get("pNext") and depth <= MAX_DEPTH:
         for chained in values.chain(members.get("pNext")):
             _add_chained(kind, tree, chained, depth)
     return tree
 
 
-def _member(members: dict[str, Any], member: str) -> object:
-    """A member by its description name or its C name."""
-    if member in members:
-        return members[member]
-    pointer = "p" + member[0].upper() + member[1:]
-    if pointer in members:
-        return members[pointer]
-    for other, name in OTHER_NAMES.items():
-        if name == member and other in members:
-            return members[other]
-    return None
+@cache
+def _members(kind: type[Record]) -> tuple[tuple[str, Shape, tuple[str, ...]], ...]:
+    """The members of a structure by their description names, each with its shape and the names that it may have in a call."""
+    others = {member: [other for other, name in OTHER_NAMES.items() if name == member] for member in kind.SHAPE}
+    return tuple((member, shape, (member, f"p{member[0].upper()}{member[1:]}", *others[member])) for member, shape in kind.SHAPE.items())
 
 
 def _add_chained(kind: type[Record], tree: Tree, structure: dict[str, Any], depth: int) -> None:
