@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import cache
 from typing import Any
 
 from msaa_lint.frame.description.dumps import DECISIVE, OTHER_NAMES, PNEXT, WITHIN
@@ -15,6 +14,9 @@ from . import values
 
 Tree = dict[str, Any]
 """A structure of a description as plain data: mappings, lists, strings, numbers, booleans and None."""
+
+Members = list[tuple[str, Shape, tuple[str, ...]]]
+"""Members by their description names, each with its shape and the names that it may have in a call."""
 
 MAX_ITEMS = 4096
 """Maximum number of array elements; real arrays in these structures have a few dozen."""
@@ -40,11 +42,19 @@ def to_tree(kind: type[Record], structure: object, depth: int = 0) -> Tree:
     return tree
 
 
-@cache
-def _members(kind: type[Record]) -> tuple[tuple[str, Shape, tuple[str, ...]], ...]:
-    """The members of a structure by their description names, each with its shape and the names that it may have in a call."""
+_MEMBERS: dict[type[Record], Members] = {}
+
+
+def _members(kind: type[Record]) -> Members:
+    """The members of a structure."""
+    known = _MEMBERS.get(kind)
+    if known is not None:
+        return known
     others = {member: [other for other, name in OTHER_NAMES.items() if name == member] for member in kind.SHAPE}
-    return tuple((member, shape, (member, f"p{member[0].upper()}{member[1:]}", *others[member])) for member, shape in kind.SHAPE.items())
+    _MEMBERS[kind] = [
+        (member, shape, (member, f"p{member[0].upper()}{member[1:]}", *others[member])) for member, shape in kind.SHAPE.items()
+    ]
+    return _MEMBERS[kind]
 
 
 def _add_chained(kind: type[Record], tree: Tree, structure: dict[str, Any], depth: int) -> None:
