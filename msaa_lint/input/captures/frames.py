@@ -26,7 +26,7 @@ from .frame_kinds import (
     segments_of,
     shape_of,
 )
-from .labels import BufferLabels, FrameLabels, Path
+from .labels import MAX_PASSES, BufferLabels, FrameLabels, Path
 from .layouts import ImageLayouts
 from .objects import Image
 from .set_reads import SetReads
@@ -216,7 +216,7 @@ class Frames:
             return
         count = len(submission.begins)
         is_labeled = labels is not None and labels.is_complete and len(labels.passes) == count
-        paths = labels.paths(outer) if labels is not None and is_labeled else [()] * count
+        paths = labels.paths(outer) if labels is not None and is_labeled else [()] * min(count, MAX_PASSES)
         first = 0
         for part, mark in parts_of(submission) if self.frame_label is not None else ((submission, ""),):
             self._current.append(part)

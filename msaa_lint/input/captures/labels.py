@@ -14,8 +14,8 @@ MAX_PATH = 120
 MAX_DEPTH = 16
 """Maximum number of labels that are open at a time; inner ones are not followed."""
 
-MAX_PASSES = 4096
-"""Maximum number of passes of a command buffer whose labels are followed."""
+MAX_PASSES = 1024
+"""Maximum number of passes of a command buffer whose labels are followed: a command buffer may be submitted again and again."""
 
 MAX_VARYING = 1024
 """Maximum number of labels that are known to change from frame to frame."""
@@ -158,14 +158,21 @@ class FrameLabels:
     def observe(self, labels: list[Path], before: list[Path]) -> None:
         """Compares the labels of a frame's passes with those of an earlier frame of its kind, and the first one with the last frame's."""
         if labels != before:
-            for path, path_before in zip(labels, before, strict=False):
-                self._compare(path, path_before)
+            # Many passes share their outer labels.
+            different = {
+                (depth, *texts)
+                for paths in zip(labels, before, strict=False)
+                if paths[0] != paths[1]
+                for depth, texts in enumerate(zip(*paths, strict=False))
+            }
+            self._compare(different)
         if self._last and labels and self._last[0][:1] != labels[0][:1]:
-            self._compare(labels[0][:1], self._last[0][:1])
+            self._compare((0, *texts) for texts in zip(labels[0][:1], self._last[0][:1], strict=False))
         self._last = labels
 
-    def _compare(self, path: Path, before: Path) -> None:
-        for depth, (text, text_before) in enumerate(zip(path, before, strict=False)):
+    def _compare(self, different: Iterable[tuple[int, str, str]]) -> None:
+        """Compares labels with those at the same depth of the same pass of another frame."""
+        for depth, text, text_before in different:
             if text != text_before and len(self._varying) < MAX_VARYING:
                 pattern = _NUMBER.sub("#", text)
                 if pattern == _NUMBER.sub("#", text_before):

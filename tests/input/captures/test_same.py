@@ -76,6 +76,26 @@ def test_every_tool_s_capture_of_a_program_has_the_same_findings(name: str) -> N
         assert said(lint(write(program.calls))) == expected, dialect
 
 
+def test_every_tool_s_capture_has_the_labels_and_the_names() -> None:
+    program = Program()
+    program.swap(1)
+    render_pass = program.render_pass([attachment(store="STORE")])
+    view = program.view(program.image())
+    framebuffer = program.framebuffer(render_pass, [view])
+    program.name("VK_OBJECT_TYPE_IMAGE_VIEW", view, "scene color")
+    buffer = program.buffer()
+    program.call("vkCmdBeginDebugUtilsLabelEXT", commandBuffer=buffer, pLabelInfo={"pLabelName": "Frame"})
+    program.call("vkCmdDebugMarkerBeginEXT", commandBuffer=buffer, pMarkerInfo={"pMarkerName": "Main"})
+    program.begin(buffer, render_pass, framebuffer)
+    program.end(buffer)
+    program.call("vkQueueBeginDebugUtilsLabelEXT", queue=3, pLabelInfo={"pLabelName": "Game"})
+    program.call("vkQueueSubmit", queue=3, submitCount=1, pSubmits=[{"pCommandBuffers": [buffer]}], fence=0)
+    program.present()
+    for dialect, write in DIALECTS.items():
+        (found,) = (each for each in lint(write(program.calls)) if each.code == "MSAA201")
+        assert found.message.startswith("in `Game / Frame / Main`, `scene color (attachment 0)` stores"), dialect
+
+
 def test_fossilize_has_what_does_not_need_images() -> None:
     program = dynamic()
     found = {each.code for each in lint(dialects_binary.fossilize(program.calls))}
