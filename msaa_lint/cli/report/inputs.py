@@ -61,8 +61,11 @@ def _of_format(format: str, inputs: Sequence[InputSummary]) -> str:
 
 
 def captured(result: Result, options: Options) -> list[str]:
-    """A line for each capture: the program, the device, the frames, and the passes; and what of it was left out."""
-    inputs = [each for each in result.inputs if each.capture is not None]
+    """A line for each capture: the program, the device, the frames, and the passes; and what of it was left out.
+
+    None for a capture of which nothing was read: its error says why.
+    """
+    inputs = [each for each in result.inputs if each.capture and (each.capture.frames or each.capture.passes or not each.failed)]
     lines = [_capture_line(each, options) for each in inputs[: options.max_unread]]
     return [*lines, *([f"{plural(len(inputs) - len(lines), 'more capture')}"] if len(inputs) > len(lines) else [])]
 
