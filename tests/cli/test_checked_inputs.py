@@ -126,9 +126,16 @@ def test_a_document_with_errors_beside_a_good_one_is_not_counted(tmp_path: Path)
 
 def test_an_input_that_cannot_be_opened_is_counted_as_unreadable(tmp_path: Path) -> None:
     (tmp_path / "a.msaa.yaml").write_text(PASS)
-    (tmp_path / "b.rdc").write_bytes(b"RDOC" + bytes(600))
-    done = run(tmp_path, "check", "--isolated", "a.msaa.yaml", "b.rdc")
+    (tmp_path / "b.txt").write_text("VULKANINFO\n==========\n")
+    done = run(tmp_path, "check", "--isolated", "a.msaa.yaml", "b.txt")
     assert " (1 description: 1 image, 1 pass; 1 unreadable file)" in done.stdout
+
+
+def test_a_capture_that_cannot_be_read_is_not_summarized(tmp_path: Path) -> None:
+    (tmp_path / "b.jsonl").write_text('{"index":1,"function":{"name":"vkCmdDraw","args":{}}}\n{"index": nonsense}\n')
+    done = run(tmp_path, "check", "--isolated", "b.jsonl")
+    assert done.returncode == 2
+    assert "the capture ends here" in done.stdout and "frames" not in done.stdout
 
 
 def test_renderings_are_passes_and_an_empty_description_has_nothing_to_check(tmp_path: Path) -> None:
