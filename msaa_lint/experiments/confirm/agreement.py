@@ -44,16 +44,18 @@ def agreement(
     layer: LayerScope,
     undecided: Sequence[Undecided] = (),
     device: DeviceProfile | None = None,
+    facts: Sequence[Subject] | None = None,
 ) -> dict[int, list[AgreementRow]]:
     """The rows of each pass.
 
     `passes` are those that ran: their numbers and names. `findings` are all of the frame's, suppressed ones included; `undecided` are the
-    rules that could not be decided; `device` is the profile that they were checked against. A message about no pass in particular goes to
+    rules that could not be decided; `device` is the profile that they were checked against; `facts` are the frame's subjects, by default
+    those of this frame alone. A message about no pass in particular goes to
     the first pass whose findings or facts account for it.
     """
     if not passes:
         return {}
-    matcher = _Matcher(frame, passes, _Scope(findings, undecided, list(subjects(frame.document, device))))
+    matcher = _Matcher(frame, passes, _Scope(findings, undecided, facts if facts is not None else list(subjects(frame.document, device))))
     rows: dict[int, list[AgreementRow]] = {number: [] for number in passes}
     reported: set[Finding] = set()
     for message in _unique(messages):
@@ -88,7 +90,7 @@ class _Matcher:
     def __init__(self, frame: Frame, passes: Mapping[int, str], frame_scope: _Scope) -> None:
         self.frame_scope = frame_scope
         self.by_pass: dict[int, _Scope] = {}
-        self._scopes = MessageScopes(frame)
+        self._scopes = MessageScopes(frame, frame_scope.subjects)
         by_name = {described.name: described for described in frame.passes}
         self._passes = {number: by_name[name] for number, name in passes.items() if name in by_name}
         for number in passes:

@@ -111,6 +111,12 @@ EXPLANATIONS = (
         'device.known && device.vendor != "amd"',
         "the described device is another vendor's",
     ),
+    Explanation(
+        "amd-render-targets",
+        "image",
+        "image.samples == 1 && !image.resolved",
+        "a single-sampled image to which nothing is resolved is outside the scope of multisampling rules",
+    ),
     Explanation("amd-render-targets", "image", "!image.is_render_target", "nothing renders to the image", wrong=True),
     Explanation(
         "nvidia-linear-tiling",

@@ -10,9 +10,12 @@ from msaa_lint.core.diagnostics import diagnostic
 from msaa_lint.core.finding import Finding, Undecided
 from msaa_lint.frame.devices import DeviceProfile
 from msaa_lint.frame.facts.commands import accesses
+from msaa_lint.frame.facts.facts import Subject
 from msaa_lint.frame.facts.frame import Frame
 from msaa_lint.frame.facts.global_facts import profile
 from msaa_lint.frame.facts.parts import Pass
+from msaa_lint.frame.facts.program import subjects_of
+from msaa_lint.frame.facts.subjects import FrameAnalysis
 from msaa_lint.input.capture_input import limit_findings
 from msaa_lint.input.source_file import SourceFile
 from msaa_lint.linter.engine import UNLIMITED
@@ -27,6 +30,7 @@ class Input(NamedTuple):
     `findings` are those of the document, `silenced` those that a comment suppresses, `undecided` the undecided rules; `mended` are the
     findings that the fixes removed. `device` is the profile that it is linted for. `number` is its index among the `many` documents of a
     stream. For a frame described in terms of Metal, `by_vulkan` has the findings and the undecided rules of the equivalent Vulkan frame.
+    `subjects` are the frame's, with the facts that hold for all kinds of frame of its program; None if only the frame is known.
     """
 
     file: str
@@ -40,6 +44,7 @@ class Input(NamedTuple):
     number: int = 0
     many: int = 1
     by_vulkan: tuple[Sequence[Finding], Sequence[Undecided]] | None = None
+    subjects: tuple[Subject, ...] | None = None
 
     @property
     def prefix(self) -> str:
@@ -90,11 +95,21 @@ def _of_file(workspace: Workspace, path: str) -> list[Input]:
         return []
     has_fix = any(finding.fix is not None for finding in result.findings)
     fixed = fix_input(data, result, file.lint, lambda _: True, False, None) if has_fix else None
-    return [_input(file, result, document, fixed) for document in result.documents]
+    frames = [Frame(document.document) for document in result.documents]
+    devices = [profile(document.document.description, file.resolved.device) for document in result.documents]
+    facts = subjects_of([FrameAnalysis(frame, device) for frame, device in zip(frames, devices, strict=True)])
+    # Each frame has the findings about it, also those that `check` reports once for several frames.
+    each = unmerged(result)
+    return [
+        _input(file, each, document, fixed, frame, tuple(subjects))
+        for document, frame, subjects in zip(result.documents, frames, facts, strict=True)
+    ]
 
 
-def _input(file: InputFile, result: FileResult, document: DocumentResult, fixed: FixedText | None) -> Input:
-    frame, many = Frame(document.document), len(result.documents)
+def _input(
+    file: InputFile, result: FileResult, document: DocumentResult, fixed: FixedText | None, frame: Frame, subjects: tuple[Subject, ...]
+) -> Input:
+    many = len(result.documents)
     prefix = _prefix(document.number, many)
     settled = [finding for finding in map(file.resolved.selection.settle, result.findings) if finding is not None]
     input = Input(
@@ -110,6 +125,7 @@ def _input(file: InputFile, result: FileResult, document: DocumentResult, fixed:
         device=profile(document.document.description, file.resolved.device),
         number=document.number,
         many=many,
+        subjects=subjects,
     )
     if document.document.metal is None:
         return input

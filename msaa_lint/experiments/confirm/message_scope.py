@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from typing import NamedTuple
 
 from msaa_lint.frame.facts.commands import accesses
+from msaa_lint.frame.facts.facts import Subject
 from msaa_lint.frame.facts.frame import Frame
 from msaa_lint.frame.facts.parts import Pass
 
@@ -39,7 +40,12 @@ class MessageScope(NamedTuple):
 class MessageScopes:
     """The scopes of the messages about a frame."""
 
-    def __init__(self, frame: Frame) -> None:
+    def __init__(self, frame: Frame, subjects: Iterable[Subject]) -> None:
+        self._turns: dict[str, list[str]] = {}
+        for subject in subjects:
+            names = subject.facts.values.get("image.taking_turns") if subject.kind == "image" else None
+            group = list(map(str, names)) if isinstance(names, list) else []
+            self._turns.update(dict.fromkeys(group, group))
         self._by_image: dict[str, list[tuple[str, Pass | None]]] = {}
         for name, target in frame.targets.items():
             self._by_image.setdefault(name, []).append((target.path, None))
@@ -58,9 +64,10 @@ class MessageScopes:
                     self._by_image[name].append((command.path, None))
 
     def image(self, name: str) -> MessageScope | None:
-        """The scope of a message about an image and the commands on it, by its name in the plan; None for an unknown image."""
-        found = self._by_image.get(name)
-        return _scope(found) if found else None
+        """The scope of a message about an image and the commands on it, by its name in the plan; None for an unknown image. It includes the
+        images that take turns with it, which have one finding for all of them."""
+        found = [part for each in (name, *self._turns.get(name, ())) for part in self._by_image.get(each, ())]
+        return _scope(found) if name in self._by_image else None
 
     @staticmethod
     def attachment(message: Message, family: Family | None, described: Pass | None) -> MessageScope | None:

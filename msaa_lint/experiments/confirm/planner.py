@@ -57,7 +57,7 @@ class Planner:
         messages = [Message(event["id"], event["text"], event.get("pass"), event.get("image") or "") for event in events]
         scope = layer_scope(session.layer, session.device, kinds, session.vendors)
         findings, undecided = source.by_vulkan or ([*source.findings, *source.silenced], source.undecided)
-        return agreement(source.frame, names, findings, messages, scope, undecided, source.device)
+        return agreement(source.frame, names, findings, messages, scope, undecided, source.device, source.subjects)
 
 
 def _metal_notes(frame: Frame) -> list[str]:

@@ -209,3 +209,26 @@ def test_example_capture_agrees_as_the_description_of_it_does(tmp_path: Path) ->
     direct, converted = ([{**each, "file": ""} for each in report["passes"]] for report in reports)
     assert direct == converted
     assert {each["status"] for each in direct} == {"confirmed"}
+
+
+SHARED = """\
+frame: {width: 64, height: 64, share: 0.5}
+images:
+  depth: {format: D16_UNORM, samples: 4, usage: [DEPTH_STENCIL_ATTACHMENT], extent: {width: 64, height: 64}}
+  color: {format: R8G8B8A8_UNORM, samples: 4, usage: [COLOR_ATTACHMENT], extent: {width: 64, height: 64}}
+commands:
+  - beginRendering:
+      colorAttachments: [{image: color, loadOp: %s, storeOp: %s}]
+      depthAttachment: {image: depth, loadOp: CLEAR, storeOp: DONT_CARE}
+  - endRendering
+"""
+
+
+def test_what_one_kind_of_frame_shows_explains_messages_about_the_others(tmp_path: Path) -> None:
+    """One kind of frame loads the image, which therefore cannot be transient; no kind loads the other one."""
+    (tmp_path / "frame.msaa.yaml").write_text(SHARED % ("CLEAR", "STORE") + "---\n" + SHARED % ("LOAD", "STORE"))
+    done = run(tmp_path, "confirm", "--isolated", "--output", "json", "--no-time", "frame.msaa.yaml")
+    report = json.loads(done.stdout)
+    assert [each["status"] for each in report["passes"]] == ["confirmed", "confirmed"]
+    for each in report["passes"]:
+        assert rows(each, NOT_TRANSIENT) == [("both", "multisampled-image-not-transient"), ("explained", None)]
