@@ -165,6 +165,7 @@ class CaptureSummary(NamedTuple):
     multisampled_images: int
     dropped_frames: int
     left_out: str = ""
+    multisampled_pipelines: int = 0
 
 
 class InputSummary(NamedTuple):

@@ -83,8 +83,12 @@ def _capture_line(summary: InputSummary, options: Options) -> str:
     parts = [frames, plural(passes, "pass") if passes else "no passes"]
     if multisampled:
         parts += multisampled
+    elif capture.multisampled_pipelines and not passes:
+        parts.append(f"{plural(capture.multisampled_pipelines, 'multisampled pipeline')}")
+    elif capture.multisampled_images or capture.multisampled_pipelines:
+        parts.append("none multisampled")
     else:
-        parts.append("none multisampled" if passes and capture.multisampled_images else "nothing is multisampled")
+        parts.append("nothing is multisampled")
     if capture.dropped_frames:
         parts.append(f"{plural(capture.dropped_frames, 'frame')} not checked, because there are too many kinds of frame")
     if capture.left_out:

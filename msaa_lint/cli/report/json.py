@@ -104,6 +104,7 @@ def _capture(capture: CaptureSummary) -> Json:
         "kinds": capture.kinds,
         "passes": {str(samples): count for samples, count in capture.passes.items()},
         "multisampled_images": capture.multisampled_images,
+        "multisampled_pipelines": capture.multisampled_pipelines,
         "dropped_frames": capture.dropped_frames,
         "left_out": text(capture.left_out) or None,
     }

@@ -45,9 +45,8 @@ class Names:
 
     def pipeline(self, pipeline: Pipeline) -> str:
         """The name of a pipeline."""
-        state = pipeline.tree.get("multisampleState")
-        samples = state.get("rasterizationSamples") if isinstance(state, dict) else None
-        return self._name("pipeline", pipeline, pipeline.label or _described(("pipeline", _samples(samples or 1)), pipeline))
+        words = ("pipeline", _samples(pipeline_samples(pipeline)))
+        return self._name("pipeline", pipeline, pipeline.label or _described(words, pipeline))
 
     def image(self, image: Image) -> str:
         """The name of an image; swapchain images are numbered within their swapchain."""
@@ -77,6 +76,12 @@ class Names:
             self._taken.setdefault((kind, name), 1)
             self._of[kind, key] = name
         return self._of[kind, key]
+
+
+def pipeline_samples(pipeline: Pipeline) -> int:
+    """The sample count of a pipeline; 1 if it does not state it."""
+    state = pipeline.tree.get("multisampleState")
+    return (state.get("rasterizationSamples") if isinstance(state, dict) else None) or 1
 
 
 def _described(words: Iterable[str], created: CapturedObject) -> str:

@@ -10,7 +10,8 @@ from msaa_lint.core.finding import CaptureSummary
 
 from .command_buffers import RenderPassBegin
 from .frame_kinds import FrameKind
-from .objects import Image, RenderPass, images_in
+from .names import pipeline_samples
+from .objects import Image, Pipeline, RenderPass, images_in
 from .tracker import Tracker
 
 
@@ -34,6 +35,7 @@ def capture_summary(tracker: Tracker, left_out: str) -> CaptureSummary:
         len(tracker.multisampled),
         frames.dropped,
         left_out,
+        sum(isinstance(each, Pipeline) and pipeline_samples(each) > 1 for each in tracker.distinct.values()),
     )
 
 

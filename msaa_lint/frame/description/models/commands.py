@@ -41,11 +41,11 @@ class Rect(Record):
 class BeginRenderPass(Record):
     """VkRenderPassBeginInfo; a list of framebuffers alternates from frame to frame. `label` is the debug labels around it."""
 
-    label: str | None = None
     renderPass: RenderPassName | None = None
     framebuffer: FramebufferName | tuple[FramebufferName, ...] | None = None
     renderArea: Rect | None = None
     clearValueCount: Index | None = None
+    label: str | None = None
 
 
 class RenderingAttachment(Record):
@@ -63,7 +63,6 @@ class RenderingAttachment(Record):
 class BeginRendering(Record):
     """VkRenderingInfo; null is an unused color attachment. `label` is the debug labels around it; several of one that is begun again."""
 
-    label: str | tuple[str, ...] | None = None
     flags: RenderingFlags = ()
     renderArea: Rect | None = None
     layerCount: Size | None = None
@@ -72,6 +71,7 @@ class BeginRendering(Record):
     depthAttachment: RenderingAttachment | None = None
     stencilAttachment: RenderingAttachment | None = None
     multisampledRenderToSingleSampled: RenderToSingleSampled | None = None
+    label: str | tuple[str, ...] | None = None
 
 
 class Draw(Record):
