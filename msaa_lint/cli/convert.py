@@ -16,6 +16,7 @@ from msaa_lint.input.source_file import SourceFile
 from .common import UsageError, internal_errors_of, note, refuse_inputs, run_command, warn, write_output, writes
 from .options import Arguments
 from .report.escape import escape
+from .report.words import plural
 
 
 def convert(arguments: Arguments) -> int:
@@ -109,7 +110,7 @@ def _write(text: str, modules: Mapping[str, bytes], output: str | None, force: b
     if output in (None, "-", "/dev/stdout"):
         write_output(None, lambda out: out.write(text))
         if modules:
-            note(f"{len(modules)} shaders are not written; -o FILE writes them next to the description")
+            note(f"{plural(len(modules), 'shader')} not written; -o FILE writes shaders next to the description")
         return
     if (os.path.isfile(output) or os.path.islink(output)) and not force:
         raise UsageError(f"{output} already exists; --force overwrites it")
