@@ -90,7 +90,7 @@ def _renderdoc(path: str, folder: str, stack: ExitStack) -> ConvertedCapture:
     """The file that renderdoccmd writes, beside the zip of its shaders and buffers."""
     target = os.path.join(folder, "capture.zip.xml")
     failure: StreamFailure | None = None
-    with _Program(["renderdoccmd", "convert", "-f", path, "-o", target, "-c", "zip.xml"], folder) as program:
+    with _Program(["renderdoccmd", "convert", "-i", "rdc", "-f", path, "-o", target, "-c", "zip.xml"], folder) as program:
         try:
             program.finish()
         except StreamFailure as error:

@@ -45,7 +45,7 @@ esac
 """Version 1: its log ends the line of the call before it."""
 
 RENDERDOC = f"""
-test "$1 $2 $4 $6 $7" = "convert -f -o -c zip.xml" && test -e "$3" && cp '{XML}' "$5"
+test "$1 $2 $3 $4 $6 $8 $9" = "convert -i rdc -f -o -c zip.xml" && test -e "$5" && cp '{XML}' "$7"
 """
 
 
@@ -138,7 +138,7 @@ def test_a_converter_that_fails_ends_the_capture(folder: Path, bin: Path, plain:
 
 
 def test_a_converter_that_writes_nothing_says_why(folder: Path, bin: Path) -> None:
-    install(bin, renderdoccmd="echo \"Couldn't load '$3'\" >&2; exit 1")
+    install(bin, renderdoccmd="echo \"Couldn't load '$5'\" >&2; exit 1")
     done = check(folder, bin, "frame.rdc")
     assert f"the capture ends here: renderdoccmd failed with exit code 1: Couldn't load '{folder}/frame.rdc' (MSAA901)" in done.stdout
     assert done.returncode == 2

@@ -37,6 +37,10 @@ _STRAY = re.compile(r'[\0-\x1f]|\\(?:["\\/bfnrt]|u[0-9a-fA-F]{4})|\\')
 _SCALAR = re.compile(rb'"(?:[^"\\]|\\.)*+"|[^\s"{}\[\],:]++', re.DOTALL)
 
 
+loads_plain = orjson.loads
+"""Parses a value for which `is_plain` is true. Raises ValueError if it is not JSON."""
+
+
 def loads(text: bytes, line: int, column: int = 1, call: int | None = None) -> Any:
     """Parses a value whose text starts at a line and column. Raises CaptureError at the place of a syntax error, and for a limit."""
     if len(text) > MAX_PARSED:

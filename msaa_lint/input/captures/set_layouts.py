@@ -30,7 +30,7 @@ MAX_SETS = 64
 """Maximum number of sets in a layout of a pipeline; devices allow 32."""
 
 MAX_BINDINGS_TOTAL = 1_000_000
-"""Maximum number of bindings and entries in all of them; what further ones contain is unknown."""
+"""Maximum number of bindings and entries in all of them that exist at a time; what further ones contain is unknown."""
 
 Storage = tuple[bool, ...]
 """The kinds of image that a descriptor can be: whether shaders may write it."""
@@ -134,34 +134,51 @@ class SetLayouts(Images):
         self.pipeline_layouts: dict[int, tuple[SetLayout | None, ...]] = {}
         self.templates: dict[int, Template] = {}
         self._bindings_left = MAX_BINDINGS_TOTAL
+        self._sizes: dict[tuple[int, int], int] = {}
+        """The number of bindings of what is followed, by the mapping that has it and its handle."""
         self._shared: dict[frozenset[tuple[int, tuple[ImageKind, ...]]], ReadableBindings] = {}
         """One object for equal bindings, so that what pipelines read of a set is looked up once."""
 
-    def _take(self, entries: list[Any]) -> bool:
-        """Whether so many bindings are followed."""
-        self._bindings_left -= len(entries) + 1
-        return len(entries) <= MAX_BINDINGS and self._bindings_left >= 0
+    def _keeps(self, objects: dict[int, Any], handle: int, entries: list[Any]) -> bool:
+        """Whether the bindings of a new object are followed. It takes the place of the one that had its handle."""
+        self._forget_bindings(objects, handle)
+        size = len(entries) + 1
+        if len(entries) > MAX_BINDINGS or size > self._bindings_left:
+            return False
+        self._bindings_left -= size
+        self._sizes[id(objects), handle] = size
+        return True
+
+    def _forget_bindings(self, objects: dict[int, Any], handle: int) -> None:
+        if objects.pop(handle, None) is not None:
+            self._bindings_left += self._sizes.pop((id(objects), handle))
+
+    def on_DestroyDescriptorSetLayout(self, call: Call) -> None:
+        self._forget_bindings(self.set_layouts, values.handle(call.args.get("descriptorSetLayout")))
+
+    def on_DestroyPipelineLayout(self, call: Call) -> None:
+        self._forget_bindings(self.pipeline_layouts, values.handle(call.args.get("pipelineLayout")))
+
+    def on_DestroyDescriptorUpdateTemplate(self, call: Call) -> None:
+        self._forget_bindings(self.templates, values.handle(call.args.get("descriptorUpdateTemplate")))
 
     def on_CreateDescriptorSetLayout(self, call: Call) -> None:
         handle = values.handle(call.args.get("pSetLayout"))
         items = values.items(values.record(call.args.get("pCreateInfo")).get("pBindings"))
-        self.set_layouts.pop(handle, None)
-        if self._take(items):
+        if self._keeps(self.set_layouts, handle, items):
             self.set_layouts[handle] = SetLayout([_binding(values.record(item)) for item in items])
 
     def on_CreatePipelineLayout(self, call: Call) -> None:
         handle = values.handle(call.args.get("pPipelineLayout"))
         items = values.items(values.record(call.args.get("pCreateInfo")).get("pSetLayouts"))
-        self.pipeline_layouts.pop(handle, None)
-        if self._take(items):
+        if self._keeps(self.pipeline_layouts, handle, items):
             self.pipeline_layouts[handle] = tuple(self.set_layouts.get(values.handle(item)) for item in items[:MAX_SETS])
 
     def on_CreateDescriptorUpdateTemplate(self, call: Call) -> None:
         handle = values.handle(call.args.get("pDescriptorUpdateTemplate"))
         info = values.record(call.args.get("pCreateInfo"))
         items = values.items(info.get("pDescriptorUpdateEntries"))
-        self.templates.pop(handle, None)
-        if self._take(items):
+        if self._keeps(self.templates, handle, items):
             entries = tuple(_entry(values.record(item)) for item in items)
             self.templates[handle] = Template(tuple(entry for entry in entries if entry is not None), info.get("pipelineBindPoint"))
 

@@ -42,9 +42,6 @@ DESTROYERS = {
     "FreeMemory": ("memory", "memory"),
     "DestroyRenderPass": ("renderPass", "render_passes"),
     "DestroyFramebuffer": ("framebuffer", "framebuffers"),
-    "DestroyDescriptorSetLayout": ("descriptorSetLayout", "set_layouts"),
-    "DestroyPipelineLayout": ("pipelineLayout", "pipeline_layouts"),
-    "DestroyDescriptorUpdateTemplate": ("descriptorUpdateTemplate", "templates"),
 }
 """The calls that only destroy objects: the parameter with their handles, and the tracker's mapping that holds them."""
 

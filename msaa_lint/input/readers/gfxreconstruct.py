@@ -11,12 +11,10 @@ import re
 from collections.abc import Iterator
 from typing import Any, BinaryIO
 
-import orjson
-
 from msaa_lint.core.text.files import read
 from msaa_lint.core.text.source import Unreadable
 from msaa_lint.input.captures.call import Call, CaptureError, Mark, Place, is_wanted
-from msaa_lint.input.captures.json_stream import BYTE_ORDER_MARK, TRUNCATED, Blocks, Cursor, PeekedStream, is_plain, loads
+from msaa_lint.input.captures.json_stream import BYTE_ORDER_MARK, TRUNCATED, Blocks, Cursor, PeekedStream, is_plain, loads, loads_plain
 from msaa_lint.input.captures.values import chain, items, record
 
 DEVICE_COMMANDS = frozenset({"SetDevicePropertiesCommand", "SetDeviceMemoryPropertiesCommand"})
@@ -265,7 +263,7 @@ def _lines(blocks: Blocks, reader: Reader) -> Iterator[Call | Mark]:
     usually resembles the one before it, so that most are recognized as the line that followed last time.
     """
     new = tuple.__new__
-    parse = orjson.loads
+    parse = loads_plain
     find_start = reader.starts.get
     cache = LineCache()
     last = CachedLine(b"", LineStart("", "", False), {}, None)

@@ -120,9 +120,9 @@ def test_a_person_sees_the_call_and_the_structure(tmp_path: Path) -> None:
         ),
     ],
 )
-def test_what_a_tool_wrote_for_itself_is_told_with_what_to_run(head: bytes, said: str, tmp_path: Path) -> None:
+def test_what_a_tool_wrote_for_itself_is_told_with_what_to_run_if_no_converter_is_installed(head: bytes, said: str, tmp_path: Path) -> None:
     (tmp_path / "capture").write_bytes(head)
-    made = run(tmp_path, "check", "--isolated", "--output", "json", "capture")
+    made = run(tmp_path, "check", "--isolated", "--output", "json", "capture", PATH=str(tmp_path))
     (found,) = json.loads(made.stdout)["findings"]
     assert made.returncode == 2
     assert found["code"] == "MSAA901"

@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 
+from msaa_lint.input.captures import set_layouts
 from tests.input.captures.program import D32, DEPTH, GRAPHICS, SAMPLED, Args, Program, attachment, codes, lint, written
 from tests.input.captures.test_tracking import read, tree
 
@@ -348,6 +349,24 @@ def test_a_draw_reads_the_bindings_that_its_pipeline_has(sets: Any, is_read: boo
     layout = pipeline_layout(program, *(set_layout(program, *each) for each in sets)) if sets is not None else 0
     drawn = depth_of(scene(bind, pipeline=pipeline(program, layout), program=program))
     assert drawn == ((READ if known else POSSIBLE) if is_read else UNREAD)
+
+
+@pytest.mark.parametrize("reuses", [True, False])
+def test_layouts_that_no_longer_exist_do_not_count_toward_the_limit(reuses: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(set_layouts, "MAX_BINDINGS_TOTAL", 20)
+    program = Program()
+    for _ in range(20):
+        of_set = set_layout(program, (0, SAMPLER_TYPE, 1, FRAGMENT))
+        of_pipeline, update = pipeline_layout(program, of_set), template(program, (0, SAMPLER_TYPE, 1))
+        if reuses:
+            for _, args in program.calls[-3:]:
+                args.update({name: 7 for name in ("pSetLayout", "pPipelineLayout", "pDescriptorUpdateTemplate") if name in args})
+        else:
+            program.call("vkDestroyDescriptorSetLayout", device=2, descriptorSetLayout=of_set)
+            program.call("vkDestroyPipelineLayout", device=2, pipelineLayout=of_pipeline)
+            program.call("vkDestroyDescriptorUpdateTemplate", device=2, descriptorUpdateTemplate=update)
+    layout = pipeline_layout(program, set_layout(program, (0, SAMPLER_TYPE, 1, COMPUTE)))
+    assert depth_of(scene(unknown_set, pipeline=pipeline(program, layout), program=program)) == UNREAD
 
 
 def test_another_pipeline_reads_other_bindings_of_the_same_set() -> None:
