@@ -66,6 +66,9 @@ class BoundSets(Descriptors):
     def on_BeginCommandBuffer(self, call: Call) -> None:
         self.buffers[values.handle(call.args.get("commandBuffer"))] = CommandBuffer()
 
+    def on_EndCommandBuffer(self, call: Call) -> None:
+        """Ends a recording, which the tracker may recognize when it is repeated."""
+
     def on_CmdBindDescriptorSets(self, call: Call) -> None:
         buffer = self.buffer(call)
         for args, point in _points(buffer, call):

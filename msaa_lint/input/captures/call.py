@@ -20,6 +20,8 @@ class Place(NamedTuple):
 class Call(NamedTuple):
     """A Vulkan call. `args` is keyed by C parameter name; `result` is the VkResult if the capture has it.
 
+    `recurring` is the length of its text if an identical call came before it, with which it shares its `args`; otherwise 0.
+
     Structures are mappings with C's member names, arrays are lists, null pointers are None, and handles are integers (0 is null); a pNext
     chain is nested mappings with `sType`. Enumerants, flags and numbers keep the capture's spelling; `values` parses them.
     """
@@ -28,6 +30,12 @@ class Call(NamedTuple):
     args: dict[str, Any]
     at: Place
     result: str | None = None
+    recurring: int = 0
+
+    @property
+    def failed(self) -> bool:
+        """Whether it returned an error."""
+        return self.result is not None and self.result.startswith(("VK_ERROR", "XR_ERROR"))
 
 
 class Mark(NamedTuple):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Hashable
+from copy import copy
 from typing import Any, NamedTuple
 
 from .call import Call, Place, without_vendor
@@ -85,6 +86,8 @@ class CommandCache:
     def __init__(self) -> None:
         self._commands: dict[tuple[str, Hashable, Parts], RecordedCommand] = {}
         self._older: dict[tuple[str, Hashable, Parts], RecordedCommand] = {}
+        self.forgotten = 0
+        """How often commands were forgotten: a command that is recorded again may be another object."""
 
     def command(
         self, kind: str, key: Hashable, call: Call, detail: tuple[int | None, int | None] | None = None, parts: Parts = ()
@@ -99,6 +102,7 @@ class CommandCache:
                 command.parts = parts
             if len(self._commands) >= MAX_CACHED_COMMANDS // 2:
                 self._commands, self._older = {}, self._commands
+                self.forgotten += 1
             self._commands[identity] = command
         return command
 
@@ -111,6 +115,12 @@ class BindPoint:
     def __init__(self) -> None:
         self.sets: dict[int, DescriptorSet] = {}
         self.bindings: SetBindings | None = None
+
+    def copy(self) -> BindPoint:
+        """What is bound, which changes on its own."""
+        point = copy(self)
+        point.sets = self.sets.copy()
+        return point
 
     def reads(self) -> tuple[tuple[DescriptorSet, ReadableBindings | None], ...]:
         """The sets that the pipeline can read, as in DescriptorReads."""
@@ -173,6 +183,15 @@ class CommandBuffer:
         self.label_depth: Any = None
         """How many labels are open, if one of them ends frames."""
         self.labels = BufferLabels()
+
+    def copy(self) -> CommandBuffer:
+        """A command buffer that recorded the same."""
+        buffer = copy(self)
+        buffer.commands = self.commands.copy()
+        buffer.graphics, buffer.compute, buffer.ray_tracing = self.graphics.copy(), self.compute.copy(), self.ray_tracing.copy()
+        buffer.subpass_commands, buffer.many = self.subpass_commands.copy(), self.many.copy()
+        buffer.label_depth, buffer.labels = copy(self.label_depth), self.labels.copy()
+        return buffer
 
     @property
     def dynamic_samples(self) -> int | None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Sequence
+from copy import copy
 
 MAX_TEXT = 80
 """Maximum length of a name or label, in characters."""
@@ -64,6 +65,12 @@ class BufferLabels:
         """The number of open labels when a label that counts for the current pass began; -1 before the first label in the pass."""
         self._outer = NO_LABELS
         """The entry of the current pass without that label."""
+
+    def copy(self) -> BufferLabels:
+        """Equal labels, which change on their own."""
+        labels = copy(self)
+        labels.open, labels.passes = self.open.copy(), self.passes.copy()
+        return labels
 
     def begin(self, text: str, pass_is_empty: bool) -> None:
         """Opens a label. `pass_is_empty`: the current pass has no draw so far."""

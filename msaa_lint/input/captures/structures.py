@@ -132,3 +132,9 @@ PARSERS: dict[str, Callable[[object], Any]] = {
     "text": values.text,
 }
 """By kind of shape, for those without parameters."""
+
+
+def containers(value: Any) -> int:
+    """The number of mappings and lists in plain data."""
+    inner = value.values() if isinstance(value, dict) else value if isinstance(value, list) else ()
+    return 1 + sum(containers(item) for item in inner if isinstance(item, (dict, list)))

@@ -24,8 +24,9 @@ from .frame_marks import FrameMarks, xr_handlers
 from .labels import printable
 from .layouts import UNSEEN
 from .objects import CapturedObject, Framebuffer, Pipeline, RenderPass
+from .recordings import UNCHANGING, Recordings
 from .set_layouts import ShaderImages
-from .structures import Tree, to_tree
+from .structures import Tree, containers, to_tree
 from .transfers import Transfers
 
 BOUNDARY = frozenset(
@@ -69,12 +70,12 @@ MAX_WORDS = 4_000_000
 MAX_CACHED_COMMANDS = 4096
 """Maximum number of commands cached by their arguments."""
 
-
 MAX_ROUTES = 4096
 """Maximum number of names of calls that are remembered."""
 
-RECURS, BEGINS_OR_ENDS, DESTROYS = 1, 2, 3
-"""How a call is processed: commands whose effect is cached, those of them in BOUNDARY, and calls that destroy objects."""
+RECURS, BEGINS_OR_ENDS, DESTROYS, CHANGES = 1, 2, 3, 4
+"""How a call is processed: commands whose effect is cached, those of them in BOUNDARY, calls that destroy objects, and others that may
+change what commands refer to."""
 
 Route = tuple[Callable[[Call], None], int]
 
@@ -105,6 +106,9 @@ class Tracker(FrameMarks):
         self._words_left = MAX_WORDS
         self.generation = 0
         """The number of destroyed objects. After a destruction, a handle may refer to another object."""
+        self._changes = 0
+        """The number of calls after which commands may refer to other objects."""
+        self._recordings = Recordings(self._process, self.buffers)
         self._routes: dict[str, Route] = {}
         """By the name of the call, with its vendor suffix."""
         self._cache: dict[int, CachedCommand] = {}
@@ -130,6 +134,15 @@ class Tracker(FrameMarks):
 
     def feed(self, call: Call | Mark) -> None:
         """Processes one call or mark."""
+        recordings = self._recordings
+        if call[1] is recordings.expected[recordings.position]:
+            recordings.position += 1
+        elif recordings.is_active or call[0] == "vkBeginCommandBuffer":
+            recordings.follow(call, (self._changes, self.commands.forgotten))
+        else:
+            self._process(call)
+
+    def _process(self, call: Call | Mark) -> None:
         handler, way = self._routes.get(call[0]) or self._route(call[0])
         if isinstance(call, Mark):
             self.frames.mark(call.kind)
@@ -141,16 +154,20 @@ class Tracker(FrameMarks):
                 self._replay(cached, call)
             else:
                 self._record(handler, call, way == BEGINS_OR_ENDS)
-        elif call.result is None or not call.result.startswith(("VK_ERROR", "XR_ERROR")) or call.name == "vkQueuePresentKHR":
+        elif not call.failed or call.name == "vkQueuePresentKHR":
             # A present ends the frame although the surface is out of date.
-            if way == DESTROYS:
-                self.generation += 1
+            if way:
+                self._changes += 1
+                if way == DESTROYS:
+                    self.generation += 1
             handler(call)
 
     def _route(self, name: str) -> Route:
         """How a call is processed; calls without a handler are ignored."""
         plain_name = name if name in self.handlers else without_vendor(name)
         way = DESTROYS if plain_name.startswith("vkDestroy") else 0
+        if not way and plain_name in self.handlers and not plain_name.startswith(UNCHANGING):
+            way = CHANGES
         if plain_name in RECURRING:
             way = BEGINS_OR_ENDS if plain_name in BOUNDARY else RECURS
         route = self.handlers.get(plain_name, _ignore), way
@@ -204,7 +221,7 @@ class Tracker(FrameMarks):
         key = (kind, related.number if related is not None else None, digest)
         existing = self.distinct.pop(key, None)
         if existing is None:
-            weight = _containers(tree) + code // 256
+            weight = containers(tree) + code // 256
             self._containers += weight
             if self._containers > min(self._next_count, MAX_CONTAINERS) and self.generation >= self._next_generation:
                 self._forget_destroyed()
@@ -224,7 +241,7 @@ class Tracker(FrameMarks):
         kept = []
         self._containers = destroyed = 0
         for key, each in reversed(self.distinct.items()):
-            weight = _containers(each.tree)
+            weight = containers(each.tree)
             if isinstance(each, Pipeline):
                 weight += sum(map(len, each.modules.values())) // 256
             if each not in existing:
@@ -349,12 +366,6 @@ class Tracker(FrameMarks):
 
 def _ignore(call: Call) -> None:
     """Processes a call without a handler."""
-
-
-def _containers(value: Any) -> int:
-    """The number of mappings and lists in plain data."""
-    inner = value.values() if isinstance(value, dict) else value if isinstance(value, list) else ()
-    return 1 + sum(_containers(item) for item in inner if isinstance(item, (dict, list)))
 
 
 def _remove(objects: dict[int, Any], parameter: str, call: Call) -> None:

@@ -279,7 +279,7 @@ def _lines(blocks: Blocks, reader: Reader) -> Iterator[Call | Mark]:
                 last = cached
                 start = cached.start
                 start.credit += CREDIT_PER_HIT
-                args, result = cached.args, cached.result
+                args, result, recurring = cached.args, cached.result, len(body)
             else:
                 known = find_start(body[: body.find(b'"', NAME_END)])
                 if known is not None and line.startswith(PREFIX):
@@ -300,11 +300,12 @@ def _lines(blocks: Blocks, reader: Reader) -> Iterator[Call | Mark]:
                 found = cache.get(body) if credit > 0 else None
                 if found is not None:
                     last.following = last = found
-                    args, result = found.args, found.result
+                    args, result, recurring = found.args, found.result, len(body)
                     start.credit = credit + CREDIT_PER_HIT
                 else:
                     # Common calls are parsed here, unusual ones by the reader.
                     args = None
+                    recurring = 0
                     if start.plain and is_plain(line):
                         try:
                             call = parse(line)[start.kind]
@@ -331,7 +332,7 @@ def _lines(blocks: Blocks, reader: Reader) -> Iterator[Call | Mark]:
                 if call_or_mark is not None:
                     yield call_or_mark
             else:
-                yield new(Call, (start.name, args, place, result))
+                yield new(Call, (start.name, args, place, result, recurring))
         blocks.lines += len(lines)
     cache.forget()
     if blocks.rest.strip():
@@ -358,7 +359,7 @@ def _elements(cursor: Cursor, reader: Reader) -> Iterator[Call | Mark]:
             body = text[start.end(1) :] if start is not None else text
             cached = cache.get(body)
             if cached is not None and start is not None:
-                yield cached._replace(at=place._replace(call=int(start[1])))
+                yield cached._replace(at=place._replace(call=int(start[1])), recurring=len(body))
             else:
                 assert place.line is not None and place.column is not None
                 call_or_mark = reader.read(text, place.line, place.column)
