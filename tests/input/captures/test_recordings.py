@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from msaa_lint.input.captures.call import Call
 from msaa_lint.input.captures.description_text import describe_capture
 from msaa_lint.input.captures.recordings import Recordings
 from msaa_lint.input.captures.tracker import Tracker
@@ -38,7 +39,7 @@ def description(lines: list[str], recognized: bool) -> tuple[str, int, int]:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(Recordings, "_restore", counted)
         for call in gfxreconstruct.calls(BytesIO("\n".join(lines).encode() + b"\n"), tracker.wanted, None):
-            tracker.feed(call if recognized or not hasattr(call, "recurring") else call._replace(recurring=0))
+            tracker.feed(call if recognized or not isinstance(call, Call) else call._replace(recurring=0))
     tracker.finish()
     return describe_capture(tracker)[0], tracker.frames.total, restored
 
