@@ -123,8 +123,13 @@ def print_facts(path: str, output: str, profile: str | None, frame_end: str | No
                 failed = True
                 for line in error.args:
                     warn(line)
-        for subjects in subjects_of(frames):
-            rows += (_row(subject, source) for subject in subjects)
+        try:
+            with internal_errors_of(path):
+                for subjects in subjects_of(frames):
+                    rows += (_row(subject, source) for subject in subjects)
+        except UsageError as error:
+            failed = True
+            warn(str(error))
     if output == "json":
         print(dump_indented(rows))
     else:

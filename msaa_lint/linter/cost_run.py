@@ -13,6 +13,7 @@ from msaa_lint.frame.cost.variants import variants
 from msaa_lint.frame.facts.frame import Frame
 
 from .fixes.fixer import FixResult
+from .input_summary import input_summary
 from .results import DocumentResult, FileResult, can_try_fixes
 from .savings import Trials
 from .workspace import InputFile, Request, Workspace
@@ -59,9 +60,9 @@ def _frames(workspace: Workspace, path: str, terms: Terms, counts: Sequence[int]
     if result.source is None:
         return []
     workspace.sources[result.file] = result.source
-    left_out = getattr(file.data, "left_out", "")
-    if left_out:
-        notes.append(f"{result.file}: the costs do not include {left_out}")
+    capture = input_summary(file.data, result).capture
+    if capture is not None and capture.left_out:
+        notes.append(f"{result.file}: the costs do not include {capture.left_out}")
     documents = _valid_documents(result) if errors else list(result.documents)
     trials = _trials(file, result) if not errors and can_try_fixes(result) else None
     if not can_try_fixes(result):

@@ -134,7 +134,7 @@ def test_a_rule_page_that_fails_is_a_finding_of_the_page(folder: Path, words: st
     [
         ("convert a.msaa.yaml", "msaa_lint.cli.convert.load", ""),
         ("facts a.msaa.yaml", "msaa_lint.cli.facts.load", ""),
-        ("facts a.msaa.yaml --output json", "msaa_lint.frame.facts.subjects.subjects", "[]\n"),
+        ("facts a.msaa.yaml --output json", "msaa_lint.frame.facts.program.subjects_of", "[]\n"),
     ],
 )
 def test_a_command_of_one_input_names_it(folder: Path, words: str, target: str, kept: str) -> None:

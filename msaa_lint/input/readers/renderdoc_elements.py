@@ -19,7 +19,7 @@ MAX_CACHED_TAGS = 1 << 14
 
 MAX_CACHED_TAG = 1 << 10  # bytes
 
-CHUNK = re.compile(rb'[ \t]*+<chunk((?: [A-Za-z]++="[^"<>&]*+")++)>\r?\n')
+CHUNK = re.compile(rb'[ \t]*+<chunk((?: [A-Za-z]++="[^"<>&\0-\x1f]*+")++)>\r?\n')
 """The line that starts a chunk."""
 
 NAME = re.compile(rb' name="([^"]*+)"')
@@ -28,7 +28,7 @@ NAME = re.compile(rb' name="([^"]*+)"')
 END = re.compile(rb"</chunk>\r?\n")
 
 _ELEMENT = re.compile(rb"<(/?[A-Za-z]++)([^<>]*+)>([^<>]*+)")
-_ATTRIBUTES = re.compile(rb'((?: [A-Za-z]++="[^"<>&]*+")*+)( ?/)?')
+_ATTRIBUTES = re.compile(rb'((?: [A-Za-z]++="[^"<>&\0-\x1f]*+")*+)( ?/)?')
 _ATTRIBUTE = re.compile(r' ([A-Za-z]+)="([^"]*)"')
 
 VALUES: dict[str, Callable[[str], Any]] = {
@@ -61,7 +61,7 @@ class ElementParser:
     """Parses the elements of chunks. `special` converts members in SPECIAL, and returns SPECIAL itself for those that C does not have."""
 
     def __init__(self, special: Callable[[str, Any, Attributes], Any]) -> None:
-        self.values = {tag.encode(): parser for tag, parser in VALUES.items()}
+        self.values = {tag.encode(): parser if parser is not str else _printable for tag, parser in VALUES.items()}
         self.special = special
         self.tags: dict[bytes, tuple[str | None, Attributes, bool]] = {}
 
@@ -139,3 +139,10 @@ class ElementParser:
         if len(self.tags) < MAX_CACHED_TAGS and len(text) <= MAX_CACHED_TAG:
             self.tags[text] = tag
         return tag
+
+
+def _printable(text: str) -> str:
+    """The text of a string. Raises ValueError for control characters: XML has no others than line ends, which a parser converts."""
+    if not text.isprintable():
+        raise ValueError
+    return text

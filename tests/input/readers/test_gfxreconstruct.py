@@ -214,7 +214,9 @@ def test_frames_alike_are_not_parsed(monkeypatch: pytest.MonkeyPatch) -> None:
     text = lined([line(8 + at, frame[at % 10].replace("%d", str(at))) for at in range(2000)])
     slow, parsed = Counting(gfxreconstruct.LINE_START), []
     monkeypatch.setattr(gfxreconstruct, "LINE_START", slow)
-    monkeypatch.setattr(orjson, "loads", lambda line, parse=orjson.loads: parsed.append(1) or parse(line))
+    parse = orjson.loads
+    for module, name in ((orjson, "loads"), (gfxreconstruct, "loads_plain")):
+        monkeypatch.setattr(module, name, lambda line: parsed.append(1) or parse(line))
     monkeypatch.setattr(json_stream, "BLOCK", 1000)
     assert len(calls(text)) == 1800
     assert len(parsed) == 5, "the calls that differ"
