@@ -129,6 +129,7 @@ def results(draw: st.DrawFn) -> Result:
     unread = st.one_of(st.none(), st.builds(Unread, places, texts))
     n = st.integers(0, 3)
     formats = st.sampled_from(["description", "fossilize", "cpp", ""])
-    captures = st.one_of(st.none(), st.builds(CaptureSummary, texts, texts, texts, n, n, st.dictionaries(n, n, max_size=3), n, n))
+    passes = st.dictionaries(n, n, max_size=3)
+    captures = st.one_of(st.none(), st.builds(CaptureSummary, texts, texts, texts, n, n, passes, n, n, texts, n))
     inputs = [draw(st.builds(InputSummary, st.just(file), formats, n, n, n, n, n, st.booleans(), unread, captures)) for file in files]
     return Result(found, undecided, silenced, files, sources, RULES, inputs=inputs)

@@ -16,8 +16,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from msaa_lint.experiments.confirm.scratch import PREFIX
 
+from msaa_lint.core.scratch import PREFIX
 from tests.command import Done, environment_of, run, run_process
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="signals and locks are POSIX; lavapipe is Linux's")

@@ -31,10 +31,11 @@ DRAWS = frozenset({"vkCmdDraw"})
 
 
 def read(text: bytes, wanted: frozenset[str] = WANTED, name: str | None = None) -> tuple[list[Call | Mark], CaptureError | None]:
-    """What is read of a text, and why no more."""
+    """What is read of a text, and why no more, without whether calls recur."""
     out: list[Call | Mark] = []
+    read_calls = gfxreconstruct.calls(io.BytesIO(text), wanted, name)
     try:
-        out.extend(gfxreconstruct.calls(io.BytesIO(text), wanted, name))
+        out.extend(each._replace(recurring=0) if isinstance(each, Call) else each for each in read_calls)
     except CaptureError as error:
         # Lists extended by a generator that fails keep what it gave before.
         return out, error
