@@ -66,3 +66,18 @@ def run_process(folder: Path, *arguments: str, stdin: bytes = b"", **environment
     )
     assert b"Traceback" not in done.stderr
     return subprocess.CompletedProcess(done.args, done.returncode, done.stdout.decode(), done.stderr.decode())
+
+
+def read_terminal(master: int) -> bytes:
+    """What a process writes to a pseudoterminal until it ends, which closes the terminal. Closes `master`."""
+    written = b""
+    while True:
+        try:
+            piece = os.read(master, 4096)
+        except OSError:
+            break
+        if not piece:
+            break
+        written += piece
+    os.close(master)
+    return written

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.command import read_terminal
 from tests.input.captures.test_frames import forward
 from tests.paths import ROOT
 
@@ -36,16 +37,7 @@ def shown(folder: Path, *arguments: str, **variables: str) -> bytes:
             running.stdin.flush()
             time.sleep(4 / len(lines))
         running.stdin.close()
-        written = b""
-        while True:
-            try:
-                piece = os.read(master, 4096)
-            except OSError:
-                break
-            if not piece:
-                break
-            written += piece
-    os.close(master)
+        written = read_terminal(master)
     return written
 
 

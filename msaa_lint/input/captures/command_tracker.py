@@ -209,12 +209,15 @@ class CommandTracker(BoundSets):
     def on_CmdBeginDebugUtilsLabel(self, call: Call) -> None:
         buffer = self.buffer(call)
         buffer.labels.begin(self.label(call), pass_is_empty=not buffer.subpass_commands)
+        self.follow_label(call, "begin")
 
     def on_CmdEndDebugUtilsLabel(self, call: Call) -> None:
         self.buffer(call).labels.end()
+        self.follow_label(call, "end")
 
     def on_CmdInsertDebugUtilsLabel(self, call: Call) -> None:
         self.buffer(call).labels.insert(self.label(call))
+        self.follow_label(call, "insert")
 
     on_CmdDebugMarkerBegin, on_CmdDebugMarkerEnd = on_CmdBeginDebugUtilsLabel, on_CmdEndDebugUtilsLabel
     on_CmdDebugMarkerInsert = on_CmdInsertDebugUtilsLabel
@@ -226,14 +229,19 @@ class CommandTracker(BoundSets):
             labels = self.queue_labels.setdefault(queue, [])
             if len(labels) < MAX_QUEUE_LABELS:
                 labels.append(text)
+        self.follow_label(call, "begin")
 
     def on_QueueEndDebugUtilsLabel(self, call: Call) -> None:
         labels = self.queue_labels.get(values.handle(call.args.get("queue")))
         if labels:
             labels.pop()
+        self.follow_label(call, "end")
 
     def on_QueueInsertDebugUtilsLabel(self, call: Call) -> None:
-        self.label(call)
+        self.follow_label(call, "insert")
+
+    def follow_label(self, call: Call, event: str) -> None:
+        """Processes a label that begins, ends, or is inserted as a mark of frames, which FrameMarks tracks."""
 
     def label(self, call: Call) -> str:
         """The text of the label that a call begins or inserts."""

@@ -58,34 +58,7 @@ class FrameMarks(Transfers):
 
     # Debug labels.
 
-    def on_CmdBeginDebugUtilsLabel(self, call: Call) -> None:
-        super().on_CmdBeginDebugUtilsLabel(call)
-        self._follow_label(call, "begin")
-
-    def on_CmdEndDebugUtilsLabel(self, call: Call) -> None:
-        super().on_CmdEndDebugUtilsLabel(call)
-        self._follow_label(call, "end")
-
-    def on_CmdInsertDebugUtilsLabel(self, call: Call) -> None:
-        super().on_CmdInsertDebugUtilsLabel(call)
-        self._follow_label(call, "insert")
-
-    on_CmdDebugMarkerBegin, on_CmdDebugMarkerEnd = on_CmdBeginDebugUtilsLabel, on_CmdEndDebugUtilsLabel
-    on_CmdDebugMarkerInsert = on_CmdInsertDebugUtilsLabel
-
-    def on_QueueBeginDebugUtilsLabel(self, call: Call) -> None:
-        super().on_QueueBeginDebugUtilsLabel(call)
-        self._follow_label(call, "begin")
-
-    def on_QueueEndDebugUtilsLabel(self, call: Call) -> None:
-        super().on_QueueEndDebugUtilsLabel(call)
-        self._follow_label(call, "end")
-
-    def on_QueueInsertDebugUtilsLabel(self, call: Call) -> None:
-        super().on_QueueInsertDebugUtilsLabel(call)
-        self._follow_label(call, "insert")
-
-    def _follow_label(self, call: Call, event: str) -> None:
+    def follow_label(self, call: Call, event: str) -> None:
         """Marks where the label that ends frames begins, ends, or is inserted: in a command buffer for its submissions, in a queue now."""
         label = self.frames.frame_label
         if label is None:

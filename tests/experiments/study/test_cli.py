@@ -23,7 +23,7 @@ from msaa_lint.experiments.study import measure
 from msaa_lint.experiments.study.points import MSAA, Point, Technique, techniques
 from msaa_lint.experiments.study.scenes import NAMES
 from msaa_lint.experiments.study.scenes.scene import Scene
-from tests.command import Done
+from tests.command import Done, read_terminal
 from tests.command import run as run_command
 from tests.paths import ROOT
 
@@ -341,16 +341,7 @@ def test_a_terminal_shows_progress(tmp_path: Path) -> None:
         [*COMMAND, "edge-fan", *SMALL, "--samples", "1,4"], cwd=tmp_path, env=environment, stdout=subprocess.DEVNULL, stderr=terminal
     ) as running:
         os.close(terminal)
-        shown = b""
-        while True:
-            try:
-                piece = os.read(master, 4096)
-            except OSError:
-                break
-            if not piece:
-                break
-            shown += piece
-    os.close(master)
+        shown = read_terminal(master)
     assert running.returncode == 0
     assert b"/7" in shown and b"edge-fan" in shown
 

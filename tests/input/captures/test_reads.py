@@ -80,6 +80,13 @@ def unknown_set(program: Program, buffer: int, view: int) -> None:
     program.bind(buffer, own)
 
 
+def known_set(program: Program, buffer: int, view: int) -> None:
+    """Binds a set that holds the view."""
+    own = program.descriptor_set()
+    program.write(own, view)
+    program.bind(buffer, own)
+
+
 def set_layout(program: Program, *bindings: tuple[int, str, int, int]) -> int:
     """A set layout of bindings: number, type, count, stages."""
     made = program.handle()
@@ -337,17 +344,9 @@ def test_a_thousand_draws_with_unknown_descriptors_are_no_reads() -> None:
     ],
 )
 def test_a_draw_reads_the_bindings_that_its_pipeline_has(sets: Any, is_read: bool, known: bool) -> None:
-    def bind(program: Program, buffer: int, view: int) -> None:
-        if known:
-            own = program.descriptor_set()
-            program.write(own, view)
-            program.bind(buffer, own)
-        else:
-            unknown_set(program, buffer, view)
-
     program = Program()
     layout = pipeline_layout(program, *(set_layout(program, *each) for each in sets)) if sets is not None else 0
-    drawn = depth_of(scene(bind, pipeline=pipeline(program, layout), program=program))
+    drawn = depth_of(scene(known_set if known else unknown_set, pipeline=pipeline(program, layout), program=program))
     assert drawn == ((READ if known else POSSIBLE) if is_read else UNREAD)
 
 
@@ -485,20 +484,12 @@ def test_a_draw_reads_what_its_shaders_declare(code: str | None, is_read: bool, 
     from msaa_lint.input.captures.description_text import describe_capture
     from msaa_lint.input.captures.tracker import Tracker
 
-    def bind(program: Program, buffer: int, view: int) -> None:
-        if known:
-            own = program.descriptor_set()
-            program.write(own, view)
-            program.bind(buffer, own)
-        else:
-            unknown_set(program, buffer, view)
-
     program = Program()
     info = {"pCode": code.encode("latin-1") if code is not None else None}
     program.call("vkCreateShaderModule", device=2, pCreateInfo=info, pShaderModule=60)
     layout = pipeline_layout(program, set_layout(program, (0, SAMPLER_TYPE, 1, 0x7FFFFFFF)))
     stage = {"stage": "VK_SHADER_STAGE_FRAGMENT_BIT", "module": 60, "pName": "main"}
-    scene(bind, pipeline=pipeline(program, layout, [stage]), program=program)
+    scene(known_set if known else unknown_set, pipeline=pipeline(program, layout, [stage]), program=program)
     tracker = Tracker()
     for number, (name, args) in enumerate(program.calls):
         tracker.feed(Call(name, args, Place(number + 1, 1, number)))
