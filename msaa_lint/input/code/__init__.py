@@ -98,7 +98,7 @@ def read(source: "Source", language: str) -> Program:
 
     Code that is not understood is left out. Raises `Missing` if the extra is not installed, and `Unreadable` if the code is too long.
     """
-    from .limits import MAX_CHARACTERS
+    from .core.limits import MAX_CHARACTERS
     from .parsing import Code, Missing, ascii_only
 
     if len(source.text) > MAX_CHARACTERS:

@@ -7,17 +7,17 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from pathlib import Path
 
-from tests.paths import ROOT
+sys.path.insert(0, str(Path(__file__).parents[3]))
+
+from tests.input.code.expected import PROGRAMS, outcome
 
 COMPILERS = {".c": ("gcc", "-std=c11"), ".cpp": ("g++", "-std=c++20")}
 
 
 def main() -> int:
     """Prints a line for each program, missed finding, and false finding, and the totals. Returns 1 if any is missed or false."""
-    sys.path.insert(0, str(ROOT))
-    from tests.input.code.expected import PROGRAMS, outcome
-
     names = [name for name in sys.argv[1:] if name != "--compile"]
     named = [path for path in PROGRAMS if not names or any(name in path.name for name in names)]
     if "--compile" in sys.argv[1:]:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from msaa_lint.input.code.c.names import MEMBERS, WITHOUT_TYPE, array_size, constant, element_type, member, setter_member, vulkan_struct
+from msaa_lint.input.code.core.types import array_size, element_type
+from msaa_lint.input.code.vulkan.names import MEMBERS, WITHOUT_TYPE, constant, member, setter_member, vulkan_struct
 
 
 @pytest.fixture(scope="module")

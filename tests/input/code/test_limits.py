@@ -13,7 +13,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from msaa_lint.core.text.source import Unreadable
-from msaa_lint.input.code.limits import BASE_STEPS, MAX_CHARACTERS, STEPS_PER_CHARACTER
+from msaa_lint.input.code.core.limits import BASE_STEPS, MAX_CHARACTERS, STEPS_PER_CHARACTER
 from msaa_lint.input.code.parsing import Code, ascii_only, tree
 from msaa_lint.input.source_file import SourceFile, read_source_file
 from tests.benchmarks.shapes.shape import Shape

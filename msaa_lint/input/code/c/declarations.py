@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import re
 
+from msaa_lint.input.code.core.terms import BRACES, CALL, DECLARE, LITERAL, NAME, Parameter, Term
 from msaa_lint.input.code.parsing import SyntaxNode, fields, span, without_comments
 
 from .expressions import Expressions
 from .kinds import BLANKS, MAX_DEPTH, NAMES, NUMBER, number
-from .terms import BRACES, CALL, DECLARE, LITERAL, NAME, Parameter, Term
 
 
 class Declarations(Expressions):

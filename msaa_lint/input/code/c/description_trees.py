@@ -6,14 +6,14 @@ import re
 
 from msaa_lint.core.text.node_builder import mapping
 from msaa_lint.core.text.span import Span
-from msaa_lint.input.code.limits import Work
+from msaa_lint.input.code.core.limits import Work
 from msaa_lint.input.code.parsing import Code, Read, tree
 from msaa_lint.input.code.sample_counts.choices import choices
+from msaa_lint.input.code.vulkan.creation import VulkanInterpreter
+from msaa_lint.input.code.vulkan.tree_writer import DescriptionWriter
 
 from .directives import clear_list_directives
-from .interpreter import Interpreter
 from .syntax import unit
-from .tree_writer import DescriptionWriter
 
 _VULKAN = re.compile(r"\b(?:Vk|vk)[A-Z]|\bvk\w*\s*::|=\s*vk\b|VULKAN_HPP")
 """What code contains that fills in Vulkan structures, unless it is a page's; compilers of shaders, too, speak of samples."""
@@ -32,7 +32,7 @@ def trees(code: Code) -> list[Read]:
     if sections:
         code = code._replace(text=text)
         root = tree(code).root_node
-    interpreter = Interpreter(unit(code, root, sections), code.fragments, code.language == "cpp", Work(len(code.text)))
+    interpreter = VulkanInterpreter(unit(code, root, sections), code.fragments, code.language == "cpp", Work(len(code.text)))
     if code.fragments or _VULKAN.search(code.text) is not None:
         interpreter.run()
     read = DescriptionWriter(interpreter, code.fragments, _WAITS.search(code.text) is not None or _FRAMES.search(code.text) is None).read()

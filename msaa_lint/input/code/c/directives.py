@@ -10,6 +10,7 @@ from bisect import bisect_left, bisect_right
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
+from msaa_lint.input.code.core.conditions import condition_key
 from msaa_lint.input.code.parsing import SyntaxNode
 
 _DIRECTIVE = re.compile(r"^[ \t]*#[ \t]*(ifdef|ifndef|if|elifdef|elifndef|elif|else|endif)\b((?:\\\n|[^\n])*)", re.MULTILINE)
@@ -20,8 +21,6 @@ _BLOCK = re.compile(
 """What precedes the brace of a block rather than a list."""
 
 _BRACKET = re.compile(r"[(){}\[\];]")
-
-_DEFINED = re.compile(r"(!?)\s*defined\s*(?:\(\s*(\w+)\s*\)|(\w+))")
 
 MAX_LIST_LENGTH = 20_000
 """The maximum distance in characters between the start of a list and a directive in it."""
@@ -43,12 +42,6 @@ class Section(NamedTuple):
     end: int
     text: str
     way: bool
-
-
-def condition_key(text: str, way: bool = True) -> tuple[str, bool]:
-    """Returns the key of a preprocessor condition, the same for #ifdef and #if defined, and its value."""
-    match = _DEFINED.fullmatch(text.strip())
-    return (f"#{match[2] or match[3]}", way is not bool(match[1])) if match is not None else (f"#{text.strip()}", way)
 
 
 def clear_list_directives(text: str, root: SyntaxNode) -> tuple[str, tuple[Section, ...]]:

@@ -7,11 +7,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Iterator
 
 from msaa_lint.core.text.span import Span
-from msaa_lint.input.code.parsing import SyntaxNode, SyntaxReader, fields, span, without_comments
-
-from .directives import Sections
-from .kinds import BLANKS, CLASSES, MAX_DEPTH, MAX_NAME, NAMES, WORD, number
-from .terms import (
+from msaa_lint.input.code.core.terms import (
     ADDRESS,
     ASSIGN,
     BINARY,
@@ -30,6 +26,10 @@ from .terms import (
     Parameter,
     Term,
 )
+from msaa_lint.input.code.parsing import SyntaxNode, SyntaxReader, fields, span, without_comments
+
+from .directives import Sections
+from .kinds import BLANKS, CLASSES, MAX_DEPTH, MAX_NAME, NAMES, WORD, number
 
 WRAPPERS = frozenset({"parenthesized_expression", "cast_expression", "condition_clause", "co_await_expression"})
 

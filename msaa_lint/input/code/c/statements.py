@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from msaa_lint.core.text.span import Span
+from msaa_lint.input.code.core.terms import BINARY, BLOCK, DECLARE, DO, IF, LEAVE, LOOP, RETURN, SOME, UNPARSED, Term
 from msaa_lint.input.code.parsing import SyntaxNode, fields, span, without_comments
 
 from .declarations import Declarations
 from .kinds import BLOCKS, CHAIN_TESTS, MAX_DEPTH
-from .terms import BINARY, BLOCK, DECLARE, DO, IF, LEAVE, LOOP, RETURN, SOME, UNPARSED, Term
 
 
 class Statements(Declarations):

@@ -9,12 +9,12 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from msaa_lint.input.code.core.terms import ASSIGN, CALL, DO, NAME, Function, Parameter, Term, Unit
 from msaa_lint.input.code.parsing import Code, SyntaxNode, fields, function_declarator, span, without_comments
 
 from .directives import Section, Sections
 from .kinds import CLASSES, MAX_DEPTH
 from .statements import Statements
-from .terms import ASSIGN, CALL, DO, NAME, Function, Parameter, Term, Unit
 
 RELEVANT = re.compile(
     r"[sS]ample|SAMPLE|[aA]ttachment|ATTACHMENT|[mM]saa|MSAA|[rR]esolve|RESOLVE|[fF]ramebuffer|[rR]enderPass|CreateImage|createImage|ImageCreateInfo|TRANSIENT|ImageView"

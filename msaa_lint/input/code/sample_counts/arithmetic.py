@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from msaa_lint.input.code.operators import COMPARISONS
+from msaa_lint.input.code.core.operators import COMPARISONS
 
 _NUMBER = re.compile(r"([-+]?)(0[xX][0-9a-fA-F]+|0[bB][01]+|[0-9]+)[uUlL]*")
 

@@ -12,7 +12,7 @@ import re
 from msaa_lint.core.text.node import Node
 from msaa_lint.core.text.node_builder import mapping
 from msaa_lint.core.text.span import Span
-from msaa_lint.input.code.limits import WorkLimitExceeded
+from msaa_lint.input.code.core.limits import WorkLimitExceeded
 from msaa_lint.input.code.parsing import Code, Read, SyntaxNode, Unread, span, tree
 
 from .evaluate import evaluate

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from msaa_lint.core.text.span import Span
-from msaa_lint.input.code.operators import ARITHMETIC, COMPARISONS
+from msaa_lint.input.code.core.operators import ARITHMETIC, COMPARISONS
 
 from .calls import evaluate_call
 from .conditions import about_samples, decide, last_name

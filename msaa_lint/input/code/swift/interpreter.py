@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import Any, NamedTuple
 
 from msaa_lint.core.text.span import Span
-from msaa_lint.input.code.limits import Work
+from msaa_lint.input.code.core.limits import Work
 
 from .expressions import block
 from .syntax import Syntax

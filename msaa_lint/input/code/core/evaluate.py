@@ -9,7 +9,6 @@ from typing import Any
 from msaa_lint.core.text.span import Span
 
 from .conditions import ConditionEvaluator, contradicts, negated
-from .names import constant
 from .scope import MEMBER, Scope, name_objects
 from .terms import ADDRESS, ASSIGN, BINARY, BRACES, CALL, CHOICE, FIELD, INDEX, LAMBDA, LITERAL, NAME, TARGET, UNARY, Term, at
 from .values import (
@@ -42,7 +41,7 @@ class Evaluator(ConditionEvaluator):
         if tag == LITERAL:
             return (Alternative(term[1], place),)
         if tag == NAME:
-            known = constant(term[1])
+            known = self.library.constant(term[1])
             if known is not None:
                 return (Alternative(known, place),)
             if term[1] == "this":
@@ -215,7 +214,7 @@ class Evaluator(ConditionEvaluator):
 
     def as_pointer(self, name: str, value: Value, term: Term, scope: Scope) -> Value:
         """Returns a pointer to a list that is assigned to a pointer member, so that later writes to the list are seen."""
-        if name[:1] != "p" or not name[1:2].isupper() or term[0] not in (NAME, FIELD, INDEX):
+        if self.library.member(name) == name or term[0] not in (NAME, FIELD, INDEX):
             return value
         if not isinstance(sole_value(value), Array):
             return value

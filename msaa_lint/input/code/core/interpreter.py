@@ -1,4 +1,4 @@
-"""An abstract interpreter of C and C++ that tracks the Vulkan structures a program fills in.
+"""An abstract interpreter that tracks the structures of an API that a program fills in.
 
 Each function that no other function of the file calls is an entry point. Calls of functions in the file are executed with their arguments.
 Conditions are not decided; they are recorded with the values written under them. The value of a class member is the union of what all
@@ -7,16 +7,17 @@ functions write to it, so the file is executed repeatedly, each time with the me
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from collections.abc import Sequence
 from typing import Any
 
 from msaa_lint.core.text.span import Span
-from msaa_lint.input.code.limits import WorkLimitExceeded
 from msaa_lint.input.code.parsing import Unread
 
 from .calls import Calls
 from .conditions import contradicts, decided, negated
 from .escapes import mark_escaped
+from .limits import WorkLimitExceeded
 from .scope import MAX_PASSES, MAX_TURNS, Scope, name_objects
 from .terms import BINARY, BLOCK, DECLARE, DO, FIELD, IF, INDEX, LEAVE, LOOP, NAME, RETURN, SOME, UNARY, Function, Term, at
 from .values import (
@@ -25,6 +26,7 @@ from .values import (
     UNKNOWN,
     UNKNOWN_VALUE,
     Alternative,
+    ApiObject,
     Array,
     Cell,
     Closure,
@@ -33,17 +35,24 @@ from .values import (
     Struct,
     Symbol,
     Value,
-    VulkanObject,
     sole_value,
 )
 from .variables import is_element_access
 
 
 class Interpreter(Calls):
-    """Executes one file."""
+    """Executes one program. The library of an API derives from it."""
 
     unread: Unread | None = None
     """Set if the file exceeds a limit, which leaves no objects."""
+
+    @abstractmethod
+    def create_unused(self, scope: Scope) -> None:
+        """Creates objects for the structures of an entry point that no call takes."""
+
+    @abstractmethod
+    def create_from_fragments(self, overlay: dict[str, Cell]) -> None:
+        """On a page of code fragments, creates objects for structures that it does not declare."""
 
     def run(self) -> None:
         """Executes the file until the values of members no longer change, or until it exceeds a limit, which `unread` then says."""
@@ -69,8 +78,7 @@ class Interpreter(Calls):
                     break
         except (WorkLimitExceeded, RecursionError) as error:
             # Of half a frame, too much would be said: that nothing reads an image, for example.
-            self.current_objects.clear()
-            self.resolves.clear()
+            self.begin()
             self.unread = Unread(self.work.message(error), function.at if function is not None else Span(0, 0))
 
     def entry_points(self) -> list[Function]:
@@ -226,14 +234,14 @@ class Interpreter(Calls):
 
 def _mark(write: Alternative) -> tuple[Any, ...]:
     value = write.value
-    if isinstance(value, VulkanObject):
+    if isinstance(value, ApiObject):
         return (value.signature(), write.guards)
     return (id(value) if isinstance(value, (Struct, Array, Closure)) else repr(value), write.at, write.guards)
 
 
 def _joined(key: str, writes: list[Alternative]) -> Value:
     """Returns the union of what all functions write to a member. Null is ignored if the member is assigned an object."""
-    objects = [write for write in writes if isinstance(write.value, (VulkanObject, Struct, Array))]
+    objects = [write for write in writes if isinstance(write.value, (ApiObject, Struct, Array))]
     joined = tuple(objects or writes)
     return joined if len(joined) <= MAX_ALTERNATIVES else (Alternative(Symbol(key, key.rpartition("::")[2]), joined[0].at),)
 

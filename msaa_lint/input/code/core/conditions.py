@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+import re
 from hashlib import blake2b
 from typing import Any
 
 from msaa_lint.core.text.span import Span
-from msaa_lint.input.code.operators import COMPARISONS
 
-from .directives import condition_key
+from .operators import COMPARISONS
 from .scope import Scope
 from .terms import ADDRESS, BINARY, CALL, FIELD, INDEX, LITERAL, NAME, TARGET, UNARY, Term
-from .values import MAX_ALTERNATIVES, Guards, Symbol, VulkanObject, sole_value
+from .values import MAX_ALTERNATIVES, ApiObject, Guards, Symbol, sole_value
 from .variables import Variables
+
+_DEFINED = re.compile(r"(!?)\s*defined\s*(?:\(\s*(\w+)\s*\)|(\w+))")
 
 MAX_TEXT = 200
 """The maximum length of the text that stands for an expression; a digest stands for a longer one."""
@@ -43,6 +45,12 @@ def decided(condition: bool | Guards, guards: Guards) -> bool | None:
     if contradicts(condition, guards):
         return False
     return True if condition <= guards else None
+
+
+def condition_key(text: str, way: bool = True) -> tuple[str, bool]:
+    """Returns the key of a preprocessor condition, the same for #ifdef and #if defined, and its value."""
+    match = _DEFINED.fullmatch(text.strip())
+    return (f"#{match[2] or match[3]}", way is not bool(match[1])) if match is not None else (f"#{text.strip()}", way)
 
 
 NO_NAMES: dict[str, str] = {}
@@ -111,7 +119,7 @@ class ConditionEvaluator(Variables):
                 return way
         if constant is None and value:
             return False
-        if isinstance(constant, VulkanObject):
+        if isinstance(constant, ApiObject):
             return True
         return frozenset({(symbol_key(constant) or self.canonical_condition(term, scope), True)})
 
@@ -137,8 +145,8 @@ class ConditionEvaluator(Variables):
 
     def comparison(self, term: Term, scope: Scope) -> bool | Guards:
         sign = term[1]
-        if term[3][0] == NAME and term[3][1].endswith(("VK_SUCCESS", "Result::eSuccess")) and sign in ("==", "!="):
-            # Assume that Vulkan calls succeed.
+        if term[3][0] == NAME and self.library.is_success(term[3][1]) and sign in ("==", "!="):
+            # Assume that calls of the API succeed.
             self.value(term[2], scope)
             return bool(sign == "==")
         every = self.value(term[2], scope)

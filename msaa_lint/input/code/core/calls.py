@@ -1,18 +1,20 @@
-"""Calls in C and C++: functions of the file are executed; other functions create what their structures describe."""
+"""Calls: functions of the program are executed; what other functions do is left to the library of the API."""
 
 from __future__ import annotations
 
 import re
+from abc import abstractmethod
 from collections.abc import Sequence
 
 from msaa_lint.core.text.span import Span
-from msaa_lint.input.code.limits import Work
 
-from .creation import COUNTS, VIEW, ObjectCreation
-from .names import element_type, vulkan_struct
+from .library import Library
+from .limits import Work
+from .lists import ListMethods
 from .overloads import Overloads
 from .scope import MAX_CALLS, MAX_CLOSURES, MAX_WAYS, MEMBER, Scope, Scopes
 from .terms import BRACES, CALL, FIELD, INDEX, LAMBDA, NAME, Function, Parameter, Term, Unit
+from .types import element_type
 from .values import (
     MAX_ALTERNATIVES,
     UNKNOWN,
@@ -28,9 +30,7 @@ from .values import (
     sole_value,
 )
 
-_CAST = re.compile(
-    r"(?:std::)?u?int(?:8|16|32|64|ptr)?_t$|(?:std::)?size_t$|(?:unsigned|int|float|bool)$|(?:Vk|vk::)\w+(?:FlagBits2?|Flags2?|Bool32)(?:KHR|EXT)?$"
-)
+_CAST = re.compile(r"(?:std::)?u?int(?:8|16|32|64|ptr)?_t$|(?:std::)?size_t$|(?:unsigned|int|float|bool)$")
 """Types whose name, used as a function, converts a value."""
 
 
@@ -40,12 +40,20 @@ OTHERS = Cell()
 """Stands for an object of a class other than the method's."""
 
 
-class Calls(ObjectCreation):
+class Calls(ListMethods):
     """Evaluates the calls of one file. `objects` is in creation order."""
 
-    def __init__(self, unit: Unit, fragments: bool, is_cpp: bool, work: Work) -> None:
-        super().__init__(unit, fragments, is_cpp, work)
+    def __init__(self, unit: Unit, library: Library, fragments: bool, is_cpp: bool, work: Work) -> None:
+        super().__init__(unit, library, fragments, is_cpp, work)
         self.functions = Overloads(unit.functions)
+
+    @abstractmethod
+    def external_call(self, term: Term, name: str, owner: Term | None, values: Sequence[Value], scope: Scope) -> Value:
+        """Returns the result of a function that the program does not define: the object that the structures among its arguments create."""
+
+    @abstractmethod
+    def result_of(self, function: Function, term: Term, value: Value, creates: bool, scope: Scope) -> Value:
+        """Returns what the API knows of the result of a call that was executed; `creates` says whether that created anything."""
 
     def call(self, term: Term, scope: Scope) -> Value:
         """Returns the value of a call."""
@@ -67,13 +75,13 @@ class Calls(ObjectCreation):
         if owner is None:
             if function[0] == NAME and (instance := self.construct_class(function[1], term, scope)) is not None:
                 return instance
-            if function[0] == NAME and vulkan_struct(function[1]):
+            if function[0] == NAME and self.library.structure(function[1]):
                 return self.construct(function[1], [(None, item) for item in arguments], place, scope)
             if name == "to_array" and len(arguments) == 1 and arguments[0][0] == BRACES:
                 return self.list_value(function[1].partition("<")[2].rstrip(">"), arguments[0][2], place, scope)
             if name in ("make_array", "makeArray") and arguments:
                 return self.list_value("", [(None, item) for item in arguments], place, scope)
-            if function[0] == NAME and len(arguments) == 1 and _CAST.match(function[1]):
+            if function[0] == NAME and len(arguments) == 1 and (_CAST.match(function[1]) or self.library.is_cast(function[1])):
                 return self.value(arguments[0], scope)
             inner = element_type(function[1]) if function[0] == NAME else None
             if inner is not None:
@@ -154,15 +162,11 @@ class Calls(ObjectCreation):
         before = len(self.current_objects)
         value = self.execute(function, term, scope, this_object)
         counts = {a.value for a in value if type(a.value) is int}
-        if (len(value) >= 3 and counts and counts <= {1, 2, 4, 8, 16, 32, 64}) or (COUNTS.search(function.name) and not counts):
+        if (len(value) >= 3 and counts and counts <= {1, 2, 4, 8, 16, 32, 64}) or (
+            self.library.is_count_choice(function.name) and not counts
+        ):
             return (Alternative(Symbol(f"{function.name}()", function.name, True), term[-1]),)
-        if self.fragments and len(self.current_objects) == before:
-            image = self.image_by_types(function, term, scope)
-            if image is not None:
-                return image
-        if not value and VIEW.search(function.name):
-            return self.view_of_argument([self.value(a, scope) for a in term[2]], term, scope) or UNKNOWN_VALUE
-        return value
+        return self.result_of(function, term, value, len(self.current_objects) > before, scope)
 
     def execute(self, function: Function, term: Term, scope: Scope, this_object: Cell | None, scopes: Scopes = ()) -> Value:
         """Executes a function with the arguments of a call. `scopes` are the enclosing variables of a lambda."""

@@ -8,10 +8,10 @@ from typing import Any
 
 from msaa_lint.core.text.node import Node
 from msaa_lint.core.text.span import Span
+from msaa_lint.input.code.core.values import UNKNOWN, ApiObject, Array, Cell, Ref, Struct, Symbol, Value, possible_writes, sole_value
 
-from .calls import Calls
+from .creation import VulkanInterpreter
 from .names import first_version
-from .values import UNKNOWN, Array, Cell, Ref, Struct, Symbol, Value, VulkanObject, possible_writes, sole_value
 
 ASSUMED = 4
 """The sample count above 1 that every device supports for color, depth, and stencil (Vulkan specification, "Required Limits")."""
@@ -39,19 +39,19 @@ COUNTS = {
 class Configuration:
     """The values of a file in one configuration, a set of decided conditions."""
 
-    def __init__(self, calls: Calls, fragments: bool, barriers: bool) -> None:
+    def __init__(self, program: VulkanInterpreter, fragments: bool, barriers: bool) -> None:
         self.fragments = fragments
         self.barriers = barriers
         """Whether the file records barriers, which can replace subpass dependencies."""
-        self.current_objects = list(calls.current_objects.values())
-        self.resolves = calls.resolves
+        self.current_objects = list(program.current_objects.values())
+        self.resolves = program.resolves
         self.configuration: dict[str, bool] = {}
         self.multisampled: set[str] = set()
         self.assumed: dict[str, tuple[str, Span, str]] = {}
         self.object_names: dict[int, str] = {}
         self.used_names: set[str] = set()
-        self.framebuffer_images: dict[int, list[VulkanObject | None]] = {}
-        self.duplicates: dict[tuple[Any, ...], VulkanObject] = {}
+        self.framebuffer_images: dict[int, list[ApiObject | None]] = {}
+        self.duplicates: dict[tuple[Any, ...], ApiObject] = {}
         self.external_images: dict[str, tuple[str, Span, Node]] = {}
 
     def choose_configuration(self) -> None:
@@ -74,7 +74,7 @@ class Configuration:
             if isinstance(alternative.value, Symbol):
                 self.assume_multisampled(alternative.value, alternative.guards)
 
-    def subpasses(self, render_pass: VulkanObject) -> Iterator[Struct]:
+    def subpasses(self, render_pass: ApiObject) -> Iterator[Struct]:
         return (struct for struct in self.structs(render_pass.info, "subpasses") or () if struct is not None)
 
     def assume_multisampled(self, symbol: Symbol, guards: Iterable[tuple[str, bool]]) -> None:
@@ -128,7 +128,7 @@ class Configuration:
                     if image is not None and "samples" in image.info.fields:
                         yield image.info.fields["samples"].writes
 
-    def is_excluded(self, obj: VulkanObject) -> bool:
+    def is_excluded(self, obj: ApiObject) -> bool:
         """Returns whether an object is created only in another configuration."""
         return any(self.configuration.get(text, way) is not way for text, way in obj.guards)
 
@@ -213,19 +213,19 @@ class Configuration:
         numbers = {count for count, _ in counts}
         return (numbers.pop() if len(numbers) == 1 else None), max(at for _, at in counts) if counts else struct.at
 
-    def image_of(self, struct: Struct, name: str) -> VulkanObject | None:
+    def image_of(self, struct: Struct, name: str) -> ApiObject | None:
         """Returns the image of the image view in a member."""
         return self.image_in(self.get(struct, name)[0])
 
-    def image_in(self, view: Any) -> VulkanObject | None:
+    def image_in(self, view: Any) -> ApiObject | None:
         view = self.dereference(view)
-        if isinstance(view, VulkanObject) and view.kind == "view":
+        if isinstance(view, ApiObject) and view.kind == "view":
             image = self.dereference(self.get(view.info, "image")[0])
-            if isinstance(image, VulkanObject) and image.kind == "image" and not self.is_excluded(image):
+            if isinstance(image, ApiObject) and image.kind == "image" and not self.is_excluded(image):
                 return self.first_duplicate(image)
         return None
 
-    def first_duplicate(self, obj: VulkanObject) -> VulkanObject:
+    def first_duplicate(self, obj: ApiObject) -> ApiObject:
         """Returns the first object that is identical to this one; calling a function twice creates two."""
         return self.duplicates.setdefault((obj.name, obj.signature()), obj)
 

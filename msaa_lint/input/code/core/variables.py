@@ -6,23 +6,16 @@ from abc import ABC, abstractmethod
 from typing import Any
 
 from msaa_lint.core.text.span import Span
-from msaa_lint.frame.vulkan.names import parse_enum
-from msaa_lint.input.code.limits import Work
 
-from .names import array_size, constant, element_type, member, vulkan_struct
+from .library import Library
+from .limits import Work
 from .scope import MEMBER, Scope
 from .terms import CALL, DECLARE, FIELD, INDEX, NAME, TARGET, Term, Unit, at
+from .types import array_size, element_type
 from .values import UNKNOWN_VALUE, Alternative, Array, Cell, Copier, Flags, Ref, Struct, Value, pointee, sole_value
 
 MAX_KEY = 2000
 """The maximum length of the path of a member; those of longer ones are unknown."""
-
-
-def _lasts(value: object) -> bool:
-    """Returns whether a variable's initial value is taken as its value: a format, a sample count above 1, an object."""
-    if isinstance(value, str):
-        return parse_enum("VkFormat", value) not in (None, "UNDEFINED")
-    return value is not None and not isinstance(value, (bool, float, Flags)) and (not isinstance(value, int) or value > 1)
 
 
 def is_element_access(term: Term) -> bool:
@@ -30,17 +23,12 @@ def is_element_access(term: Term) -> bool:
     return bool(term[0] == CALL and term[1][0] == FIELD and term[1][2] in ("front", "back", "at"))
 
 
-def unset_element(kind: str, place: Span, zeroed: bool) -> Cell:
-    """Returns an element of a list that is not initialized."""
-    struct_name = vulkan_struct(kind)
-    return Cell(kind, writes=(Alternative(Struct(struct_name, place, zeroed), place),) if struct_name else ())
-
-
 class Variables(ABC):
     """The variables and members of one file."""
 
-    def __init__(self, unit: Unit, fragments: bool, is_cpp: bool, work: Work) -> None:
+    def __init__(self, unit: Unit, library: Library, fragments: bool, is_cpp: bool, work: Work) -> None:
         self.unit = unit
+        self.library = library
         self.work = work
         self.copies = Copier(work)
         self.fragments = fragments
@@ -89,11 +77,22 @@ class Variables(ABC):
         """Counts the evaluation of a term, which takes longer under many conditions. Raises WorkLimitExceeded."""
         self.work.spend(1 + len(scope.guards) // 4)
 
+    def unset_element(self, kind: str, place: Span, zeroed: bool) -> Cell:
+        """Returns an element of a list that is not initialized."""
+        structure = self.library.structure(kind)
+        return Cell(kind, writes=(Alternative(Struct(structure, place, zeroed), place),) if structure else ())
+
+    def lasts(self, value: object) -> bool:
+        """Returns whether a variable's initial value is taken as its value: a format, a sample count above 1, an object."""
+        if isinstance(value, str):
+            return self.library.is_format(value)
+        return value is not None and not isinstance(value, (bool, float, Flags)) and (not isinstance(value, int) or value > 1)
+
     def stored_value(self, value: Any, kind: str, name: str) -> Any:
         """Returns a value as a variable holds it: structures and lists are copied and take the variable's name."""
         value = self.copies.value(value)
         if isinstance(value, Struct):
-            value.kind = value.kind or vulkan_struct(kind)
+            value.kind = value.kind or self.library.structure(kind)
             value.name = name or value.name
         if isinstance(value, Array):
             value.kind = value.kind or element_type(kind) or ""
@@ -126,7 +125,7 @@ class Variables(ABC):
         for variables in reversed(scope.scopes):
             if name in variables:
                 return variables[name]
-        if constant(name) is not None:
+        if self.library.constant(name) is not None:
             return None
         if scope.this_object is not None and name in self.members.get(scope.class_name, ()):
             return self.own_member(name, scope.this_object, scope)
@@ -208,15 +207,15 @@ class Variables(ABC):
             lasting = [a for a in value if not (isinstance(a.value, Struct) and not a.value.kind and not a.value.fields)]
             if not fixed:
                 # Other code may change the value; discard values that are typical placeholders: one sample, null, false, an operation.
-                lasting = [a for a in lasting if _lasts(a.value)]
+                lasting = [a for a in lasting if self.lasts(a.value)]
             self.declared_values[key] = tuple(Alternative(self.stored_value(a.value, kind, name), a.at, a.guards) for a in lasting)
-        elif not indirect and not class_name and (vulkan_struct(kind) or vulkan_struct(element_type(kind) or "")):
+        elif not indirect and not class_name and (self.library.structure(kind) or self.library.structure(element_type(kind) or "")):
             # Global variables are zero-initialized.
             self.declared_values[key] = self.default_value(kind, name, place, Scope(), zeroed=True)
         return self.declared_values[key]
 
     def field(self, operand: Term, name: str, scope: Scope) -> Cell | None:
-        name = member(name)
+        name = self.library.member(name)
         if operand[0] == NAME and operand[1] in ("this", "self"):
             if scope.this_object is not None:
                 return self.own_member(name, scope.this_object, scope)
@@ -241,10 +240,10 @@ class Variables(ABC):
         if cell.writes:
             return None
         elsewhere = bool(cell.key) or cell.kind.endswith("*")
-        if elsewhere and not vulkan_struct(cell.kind):
+        if elsewhere and not self.library.structure(cell.kind):
             kind = cell.kind.rstrip("*&")
             return self.member_cell(f"{self.class_of(kind, scope.namespace) or kind}::{name}")
-        struct = Struct(vulkan_struct(cell.kind), Span(0, 0) if elsewhere else at(operand), False, cell.name)
+        struct = Struct(self.library.structure(cell.kind), Span(0, 0) if elsewhere else at(operand), False, cell.name)
         cell.writes = (Alternative(struct, struct.at),)
         return struct.cell(name)
 
@@ -277,7 +276,7 @@ class Variables(ABC):
                 value.complete = False
                 return Cell()
             while len(value.items) <= index:
-                value.items.append(unset_element(value.kind, term[-1], value.zeroed))
+                value.items.append(self.unset_element(value.kind, term[-1], value.zeroed))
             return value.items[index]
         if cell.kind == MEMBER:
             return self.member_cell(f"{cell.name}[{index}]" if type(index) is int else f"{cell.name}[]")
@@ -295,11 +294,11 @@ class Variables(ABC):
             array.complete = False
             return
         while len(array.items) < count:
-            array.items.append(unset_element(array.kind, array.at, array.zeroed))
+            array.items.append(self.unset_element(array.kind, array.at, array.zeroed))
 
     def default_value(self, kind: str, name: str, place: Span, scope: Scope, zeroed: bool = False) -> Value:
         """Returns the value of a variable without an initializer. vulkan.hpp structures have default constructors."""
-        struct_name = vulkan_struct(kind)
+        struct_name = self.library.structure(kind)
         if struct_name:
             return (Alternative(Struct(struct_name, place, zeroed or kind.startswith("vk::"), name), place),)
         inner = element_type(kind)
@@ -308,6 +307,6 @@ class Variables(ABC):
             array.name, array.zeroed = name, zeroed
             self.fill_array(array, kind, scope)
             return (Alternative(array, place),)
-        if kind[:1].isupper() and not kind.startswith(("Vk", "VK", "PFN")):
+        if kind[:1].isupper() and not self.library.is_type(kind):
             return (Alternative(Struct("", place, False, name), place),)
         return UNKNOWN_VALUE

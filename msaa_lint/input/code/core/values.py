@@ -8,7 +8,8 @@ from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 from msaa_lint.core.text.span import Span
-from msaa_lint.input.code.limits import Work
+
+from .limits import Work
 
 Guards = frozenset[tuple[str, bool]]
 """Conditions that all hold, each as its text and its value."""
@@ -142,7 +143,7 @@ class Ref(NamedTuple):
     cell: Cell
 
 
-class VulkanObject:
+class ApiObject:
     """A Vulkan object created by a call: an image, a view, a render pass. `info` is a copy of its creation structure."""
 
     __slots__ = ("at", "escaped", "guards", "info", "key", "kind", "memory", "name", "name_depth")
@@ -167,7 +168,7 @@ class VulkanObject:
 
 
 def _said(value: Any) -> str:
-    if isinstance(value, VulkanObject):
+    if isinstance(value, ApiObject):
         return f"{value.kind} at {value.at}"
     return f"at {value.at}" if isinstance(value, (Struct, Array)) else "reference" if isinstance(value, (Ref, Closure)) else repr(value)
 

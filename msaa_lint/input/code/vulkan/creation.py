@@ -12,17 +12,17 @@ from typing import Any
 
 from msaa_lint.core.text.span import Span
 from msaa_lint.frame.vulkan.enums import VALUES
-
-from .conditions import brief, canonical_text
-from .escapes import forget, forget_captures, mark_escaped, mark_used, settle_under
-from .lists import ListMethods
-from .names import first_version, vulkan_struct
-from .scope import Scope, name_objects
-from .terms import ADDRESS, CALL, FIELD, INDEX, NAME, Function, Parameter, Term
-from .values import (
+from msaa_lint.input.code.core.conditions import brief, canonical_text
+from msaa_lint.input.code.core.escapes import forget, forget_captures, mark_escaped, mark_used, settle_under
+from msaa_lint.input.code.core.interpreter import Interpreter
+from msaa_lint.input.code.core.limits import Work
+from msaa_lint.input.code.core.scope import Scope, name_objects
+from msaa_lint.input.code.core.terms import ADDRESS, CALL, FIELD, INDEX, NAME, Function, Parameter, Term, Unit
+from msaa_lint.input.code.core.values import (
     UNKNOWN,
     UNKNOWN_VALUE,
     Alternative,
+    ApiObject,
     Array,
     Cell,
     Closure,
@@ -31,10 +31,12 @@ from .values import (
     Struct,
     Symbol,
     Value,
-    VulkanObject,
     pointee,
     sole_value,
 )
+
+from .library import VulkanLibrary
+from .names import first_version, vulkan_struct
 
 CREATE_INFOS = {
     "ImageCreateInfo": "image",
@@ -53,11 +55,6 @@ STANDALONE_INFOS = ("PipelineMultisampleStateCreateInfo",)
 
 _QUERIES = re.compile(r"[gG]et|Requirement|[pP]ropert|[fF]ind|[lL]og|[pP]rint|assert|Supported|[hH]ash|validate|setDebug|Name$")
 
-COUNTS = re.compile(
-    r"max.*sample|sample.*max|usable.*sample|supported.*sample|best.*sample|sample.*support|choose.*sample|pick.*sample|select.*sample",
-    re.IGNORECASE,
-)
-
 _HARMLESS = re.compile(
     r"[dD]estroy|[dD]elete|[fF]ree|[rR]elease|[nN]ame|[lL]og|[pP]rint|[aA]ssert|[cC]heck|CHECK|[mM]emory|[rR]equire|push_back|emplace"
 )
@@ -65,7 +62,7 @@ _HARMLESS = re.compile(
 
 _MEMORY = re.compile(r"mem.*(?:type|index)", re.IGNORECASE)
 
-VIEW = re.compile(r"view", re.IGNORECASE)
+_VIEW = re.compile(r"view", re.IGNORECASE)
 
 _MOVES = frozenset({"swap", "exchange", "tie", "iter_swap", "forward"})
 
@@ -84,8 +81,17 @@ _TYPED = {
 _MEMORY_BITS = VALUES["VkMemoryPropertyFlagBits"]
 
 
-class ObjectCreation(ListMethods):
-    """Creates the Vulkan objects of one file."""
+class VulkanInterpreter(Interpreter):
+    """Executes a program that calls Vulkan."""
+
+    def __init__(self, unit: Unit, fragments: bool, is_cpp: bool, work: Work) -> None:
+        super().__init__(unit, VulkanLibrary(), fragments, is_cpp, work)
+        self.resolves: dict[Span, tuple[Value, Value]] = {}
+        """The source and the target of each resolve command."""
+
+    def begin(self) -> None:
+        super().begin()
+        self.resolves.clear()
 
     def external_call(self, term: Term, name: str, owner: Term | None, values: Sequence[Value], scope: Scope) -> Value:
         """Returns the result of a function outside the file: the object that the structures among its arguments create."""
@@ -107,7 +113,7 @@ class ObjectCreation(ListMethods):
             for value in values:
                 if value and all(_of_memory(a.value) for a in value):
                     return value
-        if VIEW.search(name):
+        if _VIEW.search(name):
             view = self.view_of_argument(values, term, scope)
             if view is not None:
                 return view
@@ -121,7 +127,7 @@ class ObjectCreation(ListMethods):
                     parameter = self.declared_parameter(name, position)
                     if not is_input and (parameter is None or not parameter.fixed):
                         forget(content)
-                elif cell is not None and not isinstance(content, (Array, VulkanObject)):
+                elif cell is not None and not isinstance(content, (Array, ApiObject)):
                     # The function assigns an unknown value.
                     cell.write((Alternative(UNKNOWN, place),), place, scope.guards)
             elif not name.startswith(("vk", "vma")):
@@ -134,7 +140,7 @@ class ObjectCreation(ListMethods):
         helper_value = self.initializer(term, name, values, place)
         if helper_value is not None:
             return helper_value
-        return (Alternative(Symbol(brief(canonical_text(term)), name, bool(COUNTS.search(name))), place),)
+        return (Alternative(Symbol(brief(canonical_text(term)), name, bool(self.library.is_count_choice(name))), place),)
 
     def declared_parameter(self, name: str, position: int) -> Parameter | None:
         """Returns the parameter that an argument is passed to, if the file declares the function."""
@@ -191,12 +197,12 @@ class ObjectCreation(ListMethods):
         # The function itself returns a VkResult.
         return (Alternative(0, term[3]),) if plain else result
 
-    def create(self, kind: str, info: Struct, term: Term, scope: Scope) -> VulkanObject:
+    def create(self, kind: str, info: Struct, term: Term, scope: Scope) -> ApiObject:
         """Returns the object that a call creates."""
         key = (kind, term[3], scope.calls, scope.iterations)
         obj = self.objects.get(key)
         if obj is None:
-            obj = self.objects[key] = VulkanObject(kind, key, term[3], info)
+            obj = self.objects[key] = ApiObject(kind, key, term[3], info)
         mark_used(info, self.work)
         obj.info = self.copies.with_targets(info)
         settle_under(obj.info, dict(scope.guards), self.work)
@@ -219,15 +225,15 @@ class ObjectCreation(ListMethods):
     def bind_memory(self, values: Sequence[Value], owner: Term | None, scope: Scope) -> None:
         every = [*values, self.value(owner, scope)] if owner is not None else list(values)
         objects = [pointee(sole_value(value)) for value in every]
-        image = next((v for v in objects if isinstance(v, VulkanObject) and v.kind == "image"), None)
-        memory = next((v for v in objects if isinstance(v, VulkanObject) and v.kind == "memory"), None)
+        image = next((v for v in objects if isinstance(v, ApiObject) and v.kind == "image"), None)
+        memory = next((v for v in objects if isinstance(v, ApiObject) and v.kind == "memory"), None)
         if image is not None and memory is not None and "memoryTypeIndex" in memory.info.fields:
             index = memory.info.fields["memoryTypeIndex"].writes
             image.memory = index if index and all(_of_memory(a.value) for a in index) else ()
 
     def view_of_argument(self, values: Sequence[Value], term: Term, scope: Scope) -> Value | None:
         """Returns a view of the only image among the arguments, or None."""
-        images = [v for v in values if any(isinstance(a.value, VulkanObject) and a.value.kind == "image" for a in v)]
+        images = [v for v in values if any(isinstance(a.value, ApiObject) and a.value.kind == "image" for a in v)]
         if len(images) != 1:
             return None
         info = Struct("ImageViewCreateInfo", term[3], False)
@@ -274,7 +280,16 @@ class ObjectCreation(ListMethods):
     def lists_views(self, cell: Cell) -> bool:
         array = pointee(sole_value(cell.writes))
         items = [sole_value(item.writes) for item in array.items] if isinstance(array, Array) else []
-        return any(isinstance(item, VulkanObject) and item.kind == "view" for item in items)
+        return any(isinstance(item, ApiObject) and item.kind == "view" for item in items)
+
+    def result_of(self, function: Function, term: Term, value: Value, creates: bool, scope: Scope) -> Value:
+        if self.fragments and not creates:
+            image = self.image_by_types(function, term, scope)
+            if image is not None:
+                return image
+        if not value and _VIEW.search(function.name):
+            return self.view_of_argument([self.value(a, scope) for a in term[2]], term, scope) or UNKNOWN_VALUE
+        return value
 
     def image_by_types(self, function: Function, term: Term, scope: Scope) -> Value | None:
         """Returns the image created by a function whose body a page leaves out, based on the types of its parameters."""

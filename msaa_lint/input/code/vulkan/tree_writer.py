@@ -12,13 +12,13 @@ from msaa_lint.core.text.node import Node
 from msaa_lint.core.text.node_builder import mapping, scalar, sequence
 from msaa_lint.core.text.span import Span
 from msaa_lint.frame.vulkan.names import parse_enum
+from msaa_lint.input.code.core.values import UNKNOWN, ApiObject, Array, Flags, Struct, Symbol, sole_value
 from msaa_lint.input.code.parsing import Read
 
 from .members import FLAGS, Item, complete, flags_of, head_of
 from .names import first_version
 from .passes import Passes
 from .renderings import Commands
-from .values import UNKNOWN, Array, Flags, Struct, Symbol, VulkanObject, sole_value
 
 
 class DescriptionWriter(Passes, Commands):
@@ -30,7 +30,7 @@ class DescriptionWriter(Passes, Commands):
         self.current_objects = [obj for obj in self.current_objects if not self.is_excluded(obj)]
         passes = [obj for obj in self.current_objects if obj.kind == "renderPass"]
         self.bind(passes)
-        attached: dict[int, VulkanObject] = {}
+        attached: dict[int, ApiObject] = {}
         rendered = {id(obj): item for obj in passes if (item := self.render_pass(obj, attached)) is not None}
         pass_names = {key: item[0] for key, item in rendered.items()}
         recorded = [self.rendering(obj, attached) for obj in self.current_objects if obj.kind == "rendering"]
@@ -52,10 +52,10 @@ class DescriptionWriter(Passes, Commands):
             sections.append(("commands", at, sequence(commands, at)))
         return Read(mapping(sections, Span(0, 0)), tuple(self.assumed.values())) if sections else None
 
-    def is_multisampled(self, obj: VulkanObject) -> bool:
+    def is_multisampled(self, obj: ApiObject) -> bool:
         return (self.samples(obj.info)[0] or 1) > 1
 
-    def image(self, obj: VulkanObject) -> Item:
+    def image(self, obj: ApiObject) -> Item:
         info = obj.info
         items: list[Item] = []
         for name in ("format", "imageType", "tiling", "sharingMode", "usage"):
@@ -83,7 +83,7 @@ class DescriptionWriter(Passes, Commands):
         bits = value.bits if isinstance(value, Flags) else ((value, info.at),)
         return any(isinstance(bit, str) and "TRANSIENT" in bit for bit, _ in bits)
 
-    def pipeline(self, obj: VulkanObject, passes: dict[int, str]) -> Iterator[Item]:
+    def pipeline(self, obj: ApiObject, passes: dict[int, str]) -> Iterator[Item]:
         info = obj.info
         state = info if obj.kind == "state" else self.struct(info, "multisampleState")
         if state is None or first_version(state.kind) not in ("PipelineMultisampleStateCreateInfo", ""):
@@ -104,7 +104,7 @@ class DescriptionWriter(Passes, Commands):
         if obj.kind == "pipeline":
             target = self.dereference(self.get(info, "renderPass")[0])
             # The listings of a page need not belong to one program.
-            if isinstance(target, VulkanObject) and id(target) in passes and not self.fragments:
+            if isinstance(target, ApiObject) and id(target) in passes and not self.fragments:
                 at = self.get(info, "renderPass")[1]
                 members.append(("renderPass", at, scalar(passes[id(target)], at)))
                 subpass, place = self.get(info, "subpass")

@@ -6,9 +6,8 @@ from collections.abc import Sequence
 
 from msaa_lint.core.text.span import Span
 
-from .names import MEMBERS, member, setter_member, vulkan_struct
 from .scope import Scope
-from .structures import Structures, member_type
+from .structures import Structures
 from .terms import CALL, FIELD, INDEX, LITERAL, NAME, Term
 from .values import (
     ALWAYS,
@@ -23,7 +22,6 @@ from .values import (
     pointee,
     sole_value,
 )
-from .variables import unset_element
 
 APPEND = frozenset({"push_back", "emplace_back", "append", "add", "pushBack", "Add", "PushBack", "push"})
 
@@ -45,11 +43,11 @@ class ListMethods(Structures):
         value = pointee(sole_value(content))
         if len(content) > 1 and any(isinstance(pointee(item.value), Array) for item in content):
             return self.on_alternatives(content, name, place)
-        setter = setter_member(name)
+        setter = self.library.setter(name)
         if isinstance(value, Struct) and value.kind and setter is not None:
-            if len(arguments) != 1 or (setter not in map(member, MEMBERS[value.kind]) and setter != "next"):
+            if len(arguments) != 1 or not self.library.has_member(value.kind, setter):
                 return content
-            kind = member_type(value.kind, setter)
+            kind = self.library.member_type(value.kind, setter)
             argument = self.value(arguments[0], scope, kind)
             # A setter of a list takes its address.
             argument = self.as_pointer("p" + name[3:], argument, arguments[0], scope)
@@ -90,7 +88,7 @@ class ListMethods(Structures):
     def on_list(self, array: Array, cell: Cell | None, name: str, arguments: Sequence[Term], place: Span, scope: Scope) -> Value:
         if name in APPEND:
             kind = array.kind
-            if name == "emplace_back" and vulkan_struct(kind) and (len(arguments) != 1 or arguments[0][0] == LITERAL):
+            if name == "emplace_back" and self.library.structure(kind) and (len(arguments) != 1 or arguments[0][0] == LITERAL):
                 value = self.construct(kind, [(None, item) for item in arguments], place, scope)
             else:
                 value = self.value(arguments[0], scope, kind) if arguments else UNKNOWN_VALUE
@@ -124,7 +122,7 @@ class ListMethods(Structures):
             if array.complete and arguments:
                 count = self.sole(arguments[0], scope)
                 array.complete = type(count) is int and 0 <= count <= 64
-                array.items += [unset_element(array.kind, place, True) for _ in range(count if array.complete else 0)]
+                array.items += [self.unset_element(array.kind, place, True) for _ in range(count if array.complete else 0)]
         return UNKNOWN_VALUE
 
     def named_copy(self, alternative: Alternative, arguments: Sequence[Term]) -> Alternative:
@@ -141,4 +139,4 @@ class ListMethods(Structures):
                 if isinstance(value, Array):
                     value.complete = False
                 elif isinstance(value, Struct) and target[0] == FIELD:
-                    value.cell(member(target[2])).write(UNKNOWN_VALUE, target[-1], ALWAYS)
+                    value.cell(self.library.member(target[2])).write(UNKNOWN_VALUE, target[-1], ALWAYS)

@@ -7,15 +7,15 @@ from typing import Any
 from msaa_lint.core.text.node import Node
 from msaa_lint.core.text.node_builder import mapping, scalar, sequence
 from msaa_lint.core.text.span import Span
+from msaa_lint.input.code.core.values import UNKNOWN, ApiObject, Struct, Symbol, Value, sole_value
 
 from .members import Item, Members, complete, head_of
-from .values import UNKNOWN, Struct, Symbol, Value, VulkanObject, sole_value
 
 
 class Commands(Members):
     """Converts dynamic renderings and resolve commands to nodes."""
 
-    def rendering(self, obj: VulkanObject, attached: dict[int, VulkanObject]) -> Node | None:
+    def rendering(self, obj: ApiObject, attached: dict[int, ApiObject]) -> Node | None:
         """Returns a dynamic rendering, or None if its attachments are unknown."""
         info = obj.info
         colors = self.structs(info, "colorAttachments")
@@ -40,7 +40,7 @@ class Commands(Members):
             return None
         return mapping([("beginRendering", head, mapping(items, head))], head)
 
-    def rendered(self, struct: Struct | None, attached: dict[int, VulkanObject]) -> Node | None:
+    def rendered(self, struct: Struct | None, attached: dict[int, ApiObject]) -> Node | None:
         """Returns an attachment of a rendering, or None if it is unknown whether it is resolved."""
         if struct is None:
             return None
@@ -63,7 +63,7 @@ class Commands(Members):
             items += self.item(struct, member)
         return mapping(items, head)
 
-    def image_name(self, view: Any, at: Span, attached: dict[int, VulkanObject]) -> Node:
+    def image_name(self, view: Any, at: Span, attached: dict[int, ApiObject]) -> Node:
         """Returns the name of the image of a view; an unknown image gets a name of its own."""
         image = self.image_in(view)
         if image is None:
@@ -75,21 +75,21 @@ class Commands(Members):
         """Returns the name of an image that the file does not create."""
         value = self.dereference(value)
         key = value.key if isinstance(value, Symbol) else f"image at {at.start}"
-        if isinstance(value, VulkanObject):
+        if isinstance(value, ApiObject):
             key = f"image of {id(value)}"
         if key not in self.external_images:
-            label = value.name if isinstance(value, (Symbol, VulkanObject)) else ""
+            label = value.name if isinstance(value, (Symbol, ApiObject)) else ""
             name = self.unique(label.rpartition("::")[2].strip("*&") or "image")
             self.external_images[key] = (name, at, mapping((), at))
         return self.external_images[key][0]
 
-    def resolve(self, at: Span, ends: tuple[Value, Value], attached: dict[int, VulkanObject]) -> Node | None:
+    def resolve(self, at: Span, ends: tuple[Value, Value], attached: dict[int, ApiObject]) -> Node | None:
         """Returns a vkCmdResolveImage of an image that the file creates, or None."""
         head = head_of(at)
         items: list[Item] = []
         for name, value in zip(("srcImage", "dstImage"), ends, strict=True):
             known = self.dereference(sole_value(self.settle(value)))
-            image = self.first_duplicate(known) if isinstance(known, VulkanObject) and known.kind == "image" else None
+            image = self.first_duplicate(known) if isinstance(known, ApiObject) and known.kind == "image" else None
             if image is None and name == "srcImage":
                 return None
             if image is not None:

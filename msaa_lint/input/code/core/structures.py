@@ -6,96 +6,67 @@ from collections.abc import Sequence
 from typing import Any
 
 from msaa_lint.core.text.span import Span
-from msaa_lint.input.code.limits import Work
 
 from .evaluate import Evaluator
-from .names import MEMBERS, WITHOUT_TYPE, element_type, first_version, is_scalar, member, vulkan_struct
+from .library import Construction, Library
+from .limits import Work
 from .scope import Scope
 from .terms import ADDRESS, BRACES, CALL, FIELD, INDEX, LITERAL, NAME, SOME, UNPARSED, Term, Unit
+from .types import element_type
 from .values import (
     ALWAYS,
     UNKNOWN,
     UNKNOWN_VALUE,
     Alternative,
+    ApiObject,
     Array,
     Cell,
     Guards,
     Struct,
     Value,
-    VulkanObject,
     pointee,
     sole_value,
     structures_in,
 )
-from .variables import unset_element
 
 Items = Sequence[tuple[tuple[str | int, ...] | None, Term]]
 """The items in braces: the designated members or None, and the term."""
 
 
-def member_type(kind: str, name: str) -> str:
-    """Returns the type of a member that can be initialized with braces."""
-    return MEMBER_TYPES.get(member(name), "") if kind else ""
-
-
-MEMBER_TYPES = {
-    "attachments": "",
-    "extent": "VkExtent3D",
-    "subpasses": "std::vector<VkSubpassDescription>",
-    "dependencies": "std::vector<VkSubpassDependency>",
-    "colorAttachments": "",
-    "depthStencilAttachment": "VkAttachmentReference",
-}
-
-
-def _hpp_defaults(struct: Struct) -> None:
-    """Sets the members of vulkan.hpp structures that default to a sample count of 1 rather than 0."""
-    if struct.kind in ("AttachmentDescription", "AttachmentDescription2", "ImageCreateInfo"):
-        struct.cell("samples").writes = (Alternative(1, struct.at),)
-    elif struct.kind == "PipelineMultisampleStateCreateInfo":
-        struct.cell("rasterizationSamples").writes = (Alternative(1, struct.at),)
-
-
 class Structures(Evaluator):
     """Constructs the structures and lists of one file."""
 
-    def __init__(self, unit: Unit, fragments: bool, is_cpp: bool, work: Work) -> None:
-        super().__init__(unit, fragments, is_cpp, work)
-        self.objects: dict[tuple[Any, ...], VulkanObject] = {}
-        self.current_objects: dict[tuple[Any, ...], VulkanObject] = {}
+    def __init__(self, unit: Unit, library: Library, fragments: bool, is_cpp: bool, work: Work) -> None:
+        super().__init__(unit, library, fragments, is_cpp, work)
+        self.objects: dict[tuple[Any, ...], ApiObject] = {}
+        self.current_objects: dict[tuple[Any, ...], ApiObject] = {}
         self.declared_structs: list[tuple[Struct, Guards]] = []
-        self.resolves: dict[Span, tuple[Value, Value]] = {}
         self.follow_counts: dict[Span, int] = {}
 
     def begin(self) -> None:
         """Discards the results of the previous execution of the file, but keeps the identity of objects."""
         self.current_objects = {}
         self.declared_structs.clear()
-        self.resolves.clear()
         self.follow_counts.clear()
 
     def construct(self, kind: str, items: Items, place: Span, scope: Scope) -> Value:
-        """Returns a Vulkan structure of a type, or a copy. vulkan.hpp takes a list in place of a count and a pointer."""
-        struct = Struct(vulkan_struct(kind), place, True)
-        hpp = kind.startswith(("vk::", "VULKAN"))
-        if hpp:
-            _hpp_defaults(struct)
+        """Returns a structure of the API, or a copy of one."""
+        construction = self.library.construction(kind)
+        struct = Struct(construction.structure, place, True)
+        for name, default in construction.defaults.items():
+            struct.cell(name).writes = (Alternative(default, place),)
         if len(items) == 1 and items[0][0] is None:
             term = items[0][1]
             value = self.target(term, scope) if term[0] in (NAME, FIELD) else None
-            if isinstance(value, Struct) and (not value.kind or first_version(value.kind) == first_version(struct.kind)):
+            if isinstance(value, Struct) and (not value.kind or self.library.is_alike(value.kind, struct.kind)):
                 return (Alternative(self.copies.value(value), place),)
             if term[:2] == (LITERAL, 0):
                 return (Alternative(struct, place),)
-        self.initialize_positional(struct, items, scope, hpp)
+        self.initialize_positional(struct, items, scope, construction)
         return (Alternative(struct, place),)
 
-    def initialize_positional(self, struct: Struct, items: Items, scope: Scope, hpp: bool) -> None:
-        names = list(MEMBERS[struct.kind])
-        if not hpp and struct.kind not in WITHOUT_TYPE:
-            names = ["sType", "pNext", *names]
-        elif hpp and struct.kind not in WITHOUT_TYPE:
-            names.append("pNext")
+    def initialize_positional(self, struct: Struct, items: Items, scope: Scope, construction: Construction) -> None:
+        names = construction.members
         n = 0
         for path, term in items:
             if path:
@@ -108,15 +79,15 @@ class Structures(Evaluator):
             if term[0] == SOME:
                 # Which member an item initializes depends on a condition.
                 for name in names[n:]:
-                    struct.cell(member(name)).write(UNKNOWN_VALUE, term[-1], ALWAYS)
+                    struct.cell(self.library.member(name)).write(UNKNOWN_VALUE, term[-1], ALWAYS)
                 return
             name = names[n]
-            value = self.as_pointer(name, self.value(term, scope, member_type(struct.kind, name)), term, scope)
+            value = self.as_pointer(name, self.value(term, scope, self.library.member_type(struct.kind, name)), term, scope)
             target = pointee(sole_value(value))
-            if name.endswith("Count") and hpp and (isinstance(target, (Array, Struct)) or term[0] == BRACES):
+            if name.endswith("Count") and construction.takes_lists and (isinstance(target, (Array, Struct)) or term[0] == BRACES):
                 n += 1
                 name = names[n] if n < len(names) else name
-            struct.cell(member(name)).write(self.copies.alternatives(value), term[-1], ALWAYS)
+            struct.cell(self.library.member(name)).write(self.copies.alternatives(value), term[-1], ALWAYS)
             n += 1
 
     def initialize_designated(self, struct: Struct, path: Sequence[str | int], term: Term, scope: Scope) -> None:
@@ -126,15 +97,15 @@ class Structures(Evaluator):
             guards, term = self.unwrap_conditions(term)
         target: Struct = struct
         for part in path[:-1]:
-            cell = target.cell(member(str(part)))
+            cell = target.cell(self.library.member(str(part)))
             value = sole_value(cell.writes)
             if not isinstance(value, Struct):
                 value = Struct("", term[-1], True)
                 cell.writes = (Alternative(value, term[-1]),)
             target = value
         name = str(path[-1])
-        value = self.as_pointer(name, self.value(term, scope, member_type(target.kind, name)), term, scope)
-        target.cell(member(name)).write(self.copies.alternatives(value), term[-1], guards)
+        value = self.as_pointer(name, self.value(term, scope, self.library.member_type(target.kind, name)), term, scope)
+        target.cell(self.library.member(name)).write(self.copies.alternatives(value), term[-1], guards)
 
     def unwrap_conditions(self, term: Term) -> tuple[Guards, Term]:
         """Returns the guards of a list item, and the item."""
@@ -148,7 +119,7 @@ class Structures(Evaluator):
     def braced_value(self, term: Term, scope: Scope, kind: str) -> Value:
         """Returns the value of a braced list for a target type."""
         kind, items, place = term[1] or kind, term[2], term[3]
-        if vulkan_struct(kind):
+        if self.library.structure(kind):
             return self.construct(kind, items, place, scope)
         inner = element_type(kind)
         if items and all(path for path, _ in items) and isinstance(items[0][0][0], str) and inner is None:
@@ -160,11 +131,11 @@ class Structures(Evaluator):
             # `{}` stands for no flags.
             return (Alternative(Array("", place), place),)
         if inner is None and kind and kind != "auto":
-            if len(items) == 1 and items[0][0] is None and is_scalar(kind) and self.class_of(kind, scope.namespace) is None:
+            if len(items) == 1 and items[0][0] is None and self.library.is_scalar(kind) and self.class_of(kind, scope.namespace) is None:
                 return self.value(items[0][1], scope, kind)
-            if not items and kind.startswith(("Vk", "vk::", "bool", "int", "uint", "float", "PFN")):
+            if not items and (self.library.is_type(kind) or kind.startswith(("bool", "int", "uint", "float"))):
                 return UNKNOWN_VALUE
-            if not items or not is_scalar(kind) or self.class_of(kind, scope.namespace) is not None:
+            if not items or not self.library.is_scalar(kind) or self.class_of(kind, scope.namespace) is not None:
                 return self.class_value(kind, items, place, scope)
         made_list = self.list_value(inner or "", items, place, scope)
         if inner is not None:
@@ -179,12 +150,12 @@ class Structures(Evaluator):
             if (
                 inner
                 and (inner[0][1][0] in (BRACES, CALL, NAME, FIELD, INDEX) and not inner[0][0])
-                and (not vulkan_struct(kind) or self.has_kind(inner[0][1], kind, scope))
+                and (not self.library.structure(kind) or self.has_kind(inner[0][1], kind, scope))
             ):
                 items = inner
         array.zeroed = True
         for path, term in items:
-            if term[:2] == (LITERAL, 0) and len(items) == 1 and vulkan_struct(kind):
+            if term[:2] == (LITERAL, 0) and len(items) == 1 and self.library.structure(kind):
                 continue
             guards, term = self.unwrap_conditions(term)
             value = self.value(term, scope, kind)
@@ -220,7 +191,7 @@ class Structures(Evaluator):
             array.complete = False
             return (Alternative(array, place),)
         for _ in range(count):
-            item = unset_element(kind, place, True)
+            item = self.unset_element(kind, place, True)
             if len(arguments) == 2:
                 item.writes = self.copies.alternatives(self.value(arguments[1], scope, kind))
             array.items.append(item)
@@ -237,14 +208,14 @@ class Structures(Evaluator):
         for name, (path, term) in zip(names, items, strict=False):
             if not path:
                 value = self.value(term, scope)
-                struct.cell(member(name)).writes = self.copies.alternatives(value)
+                struct.cell(self.library.member(name)).writes = self.copies.alternatives(value)
         return (Alternative(struct, place),)
 
     def has_kind(self, term: Term, kind: str, scope: Scope) -> bool:
         if term[0] == BRACES:
             return True
         value = self.target(term, scope)
-        return isinstance(value, Struct) and first_version(value.kind) == first_version(vulkan_struct(kind))
+        return isinstance(value, Struct) and self.library.is_alike(value.kind, self.library.structure(kind))
 
     def count_value(self, value: Any, place: Span) -> Value:
         value = pointee(value)
@@ -266,7 +237,7 @@ class Structures(Evaluator):
             for element in structures_in(value):
                 element.zeroed = True
                 element.fields.clear()
-            if isinstance(value, Array) and vulkan_struct(value.kind):
+            if isinstance(value, Array) and self.library.structure(value.kind):
                 # Elements added later are zero too.
                 value.zeroed = True
         return UNKNOWN_VALUE

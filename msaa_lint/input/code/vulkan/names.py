@@ -104,10 +104,6 @@ MEMBERS["RenderPassCreateInfo2"] = (*MEMBERS["RenderPassCreateInfo"], "correlate
 _SCALAR = re.compile(r"(?:FlagBits2?|Flags2?|Format|Layout|Op|Mode|Bool32|Tiling|Type|DeviceSize)(?:KHR|EXT)?$")
 _SUFFIX = re.compile(r"(?:KHR|EXT)$")
 _STRUCTURE = re.compile(r"(?:::)?(?:Vk|vk::|VULKAN_HPP_NAMESPACE::)([A-Za-z0-9]+)$")
-_LISTED = re.compile(
-    r"(?:std::|eastl::|absl::)?(?:array|vector|span|inlined_vector|InlinedVector|small_vector|initializer_list|SmallVector|Array|Vector)<([^,<>]+)[,>]"
-)
-_FIXED = re.compile(r"(?:std::|eastl::)?array<[^,<>]+,([^<>]+)>$")
 _COUNT = re.compile(r"VK_SAMPLE_COUNT_(1|2|4|8|16|32|64)_BIT$")
 _SCOPED = re.compile(r"(?:.*::)?([A-Z][A-Za-z0-9]+)::e([A-Z0-9][A-Za-z0-9]*)$")
 
@@ -130,22 +126,6 @@ def vulkan_struct(type_text: str) -> str:
 def is_scalar(type_text: str) -> bool:
     """Returns whether a Vulkan type is an enum, flags, or a number, whose braces contain a single value."""
     return _SCALAR.search(type_text) is not None or not type_text.startswith(("Vk", "vk::", "VULKAN"))
-
-
-def element_type(type_text: str) -> str | None:
-    """Returns the element type of an array or list type, or None."""
-    if type_text.endswith("]"):
-        return type_text.partition("[")[0]
-    match = _LISTED.match(type_text)
-    return match[1] if match is not None else None
-
-
-def array_size(type_text: str) -> str:
-    """Returns the size of an array type as written, or an empty string."""
-    if type_text.endswith("]"):
-        return type_text.partition("[")[2].rstrip("]")
-    match = _FIXED.match(type_text)
-    return match[1] if match is not None else ""
 
 
 def first_version(kind: str) -> str:

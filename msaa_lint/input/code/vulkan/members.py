@@ -9,9 +9,9 @@ from msaa_lint.core.text.node import Node
 from msaa_lint.core.text.node_builder import scalar, sequence
 from msaa_lint.core.text.span import Span
 from msaa_lint.frame.vulkan.names import parse_enum, parse_flags
+from msaa_lint.input.code.core.values import ApiObject, Array, Flags, Struct
 
 from .configurations import Configuration
-from .values import Array, Flags, Struct, VulkanObject
 
 Item = tuple[str, Span, Node]
 _T = TypeVar("_T")
@@ -74,7 +74,7 @@ class Members(Configuration):
             return scalar(bool(value), at)
         return None
 
-    def object_name(self, obj: VulkanObject, otherwise: str) -> str:
+    def object_name(self, obj: ApiObject, otherwise: str) -> str:
         """Returns a unique name for an object."""
         if id(obj) not in self.object_names:
             self.object_names[id(obj)] = self.unique(obj.name.rpartition("::")[2].strip("*&") or otherwise)

@@ -6,10 +6,10 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
 from msaa_lint.core.text.span import Span
-from msaa_lint.input.code.limits import Work
 
+from .limits import Work
 from .terms import NAME
-from .values import Array, Cell, Closure, Struct, Value, VulkanObject, inner_cells, pointee, possible_writes, structures_in
+from .values import ApiObject, Array, Cell, Closure, Struct, Value, inner_cells, pointee, possible_writes, structures_in
 
 MAX_DEPTH = 4
 """The maximum nesting of values that external code reaches."""
@@ -22,7 +22,7 @@ def mark_escaped(value: Value, work: Work) -> None:
     while stack:
         inner, depth = stack.pop()
         cells: Iterable[Cell] = ()
-        if isinstance(inner, VulkanObject):
+        if isinstance(inner, ApiObject):
             inner.escaped = True
             if inner.kind == "view" and "image" in inner.info.fields:
                 cells = (inner.info.fields["image"],)

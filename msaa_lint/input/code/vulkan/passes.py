@@ -7,28 +7,28 @@ from collections.abc import Iterator, Sequence
 from msaa_lint.core.text.node import Node
 from msaa_lint.core.text.node_builder import mapping, scalar, sequence
 from msaa_lint.core.text.span import Span
+from msaa_lint.input.code.core.values import UNKNOWN, ApiObject, Array, Struct, sole_value
 
 from .members import Item, Members, complete, head_of
-from .values import UNKNOWN, Array, Struct, VulkanObject, sole_value
 
 
 class Passes(Members):
     """Converts render passes to nodes."""
 
-    def bind(self, passes: Sequence[VulkanObject]) -> None:
+    def bind(self, passes: Sequence[ApiObject]) -> None:
         """Assigns the images of framebuffers to the attachments of render passes."""
         for obj in self.current_objects:
             if obj.kind != "framebuffer":
                 continue
             views = self.dereference(self.get(obj.info, "attachments")[0])
-            if isinstance(views, VulkanObject):
+            if isinstance(views, ApiObject):
                 images = [self.image_in(views)]
             elif isinstance(views, Array) and views.complete:
                 images = [self.image_in(sole_value(self.settle(cell.writes))) for cell in views.items]
             else:
                 continue
             target = self.dereference(self.get(obj.info, "renderPass")[0])
-            if not isinstance(target, VulkanObject):
+            if not isinstance(target, ApiObject):
                 render_passes = [p for p in passes if len(self.structs(p.info, "attachments") or ()) == len(images)]
                 target = render_passes[0] if len(render_passes) == 1 and len(passes) == 1 else None
             if target is None:
@@ -40,7 +40,7 @@ class Passes(Members):
                 self.framebuffer_images[id(target)] = [a if a is b else None for a, b in zip(before, images, strict=False)]
 
     def attachment(
-        self, struct: Struct | None, image: VulkanObject | None, attached: dict[int, VulkanObject], head: Span, resolved: bool
+        self, struct: Struct | None, image: ApiObject | None, attached: dict[int, ApiObject], head: Span, resolved: bool
     ) -> Node:
         items: list[Item] = []
         if struct is None:
@@ -57,7 +57,7 @@ class Passes(Members):
             items.insert(min(1, len(items)), ("samples", at, scalar(count, at)))
         return mapping(items, head)
 
-    def render_pass(self, obj: VulkanObject, attached: dict[int, VulkanObject]) -> Item | None:
+    def render_pass(self, obj: ApiObject, attached: dict[int, ApiObject]) -> Item | None:
         info = obj.info
         structs = self.structs(info, "attachments")
         if not structs:
@@ -93,7 +93,7 @@ class Passes(Members):
                 items.append(("dependencies", head, sequence(nodes_of_dependencies, head)))
         return self.object_name(obj, "renderPass"), head, mapping(items, head)
 
-    def has_single_images(self, structs: Sequence[Struct | None], images: Sequence[VulkanObject | None]) -> bool:
+    def has_single_images(self, structs: Sequence[Struct | None], images: Sequence[ApiObject | None]) -> bool:
         """Returns whether each multisampled image of a pass is known and single.
 
         With one image per frame in flight, no frame waits for another.

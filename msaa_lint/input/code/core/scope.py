@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from msaa_lint.core.text.span import Span
 
-from .values import ALWAYS, Alternative, Cell, Guards, Value, VulkanObject
+from .values import ALWAYS, Alternative, ApiObject, Cell, Guards, Value
 
 MAX_TURNS = 16
 """The maximum number of loop iterations that are executed individually."""
@@ -56,5 +56,5 @@ def name_objects(value: Value, name: str, scope: Scope) -> None:
     """Names objects after the variable that they are assigned to; the outermost function takes precedence."""
     for alternative in value:
         obj = alternative.value
-        if isinstance(obj, VulkanObject) and name and len(scope.calls) < obj.name_depth:
+        if isinstance(obj, ApiObject) and name and len(scope.calls) < obj.name_depth:
             obj.name, obj.name_depth = name, len(scope.calls)
