@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Set
+from collections.abc import Iterator, Sequence, Set
 
 from msaa_lint.core.finding import CaptureLocation, Finding, Result
+from msaa_lint.core.text.span import Label
 
 from . import Options, Write
 from .color import BOLD, SECONDARY, SEVERITY, paint
 from .concise import location, render_end
 from .escape import display
 from .excerpt import MAX_MARKS, Mark, excerpt
+from .paths import display_path
+from .place import place
 from .summary import is_choice, price_text
 
 
@@ -35,17 +38,40 @@ def paragraph(finding: Finding, result: Result, options: Options, rules: Set[str
     equals = paint(f"{indent} =", SECONDARY, options.color)
     notes = [f"{equals} {paint(f'{word}:', BOLD, options.color)} {text}" for word, text in remarks(finding, rules)]
     arrow = paint(f"{indent}-->", SECONDARY, options.color)
-    return "\n".join([head, f"{arrow} {location(finding, result, options)}", *lines, bar, *notes])
+    others = [line for file, labels in _elsewhere(finding).items() for line in _excerpt_of(file, labels, digits, result, options)]
+    return "\n".join([head, f"{arrow} {location(finding, result, options)}", *lines, *others, bar, *notes])
 
 
 def marks(finding: Finding) -> list[Mark]:
-    """The primary mark, with the labels at the finding's own span, and a mark for each other label."""
+    """The primary mark, with the labels at the finding's own span, and a mark for each other label of its file."""
     assert finding.span is not None
     texts: dict[tuple[int, int], list[str]] = {finding.span: []}
     for label in finding.labels:
-        texts.setdefault(label.span, []).append(display(label.text))
+        if label.file is None:
+            texts.setdefault(label.span, []).append(display(label.text))
     primary = Mark(*finding.span, "; ".join(texts.pop(finding.span)), SEVERITY[finding.severity], True)
     return [primary, *(Mark(*span, "; ".join(parts), SECONDARY, False) for span, parts in texts.items())]
+
+
+def _elsewhere(finding: Finding) -> dict[str, list[Label]]:
+    """The labels in other files, by file."""
+    labels: dict[str, list[Label]] = {}
+    for label in finding.labels:
+        if label.file is not None:
+            labels.setdefault(label.file, []).append(label)
+    return labels
+
+
+def _excerpt_of(file: str, labels: Sequence[Label], digits: int, result: Result, options: Options) -> Iterator[str]:
+    """Yields the lines of another file that have labels."""
+    source = result.sources.get(file)
+    at = place(result, file, labels[0].span)
+    if source is not None and at is not None:
+        marks = [Mark(*label.span, display(label.text), SECONDARY, False) for label in labels]
+        wider, lines = excerpt(source, marks, options.width, options.color)
+        colons = paint(" " * max(digits, wider) + ":::", SECONDARY, options.color)
+        yield f"{colons} {display_path(file, options.root)}:{at.line}:{at.column}"
+        yield from lines
 
 
 def capture_location(where: CaptureLocation) -> str:
@@ -62,7 +88,7 @@ def remarks(finding: Finding, rules: Set[str]) -> list[tuple[str, str]]:
             ("from", display(capture_location(finding.capture_location)) + " (line numbers are those of `msaa-lint convert` output)")
         )
     lines += [("note", display(note)) for note in finding.notes if note.strip()]
-    places = len({label.span for label in finding.labels} | {finding.span})
+    places = len({label.span for label in finding.labels if label.file is None} | {finding.span})
     if places > MAX_MARKS:
         lines.append(("note", f"{places - MAX_MARKS} more places are not shown"))
     price = price_text(finding)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from msaa_lint.core.finding import CaptureSummary, Finding, Fix, InputSummary, Result, Saving, Suppressed, Undecided
-from msaa_lint.core.text.span import Span
+from msaa_lint.core.text.span import Label, Span
 
 from . import Options, Write
 from .data import Json, head, text, write_object
@@ -49,10 +49,19 @@ def _finding(finding: Finding, result: Result, options: Options) -> Json:
         "fixable": bool(fix and fix.edits and not fix.refusal),
         "fix": _fix(fix) if fix else None,
         "price": price._asdict() if price else None,
-        "labels": [{**_place(result, finding.file, label.span), "text": text(label.text)} for label in finding.labels],
+        "labels": [_label(label, finding, result, options) for label in finding.labels],
         "notes": [text(note) for note in finding.notes],
         "help": text(finding.help),
         "seen": {**finding.capture_location._asdict(), "by": text(finding.capture_location.by)} if finding.capture_location else None,
+    }
+
+
+def _label(label: Label, finding: Finding, result: Result, options: Options) -> Json:
+    file = label.file or finding.file
+    return {
+        "file": escape_surrogates(relative(file, options.root)),
+        **_place(result, file, label.span),
+        "text": text(label.text),
     }
 
 

@@ -173,8 +173,12 @@ def _result(
         location["logicalLocations"] = [{"fullyQualifiedName": escape_surrogates(clip(finding.subject))}]
     labels = _labels(finding, result)
     related = [
-        {"id": n, "physicalLocation": {"artifactLocation": artifact, "region": region}, "message": {"text": text}}
-        for n, (text, region) in enumerate(labels, 1)
+        {
+            "id": n,
+            "physicalLocation": {"artifactLocation": {"uri": uri(file, options.root)}, "region": region},
+            "message": {"text": text},
+        }
+        for n, (text, file, region) in enumerate(labels, 1)
     ]
     properties: dict[str, object] = {"confidence": finding.confidence}
     price = usable_price(finding)
@@ -189,7 +193,7 @@ def _result(
         "ruleIndex": index[finding.code],
         # Code scanning fails a pull request on an error, which an uncertain finding must not do.
         "level": "warning" if finding.confidence == "low" and finding.severity == "error" else finding.severity,
-        "message": {"text": _message(finding, [text for text, _ in labels])},
+        "message": {"text": _message(finding, [text for text, _, _ in labels])},
         "locations": [location],
         "partialFingerprints": {"msaaLint/v1": name},
         "properties": properties,
@@ -209,17 +213,18 @@ def _result(
     return sarif
 
 
-def _labels(finding: Finding, result: Result) -> list[tuple[str, dict[str, int]]]:
-    """The texts and regions of the labels, except those at the finding's own span."""
-    labels = [label for label in finding.labels if label.span != finding.span][:MAX_LOCATIONS]
-    placed = [(_linkless(display(label.text)), _region(result, finding.file, label.span)) for label in labels]
-    return [(text, region) for text, region in placed if region]
+def _labels(finding: Finding, result: Result) -> list[tuple[str, str, dict[str, int]]]:
+    """The texts, files, and regions of the labels, except those at the finding's own span."""
+    labels = [label for label in finding.labels if label.file is not None or label.span != finding.span][:MAX_LOCATIONS]
+    files = [label.file or finding.file for label in labels]
+    placed = [(_linkless(display(label.text)), file, _region(result, file, label.span)) for label, file in zip(labels, files, strict=True)]
+    return [(text, file, region) for text, file, region in placed if region]
 
 
 def _message(finding: Finding, labels: list[str]) -> str:
     """The message as the first sentence, which GitHub uses as the title, then the labels, as links, and the help text."""
     parts = [_linkless(display(finding.message))]
-    parts += [_linkless(display(label.text)) for label in finding.labels[:MAX_LINKS] if label.span == finding.span]
+    parts += [_linkless(display(label.text)) for label in finding.labels[:MAX_LINKS] if label.file is None and label.span == finding.span]
     for n, text in enumerate(labels[:MAX_LINKS], 1):
         if text:
             parts.append(f"[{_bracketless(text)}]({n})")

@@ -11,10 +11,11 @@ class Span(NamedTuple):
 
 
 class Label(NamedTuple):
-    """A secondary place of a finding in the same file, and a note about it."""
+    """A secondary place of a finding, and a note about it. `file` is None if the place is in the file of the finding."""
 
     span: Span
     text: str
+    file: str | None = None
 
 
 class Edit(NamedTuple):

@@ -1,8 +1,8 @@
 """Applies suppression comments to findings, and reports the problems of the comments.
 
 `# msaa-lint: ignore[rule, MSAA201] reason` suppresses the findings of those rules on its line or, alone on its line, on the next line that
-is not a comment. A finding is on every line of its location and of its labels. `# msaa-lint: ignore-file[rule] reason`, in the comments at
-the top, applies to the whole file. 9xx errors cannot be suppressed.
+is not a comment. A finding is on every line of its location and of its labels in the same file. `# msaa-lint: ignore-file[rule] reason`, in
+the comments at the top, applies to the whole file. 9xx errors cannot be suppressed.
 """
 
 from __future__ import annotations
@@ -121,7 +121,7 @@ class _Table:
         by = None
         lines = self._on_lines.get(found.rule)
         if lines is not None and found.span is not None:
-            for span in (found.span, *(label.span for label in found.labels)):
+            for span in (found.span, *(label.span for label in found.labels if label.file is None)):
                 first, last = source.position(span.start).line, source.position(max(span.start, span.end - 1)).line
                 at = bisect_left(lines, (first, -1))
                 if at < len(lines) and lines[at][0] <= last:

@@ -20,7 +20,7 @@ def test_frame_is_valid_and_states_places_and_prices() -> None:
     assert [stored[key] for key in ("line", "column", "end_line", "end_column")] == [9, 18, 9, 23]
     assert FORWARD.split("\n")[8][17:22] == "STORE"
     assert stored["price"] == {"read_mb_per_s": 0.0, "write_mb_per_s": 2248.1, "memory_mib": 31.64, "milliwatts": 224.8}
-    assert stored["labels"][1] == {"line": 5, "column": 7, "end_line": 5, "end_column": 12, "text": "4x attachment declared here"}
+    assert stored["labels"][1] == {"file": "passes/forward.yaml", **KEY_AT, "text": "4x attachment declared here"}
     assert (loaded["fixable"], loaded["fix"]) == (
         True,
         {"title": "set loadOp to DONT_CARE", "safe": False, "shown": False, "choice": False, "refusal": None},
