@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from itertools import chain
 from typing import Any
 
 from msaa_lint.core.text.node import Node
 from msaa_lint.core.text.span import Span
-from msaa_lint.input.code.core.values import UNKNOWN, ApiObject, Array, Cell, Ref, Struct, Symbol, Value, possible_writes, sole_value
+from msaa_lint.input.code.core.configurations import ASSUMED, Configuration
+from msaa_lint.input.code.core.values import UNKNOWN, ApiObject, Array, Cell, Ref, Struct, Symbol, Value, sole_value
 
 from .creation import VulkanInterpreter
 from .names import first_version
-
-ASSUMED = 4
-"""The sample count above 1 that every device supports for color, depth, and stencil (Vulkan specification, "Required Limits")."""
-
 
 NEEDS = {
     "AttachmentDescription": ("format", "samples"),
@@ -36,18 +33,15 @@ COUNTS = {
 """The member with the number of elements of another member."""
 
 
-class Configuration:
-    """The values of a file in one configuration, a set of decided conditions."""
+class VulkanConfiguration(Configuration):
+    """The values of a Vulkan program in one configuration."""
 
     def __init__(self, program: VulkanInterpreter, fragments: bool, barriers: bool) -> None:
+        super().__init__(list(program.current_objects.values()))
         self.fragments = fragments
         self.barriers = barriers
         """Whether the file records barriers, which can replace subpass dependencies."""
-        self.current_objects = list(program.current_objects.values())
         self.resolves = program.resolves
-        self.configuration: dict[str, bool] = {}
-        self.multisampled: set[str] = set()
-        self.assumed: dict[str, tuple[str, Span, str]] = {}
         self.object_names: dict[int, str] = {}
         self.used_names: set[str] = set()
         self.framebuffer_images: dict[int, list[ApiObject | None]] = {}
@@ -76,26 +70,6 @@ class Configuration:
 
     def subpasses(self, render_pass: ApiObject) -> Iterator[Struct]:
         return (struct for struct in self.structs(render_pass.info, "subpasses") or () if struct is not None)
-
-    def assume_multisampled(self, symbol: Symbol, guards: Iterable[tuple[str, bool]]) -> None:
-        if self.assume(guards):
-            self.multisampled.add(symbol.key)
-            self.configuration.setdefault(f"{symbol.key}>1", True)
-
-    def assume(self, guards: Iterable[tuple[str, bool]]) -> bool:
-        """Adds guards to the configuration; returns False if they contradict it."""
-        guards = list(guards)
-        if any(self.configuration.get(text, way) is not way for text, way in guards):
-            return False
-        for text, way in guards:
-            self.configuration[text] = way
-            key, _, number = text.rpartition("=")
-            if way and key and number.isdecimal():
-                for other in range(12):
-                    self.configuration.setdefault(f"{key}={other}", str(other) == number)
-                self.configuration.setdefault(f"{key}>1", True)
-                self.configuration.setdefault(f"{key.rpartition('::')[2]}>1", True)
-        return True
 
     def sample_slots(self) -> Iterator[Value]:
         for obj in self.current_objects:
@@ -128,13 +102,6 @@ class Configuration:
                     if image is not None and "samples" in image.info.fields:
                         yield image.info.fields["samples"].writes
 
-    def is_excluded(self, obj: ApiObject) -> bool:
-        """Returns whether an object is created only in another configuration."""
-        return any(self.configuration.get(text, way) is not way for text, way in obj.guards)
-
-    def settle(self, value: Value) -> Value:
-        return possible_writes(value, self.configuration)
-
     def get(self, struct: Struct, name: str) -> tuple[Any, Span]:
         """Returns a member's value and location.
 
@@ -155,13 +122,6 @@ class Configuration:
     def known_value(self, struct: Struct, name: str) -> Any:
         value = self.get(struct, name)[0]
         return None if value is UNKNOWN else value
-
-    def dereference(self, value: Any) -> Any:
-        for _ in range(4):
-            if not isinstance(value, Ref):
-                return value
-            value = sole_value(self.settle(value.cell.writes))
-        return UNKNOWN
 
     def struct(self, struct: Struct, name: str) -> Struct | None:
         value = self.dereference(self.get(struct, name)[0])
@@ -195,15 +155,6 @@ class Configuration:
         count_cell = struct.fields.get(count_member)
         # The number of elements depends on another condition.
         return None if count_cell is not None and len(self.settle(count_cell.writes)) > 1 else structs
-
-    def count_of(self, value: Any, at: Span) -> int | None:
-        """Returns a sample count; an unknown count that is above 1 is assumed to be `ASSUMED`."""
-        if type(value) is int:
-            return value
-        if isinstance(value, Symbol) and value.key in self.multisampled:
-            self.assumed.setdefault(value.key, (value.name, at, str(ASSUMED)))
-            return ASSUMED
-        return None
 
     def samples(self, struct: Struct, name: str = "samples") -> tuple[int | None, Span]:
         cell = struct.fields.get(name)

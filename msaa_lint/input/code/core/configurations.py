@@ -1,0 +1,68 @@
+"""The configuration that is described for a program that can render with one sample or with several."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+from msaa_lint.core.text.span import Span
+
+from .values import UNKNOWN, ApiObject, Ref, Symbol, Value, possible_writes, sole_value
+
+ASSUMED = 4
+"""The sample count above 1 that every device supports for color, depth, and stencil (Vulkan specification, "Required Limits"; Apple's
+documentation of supportsTextureSampleCount)."""
+
+
+class Configuration:
+    """The values of a program in one configuration, a set of decided conditions."""
+
+    def __init__(self, objects: Sequence[ApiObject]) -> None:
+        self.current_objects = list(objects)
+        self.configuration: dict[str, bool] = {}
+        self.multisampled: set[str] = set()
+        """The keys of unknown sample counts that are above 1."""
+        self.assumed: dict[str, tuple[str, Span, str]] = {}
+
+    def assume_multisampled(self, symbol: Symbol, guards: Iterable[tuple[str, bool]]) -> None:
+        if self.assume(guards):
+            self.multisampled.add(symbol.key)
+            self.configuration.setdefault(f"{symbol.key}>1", True)
+
+    def assume(self, guards: Iterable[tuple[str, bool]]) -> bool:
+        """Adds guards to the configuration; returns False if they contradict it."""
+        guards = list(guards)
+        if any(self.configuration.get(text, way) is not way for text, way in guards):
+            return False
+        for text, way in guards:
+            self.configuration[text] = way
+            key, _, number = text.rpartition("=")
+            if way and key and number.isdecimal():
+                for other in range(12):
+                    self.configuration.setdefault(f"{key}={other}", str(other) == number)
+                self.configuration.setdefault(f"{key}>1", True)
+                self.configuration.setdefault(f"{key.rpartition('::')[2]}>1", True)
+        return True
+
+    def is_excluded(self, obj: ApiObject) -> bool:
+        """Returns whether an object is created only in another configuration."""
+        return any(self.configuration.get(text, way) is not way for text, way in obj.guards)
+
+    def settle(self, value: Value) -> Value:
+        return possible_writes(value, self.configuration)
+
+    def dereference(self, value: Any) -> Any:
+        for _ in range(4):
+            if not isinstance(value, Ref):
+                return value
+            value = sole_value(self.settle(value.cell.writes))
+        return UNKNOWN
+
+    def count_of(self, value: Any, at: Span) -> int | None:
+        """Returns a sample count; an unknown count that is above 1 is assumed to be `ASSUMED`."""
+        if type(value) is int:
+            return value
+        if isinstance(value, Symbol) and value.key in self.multisampled:
+            self.assumed.setdefault(value.key, (value.name, at, str(ASSUMED)))
+            return ASSUMED
+        return None
