@@ -110,7 +110,7 @@ def test_source_code_that_is_passed_over_loads_no_grammar(tmp_path: Path) -> Non
     done, found = imported(tmp_path, CLEAN, ".")
     assert done.returncode == 0, done.stdout
     assert "msaa_lint.input.code.mentions" in found
-    light = {"msaa_lint.input.code", "msaa_lint.input.code.mentions"}
+    light = {f"msaa_lint.input.code{module}" for module in ("", ".languages", ".mentions")}
     assert below(found - light, HEAVY | NEAREST | WRITING) == []
 
 

@@ -14,7 +14,7 @@ from msaa_lint.core.globs import Glob, excluding
 from msaa_lint.core.project import is_inside, project_root, shown
 from msaa_lint.core.quote import quoted
 
-from .file_types import BINARY, CAPTURES, DATA, DESCRIPTIONS, INPUT, LANGUAGES, NEAR, OTHER, SOURCES, STDIN, missing_extra
+from .file_types import BINARY, CAPTURES, DATA, DESCRIPTIONS, INPUT, NEAR, OTHER, PAGE_ENDINGS, SOURCES, STDIN, missing_extra
 from .ignore_files import IgnoreFiles, above
 
 MAX_DEPTH = 64
@@ -235,7 +235,7 @@ class _Walk:
         elif kind == INPUT and entry.is_symlink() and not (is_inside(path, search.project) and os.path.isfile(path)):
             self.notes.append(f"{shown(path)} is a link that is broken or leaves the project: name it to lint it")
         elif kind == INPUT and os.path.isfile(path):
-            if entry.name.lower().endswith((*SOURCES, *LANGUAGES["markdown"])) and not self._can_read_sources:
+            if entry.name.lower().endswith((*SOURCES, *PAGE_ENDINGS)) and not self._can_read_sources:
                 self.unreadable_sources += 1
             else:
                 self.files.setdefault(shown(path), search.project)

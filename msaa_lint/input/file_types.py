@@ -28,15 +28,27 @@ CAPTURES = (".gfxr", ".rdc", *(data + ending for data in (".json", ".jsonl", ".x
 
 LANGUAGES: dict[str, tuple[str, ...]] = {
     "c": (".c", ".h"),
-    "cpp": (".cc", ".cpp", ".cxx", ".hpp", ".hh", ".hxx", ".inl", ".ipp", ".h++"),
+    "cpp": (
+        ".cc", ".cpp", ".cxx", ".c++", ".hpp", ".hh", ".hxx", ".h++", ".inl", ".ipp", ".tpp", ".txx", ".tcc", ".ixx", ".cppm", ".cxxm",
+        ".ccm", ".mpp", ".cu", ".cuh",
+    ),
+    "objc": (".m",),
+    "objcpp": (".mm",),
     "swift": (".swift",),
     "glsl": (".glsl", ".vert", ".frag", ".comp", ".tesc", ".tese", ".geom", ".mesh", ".task"),
     "markdown": (".md", ".markdown", ".mdx"),
-}
-"""The endings of source code by language, as `--input-format` names it. In Markdown, fenced code is read."""
+    "asciidoc": (".adoc", ".asciidoc", ".asc"),
+    "rst": (".rst",),
+}  # fmt: skip
+"""The endings of source code by language, as `--input-format` names it."""
 
-SOURCES = tuple(ending for language, endings in LANGUAGES.items() if language != "markdown" for ending in endings)
-"""Source code: inputs of a folder if they mention multisampling. Markdown is linted only if it is named."""
+PAGES = ("markdown", "asciidoc", "rst")
+"""The formats of pages, whose code blocks are read."""
+
+SOURCES = tuple(ending for language, endings in LANGUAGES.items() if language not in PAGES for ending in endings)
+"""Source code: inputs of a folder if they mention multisampling. Pages are linted only if they are named."""
+
+PAGE_ENDINGS = tuple(ending for language in PAGES for ending in LANGUAGES[language])
 
 
 class Compression(NamedTuple):

@@ -171,10 +171,12 @@ def _language(name: str, head: bytes, format: str | None) -> str | None:
         return format if format not in FORMATS and format in LANGUAGES else None
     if name.endswith(DATA):
         return None
-    from .code import language_of, unread
+    from .code import language_of
+    from .code.languages import unread
 
-    language = language_of(name, head.decode("latin-1"))
-    unsupported = unread(name) if language is None else None
+    text = head.decode("latin-1")
+    language = language_of(name, text)
+    unsupported = unread(name, text) if language is None else None
     if unsupported is not None:
         raise UnsupportedFormat(f"{unsupported}, which is not read; --input-format can be {', '.join(LANGUAGES)}")
     return language

@@ -19,6 +19,7 @@ from msaa_lint.frame.description.models import ShaderStage
 from msaa_lint.frame.description.problems import Problem as DocumentProblem
 from msaa_lint.frame.devices import DeviceProfile
 from msaa_lint.frame.profiles import Problem, device_for, replace_captured
+from msaa_lint.input.file_types import PAGES
 
 from .programs import merge, merged, of_turns
 from .results import DocumentResult, FileResult, location_order
@@ -364,9 +365,9 @@ def _untold(hidden: Iterable[Finding], findings: Iterable[Finding]) -> list[Find
 
 
 def _hidden_characters_of_code(code: SourceFile) -> Iterable[Finding]:
-    """Notes about characters of code; those of Markdown's prose are its author's."""
+    """Notes about characters of code; those of a page's prose are its author's."""
     findings = hidden_characters(code.source)
-    if not findings or code.language != "markdown":
+    if not findings or code.language not in PAGES:
         return findings
     lines = _LINE.findall(_code_only(code).text)
     # The blanked text may have fewer lines: it has none for what follows the last code.

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from msaa_lint.core.finding import InputSummary, Result
+from msaa_lint.input.file_types import LANGUAGES
 
 from . import Options
 from .escape import display
@@ -24,16 +25,20 @@ _FORMATS = {
     "fossilize": "Fossilize archive",
     "c": "C file",
     "cpp": "C++ file",
+    "objc": "Objective-C file",
+    "objcpp": "Objective-C++ file",
     "swift": "Swift file",
     "glsl": "GLSL file",
     "markdown": "Markdown page",
+    "asciidoc": "AsciiDoc page",
+    "rst": "reStructuredText page",
     "": "unreadable file",
 }
 """What an input of each format is called."""
 
 _NOUNS = ("image", "pass", "pipeline", "shader", "sample count choice")
 
-SOURCE = frozenset({"c", "cpp", "swift", "glsl", "markdown"})
+SOURCE = frozenset(LANGUAGES)
 """The formats of source code."""
 
 

@@ -4,13 +4,14 @@ Each language has a module with `trees(code)`, which returns the code's images, 
 imported only when code in that language is read. The grammars are in the extra `source`.
 """
 
-import re
 from collections.abc import Iterator
 from importlib import import_module
 from typing import TYPE_CHECKING, NamedTuple
 
 from msaa_lint.core.text.source import Unreadable
-from msaa_lint.input.file_types import LANGUAGES, missing_extra
+from msaa_lint.input.file_types import LANGUAGES, PAGES, missing_extra
+
+from .languages import language_of_header, unread
 
 if TYPE_CHECKING:
     from msaa_lint.core.text.source import Source
@@ -19,26 +20,11 @@ if TYPE_CHECKING:
 
     from .parsing import Code, Read, Unread
 
-UNREAD = {
-    ".m": "Objective-C",
-    ".mm": "Objective-C++",
-    ".rs": "Rust",
-    ".go": "Go",
-    ".zig": "Zig",
-    ".cs": "C#",
-    ".java": "Java",
-    ".kt": "Kotlin",
-    ".py": "Python",
-    ".js": "JavaScript",
-    ".ts": "TypeScript",
-    ".hlsl": "HLSL",
-    ".slang": "Slang",
-    ".wgsl": "WGSL",
-    ".metal": "Metal's shading language",
+MODULES = {
+    **dict.fromkeys(("c", "cpp", "objc", "objcpp"), "c.description_trees"),
+    "swift": "swift.description_trees",
+    "glsl": "glsl.description_trees",
 }
-"""Extensions of languages that are used for graphics but are not supported."""
-
-MODULES = {"c": "c.description_trees", "cpp": "c.description_trees", "swift": "swift.description_trees", "glsl": "glsl.description_trees"}
 """The module of this package that reads each language."""
 
 WORDS = ("sample", "attachment", "resolve", "msaa", "2dms", "inputms")
@@ -46,9 +32,6 @@ WORDS = ("sample", "attachment", "resolve", "msaa", "2dms", "inputms")
 
 _ENDINGS = {ending: language for language, endings in LANGUAGES.items() for ending in endings}
 _DATA = (".yaml", ".yml", ".json", ".jsonl", ".xml", ".foz", ".rdc", ".toml")
-
-_CPP = re.compile(r"::|\b(?:class|namespace|template|constexpr|nullptr|public|private)\b|^[ \t]*using[ \t]", re.MULTILINE)
-"""Matches C++ that a C header does not contain."""
 
 
 class Program(NamedTuple):
@@ -68,20 +51,16 @@ def language_of(name: str, head: str) -> str | None:
     """
     ending = name[name.rfind(".") :].lower() if "." in name.rpartition("/")[2] else ""
     language = _ENDINGS.get(ending)
-    if language == "c" and ending == ".h" and _CPP.search(head):
-        return "cpp"
+    if ending == ".h":
+        return language_of_header(head)
+    if language == "objc" and unread(name, head) is not None:
+        return None
     if language is not None or ending in _DATA or not ("```" in head or "~~~" in head):
         return language
     from .fences import codes
     from .mentions import speaks
 
     return "markdown" if any(speaks(code.text) for code in codes(head)) else None
-
-
-def unread(name: str) -> str | None:
-    """Returns the unsupported language of a file by its extension, or None."""
-    base, dot, ending = name.rpartition("/")[2].rpartition(".")
-    return UNREAD.get(f".{ending.lower()}") if base and dot else None
 
 
 def installed() -> bool:
@@ -103,10 +82,10 @@ def read(source: "Source", language: str) -> Program:
 
     if len(source.text) > MAX_CHARACTERS:
         raise Unreadable(f"source code is read up to {MAX_CHARACTERS} characters, and this file has {len(source.text)}")
-    if language == "markdown":
+    if language in PAGES:
         from .fences import codes
 
-        codes_found = codes(source.text)
+        codes_found = codes(source.text, language)
     else:
         codes_found = (Code(ascii_only(source.text), language),)
     if codes_found and not installed():

@@ -1,4 +1,4 @@
-"""Extracts fenced code blocks from Markdown (CommonMark 0.31, 4.5). Everything else is blanked, so that offsets are preserved.
+"""Extracts the code blocks of pages, those of Markdown by CommonMark 0.31, 4.5. Everything else is blanked, so that offsets are preserved.
 
 The blocks of one language form one program, since pages present programs piece by piece.
 """
@@ -7,38 +7,23 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
+from .pages import BLOCKS, NAMES, Block, lines_of
 from .parsing import Code, ascii_only
 
 if TYPE_CHECKING:
     from markdown_it import MarkdownIt
 
-NAMES = {
-    "c": "c", "h": "c",
-    "cpp": "cpp", "c++": "cpp", "cc": "cpp", "cxx": "cpp", "hpp": "cpp", "h++": "cpp", "hxx": "cpp",
-    "swift": "swift",
-    "glsl": "glsl", "vert": "glsl", "frag": "glsl", "comp": "glsl",
-}  # fmt: skip
-"""Languages by the first word of an info string, in lowercase."""
-
-_LINE = re.compile(r"([^\r\n]*)(?:\r\n|\r|\n|\Z)")
 _WORD = re.compile(r"\s*\{?\s*\.?([^\s{},:]+)")
 _LEFT_OUT = re.compile(r"[ \t]*(?://[ \t]*)?(?:\.\.\.|…)[ \t]*")
 _VISIBLE = re.compile(r"[^\r\n]")
 
 
-class Block(NamedTuple):
-    """A fenced block: its language, and the ranges of its lines without quote marks and list indentation."""
-
-    language: str
-    lines: tuple[tuple[int, int], ...]
-
-
-def codes(text: str) -> tuple[Code, ...]:
-    """Returns the code of a page, one for each language in order of appearance. Ellipses for omitted code are blanked."""
+def codes(text: str, page: str = "markdown") -> tuple[Code, ...]:
+    """Returns the code of a page of a format, one for each language in order of appearance. Ellipses for omitted code are blanked."""
     lines_by_language: dict[str, list[tuple[int, int]]] = {}
-    for block in blocks(text):
+    for block in BLOCKS.get(page, blocks)(text):
         lines_by_language.setdefault(block.language, []).extend(block.lines)
     return tuple(Code(_only(text, lines), language, True) for language, lines in lines_by_language.items())
 
@@ -56,8 +41,8 @@ def _only(text: str, lines: list[tuple[int, int]]) -> str:
 
 
 def blocks(text: str) -> Iterator[Block]:
-    """Yields the fenced blocks of a page in supported languages. An unclosed block extends to the end of its container or of the page."""
-    ends = [match.end(1) for match in _LINE.finditer(text)]
+    """Yields the fenced blocks of a Markdown page in supported languages. An unclosed one extends to the end of its container."""
+    ends = [end for _, end in lines_of(text)]
     for token in _parser().parse(text):
         word = _WORD.match(token.info)
         language = NAMES.get(word[1].lower()) if token.type == "fence" and token.map and word is not None else None

@@ -6,6 +6,8 @@ import re
 
 from msaa_lint.core.text.files import open_entry
 
+from .languages import unread
+
 MAX_BYTES = 1 << 20
 """The number of bytes of a file that are searched."""
 
@@ -29,8 +31,9 @@ def speaks(text: str) -> bool:
 
 
 def file_speaks(path: str) -> bool:
-    """Returns whether the first MiB of a file does. Raises OSError if it cannot be read."""
+    """Returns whether the first MiB of a file does, and is in a language that is read. Raises OSError if it cannot be read."""
     with open_entry(path) as file:
         data = file.read(MAX_BYTES)
     encoding = "utf-16" if data[:2] in (b"\xff\xfe", b"\xfe\xff") else "latin-1"
-    return speaks(data.decode(encoding, "replace"))
+    text = data.decode(encoding, "replace")
+    return speaks(text) and unread(path, text) is None

@@ -22,7 +22,12 @@ else:
 
 _NOT_ASCII = re.compile(r"[^\x00-\x7f]")
 
-GRAMMARS = {"c": "tree_sitter_c", "cpp": "tree_sitter_cpp", "swift": "tree_sitter_swift", "glsl": "tree_sitter_glsl"}
+GRAMMARS = {
+    **dict.fromkeys(("c", "objc"), "tree_sitter_c"),
+    **dict.fromkeys(("cpp", "objcpp"), "tree_sitter_cpp"),
+    "swift": "tree_sitter_swift",
+    "glsl": "tree_sitter_glsl",
+}
 """The package of each language's grammar."""
 
 

@@ -8,7 +8,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from msaa_lint.input.code.fences import NAMES, blocks, codes
+from msaa_lint.input.code.fences import blocks, codes
+from msaa_lint.input.code.pages import BLOCKS, NAMES, asciidoc, restructured
 from tests.strength import examples
 
 
@@ -56,7 +57,8 @@ def test_blocks(text: str, found: list[tuple[str, list[str]]]) -> None:
         ("cpp", "cpp"), ("C++", "cpp"), ("c++", "cpp"), ("cc", "cpp"), ("CPP", "cpp"), ("c", "c"), ("Swift", "swift"), ("glsl", "glsl"),
         ("cpp title=\"a\"", "cpp"), (" cpp ", "cpp"), ("cpp{1,3}", "cpp"), ("cpp,ignore", "cpp"), ("{.cpp .numberLines}", "cpp"),
         ("{ .cpp }", "cpp"), ("cpp:a.cpp", "cpp"),
-        ("hlsl", None), ("", None), ("c#", None), ("objc", None), ("text cpp", None), ("yaml", None), ("python", None),
+        ("hlsl", None), ("", None), ("c#", None), ("objc", "objc"), ("objective-c++", "objcpp"),
+        ("text cpp", None), ("yaml", None), ("python", None),
     ],
 )  # fmt: skip
 def test_info_strings(info: str, language: str | None) -> None:
@@ -78,25 +80,91 @@ def test_blocks_of_a_language_are_one_code_at_their_offsets() -> None:
     assert glsl.text.split() == ["void", "main()"]
 
 
-PIECES = ("```", "~~~", "cpp", "\n", "\n", "> ", "- ", "1. ", "  ", "x", "\t", "\r", "...", "µ")
+PIECES = (
+    "```",
+    "~~~",
+    "cpp",
+    "[source,cpp]\n",
+    "----",
+    ".. code:: cpp\n",
+    "\n",
+    "\n",
+    "> ",
+    "- ",
+    "1. ",
+    "  ",
+    "x",
+    "\t",
+    "\r",
+    "...",
+    "µ",
+)
 
 
-@given(st.lists(st.sampled_from(PIECES), max_size=60).map("".join))
+@given(st.lists(st.sampled_from(PIECES), max_size=60).map("".join), st.sampled_from(["markdown", *BLOCKS]))
 @examples(2)
-def test_any_text_keeps_its_length_and_its_lines(text: str) -> None:
-    for each in codes(text):
+def test_any_text_keeps_its_length_and_its_lines(text: str, page: str) -> None:
+    for each in codes(text, page):
         assert len(each.text) == len(text)
         for mine, theirs in zip(each.text, text, strict=True):
             assert mine in (" ", "_", theirs)
             assert (mine in "\r\n") == (theirs in "\r\n")
 
 
-@pytest.mark.parametrize("text", ["- " * 200_000, "> " * 200_000, "```" * 100_000, "```cpp\n" * 50_000, "  - x\n" * 20_000, ">" * 300_000])
-def test_hostile_pages_take_no_time(text: str) -> None:
+@pytest.mark.parametrize(
+    "text",
+    [
+        "- " * 200_000,
+        "> " * 200_000,
+        "```" * 100_000,
+        "```cpp\n" * 50_000,
+        "  - x\n" * 20_000,
+        ">" * 300_000,
+        "[source,cpp]\n" * 20_000,
+        "[source,cpp]\n----\n" * 20_000,
+        "[source%a%a" * 30_000,
+        ".. code:: cpp\n  a\n" * 20_000,
+    ],
+)
+@pytest.mark.parametrize("page", ["markdown", *BLOCKS])
+def test_hostile_pages_take_no_time(text: str, page: str) -> None:
     begun = time.process_time()
-    codes(text)
+    codes(text, page)
     assert time.process_time() - begun < 5
 
 
 def test_every_name_is_of_a_language() -> None:
-    assert set(NAMES.values()) == {"c", "cpp", "swift", "glsl"}
+    assert set(NAMES.values()) == {"c", "cpp", "objc", "objcpp", "swift", "glsl"}
+
+
+@pytest.mark.parametrize(
+    ("text", "found"),
+    [
+        ("[source,cpp]\n----\na\n\nb\n----\nc\n", [("cpp", ["a", "", "b"])]),
+        ("[source,c++,linenums]\n.A title\n----\na\n----\n", [("cpp", ["a"])]),
+        ("[source%linenums,cpp,indent=0]\n[[anchor]]\n------\na\n----\n------\n", [("cpp", ["a", "----"])]),
+        ('[,c]\n--\na\n--\n[source,language="glsl"]\n....\nb\n....\n', [("c", ["a"]), ("glsl", ["b"])]),
+        ("[source,swift]\na\nb\n\nc\n", [("swift", ["a", "b"])]),
+        ("[source,cpp]\n----\na; // <1>\nb; <2> <3>\nc > d\n----\n", [("cpp", ["a; //", "b;", "c > d"])]),
+        ("```cpp\na\n```\n", [("cpp", ["a"])]),
+        ("[source,cpp]\n----\na", [("cpp", ["a", ""])]),
+        ("[source,python]\n----\na\n----\n----\nb\n----\n[source,c]\n----\nc\n----\n", [("c", ["c"])]),
+        ("[quote]\n----\na\n----\n", []),
+    ],
+)
+def test_blocks_of_asciidoc(text: str, found: list[tuple[str, list[str]]]) -> None:
+    assert [(block.language, [text[start:end] for start, end in block.lines]) for block in asciidoc(text)] == found
+
+
+@pytest.mark.parametrize(
+    ("text", "found"),
+    [
+        (".. code-block:: cpp\n   :linenos:\n\n   a\n\n     b\nc\n", ["a", "b"]),
+        ("  .. code:: c++\n\n     a\n  b\n", ["a"]),
+        (".. sourcecode:: cpp\n\n\ta\n", ["a"]),
+        (".. code-block:: python\n\n   a\n", []),
+        (".. note::\n\n   a\n", []),
+    ],
+)
+def test_blocks_of_restructured_text(text: str, found: list[str]) -> None:
+    assert [text[start:end].strip() for block in restructured(text) for start, end in block.lines if text[start:end].strip()] == found

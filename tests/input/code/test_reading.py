@@ -103,7 +103,9 @@ WHOLE = [(LINE, COLUMN, COLUMN + len("VK_ATTACHMENT_STORE_OP_DONT_CARE"))]
 # Detection by name and content.
 
 
-@pytest.mark.parametrize("name", ["a.cpp", "a.cc", "A.CXX", "a.hpp", "a.h", "a.c", "a.inl", "a.h++"])
+@pytest.mark.parametrize(
+    "name", ["a.cpp", "a.cc", "A.CXX", "a.hpp", "a.h", "a.c", "a.inl", "a.h++", "a.tpp", "a.ixx", "a.cppm", "a.cu", "a.m", "a.mm"]
+)
 def test_a_source_file_is_judged_at_its_lines(tmp_path: Path, name: str) -> None:
     write(tmp_path, name)
     assert places(tmp_path, name) == WHOLE
@@ -145,7 +147,17 @@ def test_the_format_that_is_named_goes_before_the_name(tmp_path: Path) -> None:
         ("x.comp", "", "glsl"),
         ("x.txt", "no code", None),
         ("x.txt", "```cpp\nVkImageCreateInfo info; // msaa\n```\n", "markdown"),
-        ("x.adoc", "~~~ c++\nVkImageCreateInfo info; // msaa\n~~~\n", "markdown"),
+        ("x.adoc", "", "asciidoc"),
+        ("x.rst", "", "rst"),
+        ("x.h", "#import <Metal/Metal.h>\n@interface A\n@end\n", "objc"),
+        ("x.h", "@class B;\nnamespace a { }", "objcpp"),
+        ("x.h", "@class B;\n@protocol C;\n", "objc"),
+        ("x.m", "#import <Metal/Metal.h>\n", "objc"),
+        ("x.m", "int main(void) {\n}\n", "objc"),
+        ("x.m", "function y = f(x)\n  y = x;\nend\n", None),
+        ("x.m", "% samples\nx = 4;\n", None),
+        ("x.m", "(* samples *)\nf[x_] := x\n", None),
+        ("x.m", ":- module samples.\n", None),
         ("x.txt", "```cpp\nint main() {}\n```\n", None),
         ("x.txt", "```python\nVkImageCreateInfo msaa\n```\n", None),
         ("x.yaml", "```cpp\nVkImageCreateInfo info; // msaa\n```\n", None),
@@ -325,13 +337,17 @@ def test_of_a_folder_what_speaks_of_multisampling_is_linted(tmp_path: Path) -> N
     write(tmp_path, "yes/late.h", "// " + "x" * 500_000 + "\nvoid f(VkImageCreateInfo* info, int numSamples);\n")
     write(tmp_path, "yes/a.frag", "uniform sampler2DMS image;\n")
     write(tmp_path, "yes/a.swift", "let d = MTLTextureDescriptor()\nd.sampleCount = 4\n")
-    assert checked(tmp_path, "yes") == 4
+    write(tmp_path, "yes/a.mm")
+    write(tmp_path, "yes/a.m", "#import <Metal/Metal.h>\nvoid f(MTLTextureDescriptor *d) { d.sampleCount = 4; }\n")
+    assert checked(tmp_path, "yes") == 6
     write(tmp_path, "no/main.cpp", "int main() { return 0; } // MSAA, some day\n")
     write(tmp_path, "no/single.cpp", "VkImageCreateInfo info{};\ninfo.samples = VK_SAMPLE_COUNT_1_BIT;\n")
     write(tmp_path, "no/far.cpp", "// " + "x" * (1 << 20) + "\nVkImageCreateInfo msaa;\n")
     write(tmp_path, "no/page.md", f"```cpp\n{CODE}```\n")
     write(tmp_path, "no/text.txt", f"```cpp\n{CODE}```\n")
-    write(tmp_path, "no/a.mm")
+    write(tmp_path, "no/page.adoc", f"[source,cpp]\n----\n{CODE}----\n")
+    write(tmp_path, "no/a.rs")
+    write(tmp_path, "no/matlab.m", "function msaa(MTLTexture)\nend\n")
     write(tmp_path, "no/.hidden.cpp")
     write(tmp_path, "no/.git/a.cpp")
     write(tmp_path, "no/venv/a.cpp")
@@ -559,7 +575,26 @@ def test_what_is_assumed_is_a_note(monkeypatch: pytest.MonkeyPatch) -> None:
     assert program.assumed[1][3:] == ("1 more assumption",)
 
 
-@pytest.mark.parametrize(("name", "language"), [("view.mm", "Objective-C++"), ("shader.HLSL", "HLSL"), ("main.rs", "Rust")])
+@pytest.mark.parametrize(
+    ("name", "code", "language"),
+    [("a.m", "function y = f(x)\nend\n", "MATLAB"), ("a.m", "(* x *)\n", "Mathematica"), ("a.m", ":- module x.\n", "Mercury")],
+)
+def test_other_languages_with_the_ending_of_objective_c_are_named(tmp_path: Path, name: str, code: str, language: str) -> None:
+    (tmp_path / name).write_text(code, encoding="utf-8")
+    done = run(tmp_path, "check", "--isolated", name)
+    assert done.returncode == 2
+    assert f"this is {language}, which is not read; --input-format can be c, cpp, objc," in done.stdout
+
+
+@pytest.mark.parametrize(("page", "text"), [("a.adoc", "[source,cpp]\n----\n{}----\n"), ("a.rst", ".. code-block:: cpp\n\n{}")])
+def test_code_of_pages_is_checked_at_its_lines(tmp_path: Path, page: str, text: str) -> None:
+    code = CODE if page == "a.adoc" else "".join(f"   {line}\n" if line else "\n" for line in CODE.splitlines())
+    write(tmp_path, page, text.format(code))
+    ((line, column, _),) = places(tmp_path, page)
+    assert (line, column) == (LINE + 2, COLUMN + 3 * (page == "a.rst"))
+
+
+@pytest.mark.parametrize(("name", "language"), [("shader.HLSL", "HLSL"), ("main.rs", "Rust"), ("App.java", "Java")])
 def test_a_language_that_is_not_read_is_said_to_be(tmp_path: Path, name: str, language: str) -> None:
     path = tmp_path / name
     path.write_text(CODE, encoding="utf-8")

@@ -13,6 +13,7 @@ from msaa_lint.input.code.vulkan.creation import VulkanInterpreter
 from msaa_lint.input.code.vulkan.tree_writer import DescriptionWriter
 
 from .directives import clear_list_directives
+from .modules import without_modules
 from .syntax import unit
 
 _VULKAN = re.compile(r"\b(?:Vk|vk)[A-Z]|\bvk\w*\s*::|=\s*vk\b|VULKAN_HPP")
@@ -27,12 +28,13 @@ _FRAMES = re.compile(r"cquireNextImage")
 
 def trees(code: Code) -> list[Read]:
     """Returns the tree of a file or of a page's fragments: one or none. Raises `Missing` if the grammar is not installed."""
+    code = code._replace(text=without_modules(code.text))
     root = tree(code).root_node
     text, sections = clear_list_directives(code.text, root)
     if sections:
         code = code._replace(text=text)
         root = tree(code).root_node
-    interpreter = VulkanInterpreter(unit(code, root, sections), code.fragments, code.language == "cpp", Work(len(code.text)))
+    interpreter = VulkanInterpreter(unit(code, root, sections), code.fragments, code.language in ("cpp", "objcpp"), Work(len(code.text)))
     if code.fragments or _VULKAN.search(code.text) is not None:
         interpreter.run()
     read = DescriptionWriter(interpreter, code.fragments, _WAITS.search(code.text) is not None or _FRAMES.search(code.text) is None).read()

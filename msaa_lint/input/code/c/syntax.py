@@ -25,7 +25,7 @@ VIRTUAL = re.compile(r"\b(?:virtual|override)\b")
 
 CONTAINERS = frozenset({
     "translation_unit", "namespace_definition", "declaration_list", "linkage_specification", "template_declaration", "preproc_if",
-    "preproc_ifdef", "preproc_else", "preproc_elif", "preproc_elifdef", "ERROR", "export_declaration",
+    "preproc_ifdef", "preproc_else", "preproc_elif", "preproc_elifdef", "ERROR", "compound_statement",
 })  # fmt: skip
 
 
