@@ -424,8 +424,11 @@ def _aspects(attachment: Attachment, stated: tuple[str, ...] = ()) -> list[Aspec
         names: tuple[str | None, ...] = attachment.format.aspects
     elif stated:
         names = stated
+    elif attachment.color or any("color" in aspects for aspects in attachment.resolve.values()):
+        names = ("color",)
     else:
-        names = ("color",) if attachment.color or any("color" in aspects for aspects in attachment.resolve.values()) else (None,)
+        # Of the formats of a depth/stencil attachment, only S8_UINT has no depth.
+        names = ("depth",) if attachment.depth_stencil else (None,)
     return [
         Aspect(name, record.stencilLoadOp, record.stencilStoreOp, "stencilLoadOp", "stencilStoreOp")
         if name == "stencil"

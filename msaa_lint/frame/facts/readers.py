@@ -89,7 +89,7 @@ class Readers:
                     yield True if aspect.load == "LOAD" or self._may_be_loaded(aspect) else None
                     continue
                 follows = self._next_use(target.name, aspect.name, run)
-                if follows == READS:
+                if follows == READS or (_is_stranger(target) and self._may_be_loaded(aspect)):
                     yield True
                 elif follows == MAY_READ:
                     yield None
@@ -134,7 +134,11 @@ class Readers:
     def _loaded_strangers(self) -> set[str | None]:
         """The aspects that some pass loads of multisampled images that are not known."""
         attachments = [attachment for render_pass in self.frame.passes for attachment in render_pass.attachments if attachment.used]
-        strangers = [each for each in attachments if each.samples != 1 and each.target is not None and each.target.image is None]
+        strangers = [
+            each
+            for each in attachments
+            if each.target is not None and _is_stranger(each.target) and (each.samples or (2 if each.target.image is None else 1)) > 1
+        ]
         return {aspect.name for attachment in strangers for aspect in attachment.aspects if aspect.load == "LOAD"}
 
     def _read_as_stated(self, target: Target, aspect: Aspect) -> bool | None:
@@ -166,6 +170,11 @@ class Readers:
         if last is None or last.run is None or last.kind not in (STORE, RESOLVE_WRITE) or not last.certain:
             return None
         return Store(last.run.render_pass, last.place)
+
+
+def _is_stranger(target: Target) -> bool:
+    """Whether an image is not known but for its count: it may be any other such image."""
+    return target.image is None or not (target.image.states("format") or target.image.states("usage"))
 
 
 def same_aspect(one: str | None, other: str | None) -> bool:

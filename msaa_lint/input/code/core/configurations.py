@@ -63,6 +63,10 @@ class Configuration:
         if type(value) is int:
             return value
         if isinstance(value, Symbol) and value.key in self.multisampled:
-            self.assumed.setdefault(value.key, (value.name, at, str(ASSUMED)))
-            return ASSUMED
+            return self.assumed_count(value.key, value.name, at)
         return None
+
+    def assumed_count(self, key: str, name: str, at: Span) -> int:
+        """Returns the count that stands for an unknown one above 1, which the user is told."""
+        self.assumed.setdefault(key, (name, at, str(ASSUMED)))
+        return ASSUMED

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from itertools import chain
 from typing import Any
 
 from msaa_lint.core.text.node import Node
 from msaa_lint.core.text.span import Span
-from msaa_lint.input.code.core.configurations import ASSUMED, Configuration
-from msaa_lint.input.code.core.values import UNKNOWN, ApiObject, Array, Cell, Ref, Struct, Symbol, Value, sole_value
+from msaa_lint.input.code.core.configurations import Configuration
+from msaa_lint.input.code.core.values import UNKNOWN, ApiObject, Array, Cell, Ref, Struct, Value, sole_value
 
 from .creation import VulkanInterpreter
 from .names import first_version
@@ -42,65 +41,13 @@ class VulkanConfiguration(Configuration):
         self.barriers = barriers
         """Whether the file records barriers, which can replace subpass dependencies."""
         self.resolves = program.resolves
+        self.multisampled_structs: set[int] = set()
+        """The structures, by identity, whose unknown count is above 1."""
         self.object_names: dict[int, str] = {}
         self.used_names: set[str] = set()
         self.framebuffer_images: dict[int, list[ApiObject | None]] = {}
         self.duplicates: dict[tuple[Any, ...], ApiObject] = {}
         self.external_images: dict[str, tuple[str, Span, Node]] = {}
-
-    def choose_configuration(self) -> None:
-        """Selects the conditions under which the program is multisampled."""
-        slots = list(self.sample_slots())
-        for value in slots:
-            # Prefer the count that every device supports, then the lowest.
-            multisampled = [item for item in value if type(item.value) is int and item.value > 1]
-            for alternative in sorted(multisampled, key=lambda a: (a.value != ASSUMED, a.value)):
-                self.assume(alternative.guards)
-        for alternative in chain.from_iterable(slots):
-            if isinstance(alternative.value, Symbol) and alternative.value.chosen:
-                self.assume_multisampled(alternative.value, alternative.guards)
-        passes = (obj for obj in self.current_objects if obj.kind == "renderPass")
-        for subpass in (subpass for obj in passes for subpass in self.subpasses(obj)):
-            for write in subpass.fields["resolveAttachments"].writes if "resolveAttachments" in subpass.fields else ():
-                if isinstance(write.value, (Ref, Array)):
-                    self.assume(write.guards)
-        for alternative in chain.from_iterable(self.resolved_slots()):
-            if isinstance(alternative.value, Symbol):
-                self.assume_multisampled(alternative.value, alternative.guards)
-
-    def subpasses(self, render_pass: ApiObject) -> Iterator[Struct]:
-        return (struct for struct in self.structs(render_pass.info, "subpasses") or () if struct is not None)
-
-    def sample_slots(self) -> Iterator[Value]:
-        for obj in self.current_objects:
-            yield from (obj.info.fields[name].writes for name in ("samples", "rasterizationSamples") if name in obj.info.fields)
-            if obj.kind == "renderPass" and "attachments" in obj.info.fields:
-                for attachment in _inner(obj.info.fields["attachments"], 0):
-                    if "samples" in attachment.fields:
-                        yield attachment.fields["samples"].writes
-            state = self.struct(obj.info, "multisampleState")
-            if state is not None and "rasterizationSamples" in state.fields:
-                yield state.fields["rasterizationSamples"].writes
-
-    def resolved_slots(self) -> Iterator[Value]:
-        """Yields the sample counts of attachments that are resolved, which are multisampled in the configuration that is described."""
-        for obj in self.current_objects:
-            if obj.kind == "renderPass":
-                attachments = self.structs(obj.info, "attachments") or []
-                for subpass in self.subpasses(obj):
-                    colors, targets = self.structs(subpass, "colorAttachments"), self.structs(subpass, "resolveAttachments")
-                    for color, target in zip(colors or (), targets or (), strict=False):
-                        index = self.known_value(color, "attachment") if color is not None and target is not None else None
-                        source = attachments[index] if type(index) is int and 0 <= index < len(attachments) else None
-                        if source is not None and "samples" in source.fields:
-                            yield source.fields["samples"].writes
-            if obj.kind == "rendering":
-                for attachment in self.structs(obj.info, "colorAttachments") or ():
-                    if attachment is None or self.known_value(attachment, "resolveMode") in (None, 0, "VK_RESOLVE_MODE_NONE", "NONE"):
-                        continue
-                    image = self.image_of(attachment, "imageView")
-                    if image is not None and "samples" in image.info.fields:
-                        yield image.info.fields["samples"].writes
 
     def get(self, struct: Struct, name: str) -> tuple[Any, Span]:
         """Returns a member's value and location.
@@ -158,11 +105,16 @@ class VulkanConfiguration(Configuration):
 
     def samples(self, struct: Struct, name: str = "samples") -> tuple[int | None, Span]:
         cell = struct.fields.get(name)
-        if cell is None or not cell.writes:
-            return None, struct.at
-        counts = {(self.count_of(a.value, a.at), a.at) for a in self.settle(cell.writes)}
-        numbers = {count for count, _ in counts}
-        return (numbers.pop() if len(numbers) == 1 else None), max(at for _, at in counts) if counts else struct.at
+        value = self.settle(cell.writes) if cell is not None else ()
+        at = max(a.at for a in value) if value else struct.at
+        several = chosen_counts(value)
+        if several:
+            return self.assumed_count(f"count at {at.start}", name, at), at
+        numbers = {self.count_of(a.value, a.at) for a in value}
+        count = numbers.pop() if len(numbers) == 1 else None
+        if count is None and id(struct) in self.multisampled_structs:
+            count = self.assumed_count(f"count at {at.start}", f"{struct.name}.{name}" if struct.name else name, at)
+        return count, at
 
     def image_of(self, struct: Struct, name: str) -> ApiObject | None:
         """Returns the image of the image view in a member."""
@@ -181,13 +133,19 @@ class VulkanConfiguration(Configuration):
         return self.duplicates.setdefault((obj.name, obj.signature()), obj)
 
 
-def _inner(cell: Cell, depth: int) -> Iterator[Struct]:
+def chosen_counts(value: Value) -> set[int]:
+    """Returns the counts above 1 that a program chooses from; empty for fewer than three."""
+    counts = {a.value for a in value if type(a.value) is int and a.value > 1}
+    return counts if len(counts) > 2 else set()
+
+
+def inner_structs(cell: Cell, depth: int) -> Iterator[Struct]:
     """Yields the structures that a member lists or points to in any configuration."""
     for write in cell.writes if depth < 6 else ():
         if isinstance(write.value, Struct):
             yield write.value
         elif isinstance(write.value, Ref):
-            yield from _inner(write.value.cell, depth + 1)
+            yield from inner_structs(write.value.cell, depth + 1)
         elif isinstance(write.value, Array):
             for item in write.value.items:
-                yield from _inner(item, depth + 1)
+                yield from inner_structs(item, depth + 1)

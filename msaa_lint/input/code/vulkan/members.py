@@ -11,7 +11,7 @@ from msaa_lint.core.text.span import Span
 from msaa_lint.frame.vulkan.names import parse_enum, parse_flags
 from msaa_lint.input.code.core.values import ApiObject, Array, Flags, Struct
 
-from .configurations import VulkanConfiguration
+from .multisampling import Multisampling
 
 Item = tuple[str, Span, Node]
 _T = TypeVar("_T")
@@ -47,7 +47,7 @@ def complete(nodes: Iterable[_T | None]) -> list[_T] | None:
     return known
 
 
-class Members(VulkanConfiguration):
+class Members(Multisampling):
     """Converts members of structures to nodes."""
 
     def item(self, struct: Struct, name: str) -> Iterator[Item]:

@@ -12,7 +12,7 @@ from msaa_lint.core.text.node import Node
 from msaa_lint.core.text.node_builder import mapping, scalar, sequence
 from msaa_lint.core.text.span import Span
 from msaa_lint.frame.vulkan.names import parse_enum
-from msaa_lint.input.code.core.values import UNKNOWN, ApiObject, Array, Flags, Struct, Symbol, sole_value
+from msaa_lint.input.code.core.values import UNKNOWN, ApiObject, Array, Struct, Symbol, sole_value
 from msaa_lint.input.code.parsing import Read
 
 from .members import FLAGS, Item, complete, flags_of, head_of
@@ -77,11 +77,6 @@ class DescriptionWriter(Passes, Commands):
             items.append(("memory", memory.span, memory))
         head = head_of(info.at)
         return self.object_name(obj, "image"), head, mapping(items, head)
-
-    def is_transient(self, info: Struct) -> bool:
-        value = self.get(info, "usage")[0]
-        bits = value.bits if isinstance(value, Flags) else ((value, info.at),)
-        return any(isinstance(bit, str) and "TRANSIENT" in bit for bit, _ in bits)
 
     def pipeline(self, obj: ApiObject, passes: dict[int, str]) -> Iterator[Item]:
         info = obj.info
