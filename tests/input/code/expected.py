@@ -2,7 +2,7 @@
 
 `// expect: MSAA201` requires a finding of that rule, a warning or error, on its line; `// may: MSAA201` allows one. `// expect-later:
 MSAA201` marks a mistake that is not detected yet. Of several lines with `MSAA201#color`, one must have the finding. Any other warning or
-error is false.
+error is false. A folder is a program of several files, which is checked as a whole; its headers without a mistake need no marks.
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ from __future__ import annotations
 import contextlib
 import io
 import json
+import os
 import re
 from dataclasses import dataclass
 from pathlib import Path
@@ -18,18 +19,19 @@ from msaa_lint.cli.arguments import parse
 from msaa_lint.cli.check import check
 
 CORPUS = Path(__file__).parent / "corpus"
-PROGRAMS = sorted(path for path in CORPUS.iterdir() if path.suffix in (".c", ".cpp"))
+PROGRAMS = sorted(path for path in CORPUS.iterdir() if path.suffix in (".c", ".cpp") or path.is_dir())
 
 _MARK = re.compile(r"\b(?P<kind>expect-later|expect|may): (?P<codes>MSAA\d{3}(?:#\w+)?(?:, MSAA\d{3}(?:#\w+)?)*)")
 
 
 @dataclass(frozen=True, order=True)
 class Found:
-    """A warning or an error: its line, the code of its rule, its message."""
+    """A warning or an error: its line, the code of its rule, its message, and its file in a program of several."""
 
     line: int
     code: str
     message: str
+    file: str = ""
 
 
 @dataclass(frozen=True)
@@ -53,32 +55,47 @@ def marks(text: str) -> list[tuple[int, str, str, str]]:
     return found
 
 
-def findings(path: Path) -> list[Found]:
+def program_marks(program: Path) -> list[tuple[str, int, str, str, str]]:
+    """Returns the marks of all files of a program: file (empty if there is only one), line, kind, code, and the name of the finding."""
+    if program.is_file():
+        return [("", *mark) for mark in marks(program.read_text(encoding="utf-8"))]
+    return [
+        (str(path.relative_to(program)), line, kind, code, name if "#" in name else f"{code}:{path.name}:{line}")
+        for path in sorted(program.rglob("*"))
+        if path.is_file()
+        for line, kind, code, name in marks(path.read_text(encoding="utf-8"))
+    ]
+
+
+def findings(program: Path) -> list[Found]:
     """Returns the warnings and errors of `msaa-lint check`, which must not fail for any program."""
-    given = parse("check", [str(path), "--isolated", "--output", "json"])
+    given = parse("check", [str(program), "--isolated", "--output", "json"])
     assert given is not None
     out, err = io.StringIO(), io.StringIO()
     with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
         code = check(given)
-    assert code == 0, f"{path.name}: exit code {code}: {err.getvalue()}"
+    assert code == 0, f"{program.name}: exit code {code}: {err.getvalue()}"
     found = [finding for finding in json.loads(out.getvalue())["findings"] if finding["severity"] != "note"]
-    assert all(finding["confidence"] == "low" for finding in found), path.name
-    return sorted(Found(finding["line"], finding["code"], finding["message"]) for finding in found)
+    assert all(finding["confidence"] == "low" for finding in found), program.name
+    whole = program.is_dir()
+    return sorted(
+        Found(entry["line"], entry["code"], entry["message"], os.path.relpath(entry["file"], program) if whole else "") for entry in found
+    )
 
 
-def outcome(path: Path) -> Outcome:
+def outcome(program: Path) -> Outcome:
     """Compares the findings in a program with its marks."""
-    marked = marks(path.read_text(encoding="utf-8"))
-    found = findings(path)
-    places = {(each.line, each.code) for each in found}
-    met = {name for line, _, code, name in marked if (line, code) in places}
-    expected = tuple(dict.fromkeys(name for _, kind, _, name in marked if kind == "expect"))
-    later = tuple(dict.fromkeys(name for _, kind, _, name in marked if kind == "expect-later"))
-    allowed = {(line, code) for line, _, code, _ in marked}
+    marked = program_marks(program)
+    found = findings(program)
+    places = {(each.file, each.line, each.code) for each in found}
+    met = {name for file, line, _, code, name in marked if (file, line, code) in places}
+    expected = tuple(dict.fromkeys(name for *_, kind, _, name in marked if kind == "expect"))
+    later = tuple(dict.fromkeys(name for *_, kind, _, name in marked if kind == "expect-later"))
+    allowed = {(file, line, code) for file, line, _, code, _ in marked}
     return Outcome(
         expected,
         tuple(name for name in expected if name not in met),
         later,
         tuple(name for name in later if name in met),
-        tuple(each for each in found if (each.line, each.code) not in allowed),
+        tuple(each for each in found if (each.file, each.line, each.code) not in allowed),
     )

@@ -21,7 +21,8 @@ def main() -> int:
     names = [name for name in sys.argv[1:] if name != "--compile"]
     named = [path for path in PROGRAMS if not names or any(name in path.name for name in names)]
     if "--compile" in sys.argv[1:]:
-        return max(subprocess.run([*COMPILERS[path.suffix], "-fsyntax-only", "-w", str(path)], check=False).returncode for path in named)
+        files = [file for path in named for file in (sorted(path.rglob("*.c*")) if path.is_dir() else [path])]
+        return max(subprocess.run([*COMPILERS[file.suffix], "-fsyntax-only", "-w", str(file)], check=False).returncode for file in files)
     held = {path: outcome(path) for path in named}
     for path, each in held.items():
         later = f", later {len(each.later_found)} of {len(each.later)}" if each.later else ""
@@ -29,7 +30,7 @@ def main() -> int:
         for missing in each.missed:
             print(f"    missed {missing}")
         for found in each.false:
-            print(f"    false  {found.code}:{found.line} {found.message}")
+            print(f"    false  {found.code}:{found.file}{found.file and ':'}{found.line} {found.message}")
     expected = sum(len(each.expected) for each in held.values())
     missed = sum(len(each.missed) for each in held.values())
     waiting = sum(len(each.later) - len(each.later_found) for each in held.values())

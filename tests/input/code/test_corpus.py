@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.input.code.expected import CORPUS, PROGRAMS, Found, findings, marks, outcome
+from tests.input.code.expected import CORPUS, PROGRAMS, Found, findings, marks, outcome, program_marks
 from tests.input.code.generated import program as generated
 
 pytest.importorskip("tree_sitter_cpp")
@@ -40,6 +40,20 @@ def test_a_program_is_held_against_its_marks(tmp_path: Path) -> None:
     assert [(found.code, type(found)) for found in held.false] == [("MSAA205", Found)]
 
 
+def test_a_program_of_several_files(tmp_path: Path) -> None:
+    """Marks count in the file that they are in."""
+    program = tmp_path / "program"
+    (program / "render").mkdir(parents=True)
+    text = (CORPUS / "positional.cpp").read_text(encoding="utf-8")
+    (program / "render" / "pass.cpp").write_text(text, encoding="utf-8")
+    (program / "main.cpp").write_text("int main() {}  // expect: MSAA205\n", encoding="utf-8")
+    held = outcome(program)
+    assert held.missed == ("MSAA205:main.cpp:1",)
+    assert held.false == ()
+    (program / "render" / "pass.cpp").write_text(text.replace("// expect: MSAA205", ""), encoding="utf-8")
+    assert [(found.file, found.code) for found in outcome(program).false] == [("render/pass.cpp", "MSAA205")]
+
+
 def test_a_long_program(tmp_path: Path) -> None:
     """Classes with methods of the same name, and other code between them."""
     text, places = generated(800)
@@ -63,6 +77,6 @@ def test_conditional_stores_leave_it_unknown_whether_samples_are_stored(tmp_path
 
 
 def test_the_corpus_has_programs_of_both_kinds() -> None:
-    kinds = [any(kind != "may" for _, kind, _, _ in marks(program.read_text(encoding="utf-8"))) for program in PROGRAMS]
+    kinds = [any(kind != "may" for _, _, kind, _, _ in program_marks(program)) for program in PROGRAMS]
     assert sum(kinds) >= 25
     assert len(kinds) - sum(kinds) >= 15
