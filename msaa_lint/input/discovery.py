@@ -37,13 +37,15 @@ class Scope(Protocol):
 class Discovered(NamedTuple):
     """The input files, each once and sorted, as findings name them; findings about paths; notes for the user.
 
-    `projects` has the projects in which the files of folders must be; a file that is named may be anywhere.
+    `projects` has the projects in which the files of folders must be; a file that is named may be anywhere. `related` has the other source
+    code in the folders, which may define what that of `files` uses, with its project.
     """
 
     files: list[str]
     findings: list[Finding]
     notes: list[str]
     projects: Mapping[str, str] = {}
+    related: Mapping[str, str] = {}
 
 
 def discover(
@@ -88,7 +90,8 @@ def discover(
     if binary:
         walk.notes.append(_unconverted(binary))
     projects = {file: project for file, project in walk.files.items() if project is not None}
-    return Discovered(sorted(walk.files, key=_by_folder), walk.findings, list(dict.fromkeys(walk.notes)), projects)
+    related = {name: walk.related[name] for name in sorted(walk.related.keys() - walk.files.keys(), key=_by_folder)}
+    return Discovered(sorted(walk.files, key=_by_folder), walk.findings, list(dict.fromkeys(walk.notes)), projects, related)
 
 
 def _by_folder(name: str) -> tuple[list[str], str]:
@@ -137,8 +140,8 @@ class _Search:
 
 
 class _Walk:
-    """The files found so far, with their projects (None for a named file). `near` has the files that are nearly inputs, and
-    `binary` the binary captures, in order."""
+    """The files found so far, with their projects (None for a named file). `related` has the other source code, `near` the files that are
+    nearly inputs, and `binary` the binary captures, in order."""
 
     def __init__(self, settings_for: Callable[[str], Scope], sources: bool, log: Callable[[str], None] | None) -> None:
         self.settings_for = settings_for
@@ -146,6 +149,7 @@ class _Walk:
         self.log = log
         self.unreadable_sources = 0
         self.files: dict[str, str | None] = {}
+        self.related: dict[str, str] = {}
         self.near: dict[str, None] = {}
         self.binary: dict[str, None] = {}
         self.findings: list[Finding] = []
@@ -228,6 +232,8 @@ class _Walk:
             return
         if kind == OTHER:
             self.skip(path, "not an input")
+            if entry.name.lower().endswith(SOURCES) and entry.is_file(follow_symlinks=False):
+                self.related[shown(path)] = search.project
         if kind == NEAR:
             self.near[shown(path)] = None
         elif kind == BINARY:

@@ -21,7 +21,7 @@ from .readers import CAPTURES, FORMATS, capture_format
 
 if TYPE_CHECKING:
     from .capture_input import CaptureInput
-    from .source_file import SourceFile
+    from .source_file import SourceFile, SourceText
 
 _WORDS = (b'"vkFunc"', b'"apiCalls"', b'"gfxrecon-version"', b"<rdc>")
 _ARCHIVES = ((b"\x04\x22\x4d\x18", "lz4 -d"), (b"PK\x03\x04", "unzip"))
@@ -68,6 +68,24 @@ def load(
     cannot be read, and Unreadable if a text is larger than the limit, if the format is not supported, if the extra for source code is
     missing, or if a capture lacks the debug label that `frame_end` names.
     """
+    content = load_text(path, limits, name, format, data, project, frame_end)
+    if isinstance(content, bytes):
+        return content
+    from .source_file import SourceText
+
+    return read_code(content) if isinstance(content, SourceText) else content
+
+
+def load_text(
+    path: str,
+    limits: Limits,
+    name: str | None = None,
+    format: str | None = None,
+    data: bytes | None = None,
+    project: str | None = None,
+    frame_end: str | None = None,
+) -> bytes | CaptureInput | SourceText:
+    """What `load` returns, but of source code only its text, which is not read yet."""
     if path == STDIN:
         stream: BinaryIO = sys.stdin.buffer if data is None else io.BytesIO(data)
         return _load(stream, None, limits, name or "<stdin>", format, None, False, frame_end)
@@ -86,7 +104,7 @@ def _load(
     path: str | None,
     is_named: bool,
     frame_end: str | None,
-) -> bytes | CaptureInput | SourceFile:
+) -> bytes | CaptureInput | SourceText:
     # Python allocates as much memory as it is asked to read, so a file is asked for no more than its size.
     head = stream.read(HEAD_BYTES if size is None else min(size, HEAD_BYTES) + 1)
     compression = compression_of(head)
@@ -115,7 +133,7 @@ def _load(
         data += stream.read(max(limits.bytes + 1 - len(data), 0))
     if too_large or len(data) > limits.bytes:
         raise Unreadable(f"the input is larger than the limit of {limits.bytes} bytes")
-    return data if language is None else _source_file(data, name, language)
+    return data if language is None else _source_text(data, name, language)
 
 
 def _from_beginning(head: bytes, stream: BinaryIO, path: str | None) -> BinaryIO:
@@ -182,12 +200,19 @@ def _language(name: str, head: bytes, format: str | None) -> str | None:
     return language
 
 
-def _source_file(data: bytes, name: str, language: str) -> SourceFile:
+def _source_text(data: bytes, name: str, language: str) -> SourceText:
+    from .source_file import source_text
+
+    return source_text(data, name, language)
+
+
+def read_code(text: SourceText) -> SourceFile:
+    """Source code read alone, with the errors of `load`."""
     from .code.parsing import Missing
-    from .source_file import read_source_file
+    from .source_file import read_source_text
 
     try:
-        return read_source_file(data, name, language)
+        return read_source_text(text)
     except Missing as error:
         raise MissingExtra(str(error)) from None
 

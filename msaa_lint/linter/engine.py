@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from msaa_lint.core.allowance import Allowance
@@ -19,8 +18,8 @@ from msaa_lint.frame.description.models import ShaderStage
 from msaa_lint.frame.description.problems import Problem as DocumentProblem
 from msaa_lint.frame.devices import DeviceProfile
 from msaa_lint.frame.profiles import Problem, device_for, replace_captured
-from msaa_lint.input.file_types import PAGES
 
+from .code_files import code_only, hidden_in, in_file, in_order
 from .programs import merge, merged, of_turns
 from .results import DocumentResult, FileResult, location_order
 from .rules.budget import Budget
@@ -49,14 +48,12 @@ MAX_UNDECODABLE = 200
 _COMMENT_MARKS = ("msaa-lint", "msaalint", "msaa_lint", "msaa lint")
 """What a suppression comment contains, in lower case, misspelled ones included."""
 
-_LINE = re.compile(r"[^\r\n]*(?:\r\n|\r|\n|\Z)")
-
 
 class LintOptions(NamedTuple):
     """How to lint one input.
 
     `format` forces a reader; None detects the format from content. `device` is the profile for descriptions that do not name a device, or
-    only the one that they were captured on.
+    only the one that they were captured on. `severity_in` has the severities in each file of a program, if they differ.
     `ignores` applies suppression comments, `prices` computes the prices of findings. `keys` is the number of undecided rules for which a
     key is looked up that they lack (None: of none), and with `all_keys` all such keys.
     """
@@ -69,6 +66,7 @@ class LintOptions(NamedTuple):
     prices: bool = False
     keys: Allowance | None = Allowance()
     all_keys: bool = False
+    severity_in: Callable[[str], Severity] | None = None
 
 
 class _Analysis(NamedTuple):
@@ -157,7 +155,7 @@ class Engine:
 
         Its text alone does not determine what it does: confidence is low, fixes have no edits, and undecided rules are not reported.
         """
-        source, program = code.source, code.program
+        program = code.program
         findings: list[Finding] = []
         undecided: set[str] = set()
         results: list[DocumentResult] = []
@@ -170,21 +168,44 @@ class Engine:
             undecided.update(rule.rule for rule in verdicts.undecided)
             results.append(DocumentResult(document, verdicts.fix_specs, number, device, verdicts.checked))
         # Functions that share a structure are separate documents with the same finding.
-        findings = distinct(findings)
-        limits = [diagnostic("MSAA906", part.message, file, part.at) for part in program.unread]
-        findings += _hidden_characters_of_code(code)
-        suppressed: list[Suppressed] = []
-        if options.ignores and _has_suppressions(source.text):
-            from msaa_lint.input.code.comments import comments
-
-            found = comments(program.codes)
-            findings, suppressed = self._suppress(findings, found.comments, _code_only(code), options.severity, undecided, found.alone)
-        findings.sort(key=location_order)
+        in_program, suppressed = self._by_file(code, distinct(findings), options, undecided)
         if options.prices:
-            findings = _with_fixes(results, findings, options, editable=False)
+            own = [found for _, found in in_program if found is not None]
+            priced = iter(_with_fixes(results, own, options, editable=False))
+            in_program = [(in_file(code, next(priced))[1], found) if found is not None else (each, None) for each, found in in_program]
+        limits = [in_file(code, diagnostic("MSAA906", part.message, file, part.at))[1] for part in program.unread]
         suppressed = [each._replace(finding=_of_code(each.finding)) for each in suppressed]
-        findings = [_of_code(found) for found in findings]
-        return FileResult(file, source, sorted([*findings, *limits], key=location_order), [], suppressed, results, True)
+        findings = in_order(code, [*(_of_code(found) for found, _ in in_program), *limits])
+        sources = {part.source.name: part.source for part in code.files}
+        return FileResult(file, code.source, findings, [], suppressed, results, True, sources=sources)
+
+    def _by_file(
+        self, code: SourceFile, findings: Sequence[Finding], options: LintOptions, undecided: Collection[str]
+    ) -> tuple[list[tuple[Finding, Finding | None]], list[Suppressed]]:
+        """The findings of a program that are not suppressed where they lie, each with the finding whose places are in the program's text,
+        None if it is about the file; and the suppressed findings."""
+        by_file: dict[int, list[tuple[Finding, Finding]]] = {}
+        for found in findings:
+            part, located = in_file(code, found)
+            by_file.setdefault(part.start, []).append((located, found))
+        remaining: list[tuple[Finding, Finding | None]] = []
+        suppressed: list[Suppressed] = []
+        for part in code.files:
+            if not part.is_input:
+                continue
+            severity = options.severity if options.severity_in is None else options.severity_in(part.source.name)
+            disabled = {rule.code for rule in self.registry.rules if severity(rule, rule.severity, None) is None}
+            pairs = [(located, found) for located, found in by_file.get(part.start, []) if located.code not in disabled]
+            every = [*(located for located, _ in pairs), *hidden_in(part)]
+            if options.ignores and _has_suppressions(part.source.text):
+                from msaa_lint.input.code.comments import comments
+
+                found_comments = comments(part.codes)
+                every, hidden = self._suppress(every, found_comments.comments, code_only(part), severity, undecided, found_comments.alone)
+                suppressed += hidden
+            origins = {id(located): found for located, found in pairs}
+            remaining += [(each, origins.get(id(each))) for each in every]
+        return remaining, suppressed
 
     def lint_document(
         self, document: Document, file: str, options: LintOptions, broken: bool = False
@@ -362,24 +383,3 @@ def _untold(hidden: Iterable[Finding], findings: Iterable[Finding]) -> list[Find
     """The notes about hidden characters that no error about the same word names: an unknown key may have one."""
     told = [found.span for found in findings if found.span is not None and "invisible character U+" in found.message]
     return [note for note in hidden if not any(note.span and span.start <= note.span.start < span.end for span in told)]
-
-
-def _hidden_characters_of_code(code: SourceFile) -> Iterable[Finding]:
-    """Notes about characters of code; those of a page's prose are its author's."""
-    findings = hidden_characters(code.source)
-    if not findings or code.language not in PAGES:
-        return findings
-    lines = _LINE.findall(_code_only(code).text)
-    # The blanked text may have fewer lines: it has none for what follows the last code.
-    numbers = [found.span and code.source.position(found.span.start).line for found in findings]
-    return [found for found, number in zip(findings, numbers, strict=True) if number and any(map(str.strip, lines[number - 1 : number]))]
-
-
-def _code_only(code: SourceFile) -> Source:
-    """The source with everything but its code blanked out, at the same offsets."""
-    texts = [each.text for each in code.program.codes]
-    if len(texts) > 1:
-        lines = zip(*(_LINE.findall(text) for text in texts), strict=True)
-        # No line belongs to two codes: at most one of them is not blank.
-        texts = [next((line for line in same if line.strip()), same[0]) for same in lines]
-    return Source(code.source.name, "".join(texts))

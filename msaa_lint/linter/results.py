@@ -1,7 +1,7 @@
 """The result of linting one input, and what is needed to fix and price its findings."""
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 from msaa_lint.core.finding import Finding, Suppressed, Undecided
@@ -35,7 +35,8 @@ class DocumentResult(NamedTuple):
 class FileResult(NamedTuple):
     """The result of linting one input.
 
-    `source` is None if the input could not be decoded. `is_code` is true for source code. `description` is the result that fixes work
+    `source` is None if the input could not be decoded. `is_code` is true for source code; `sources` has the text of each file of a program,
+    whose findings name their files. `description` is the result that fixes work
     with, if it is another: that of the description of a capture, or with the findings of each document of a program; `documents` are the
     same.
     """
@@ -48,6 +49,7 @@ class FileResult(NamedTuple):
     documents: Sequence[DocumentResult] = ()
     is_code: bool = False
     description: "FileResult | None" = None
+    sources: Mapping[str, Source] = {}
 
 
 def unmerged(result: FileResult) -> FileResult:

@@ -4,7 +4,7 @@ Each language has a module with `trees(code)`, which returns the code's images, 
 imported only when code in that language is read. The grammars are in the extra `source`.
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from importlib import import_module
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -42,6 +42,10 @@ class Program(NamedTuple):
     assumed: tuple[tuple[str, ...], ...]
     codes: "tuple[Code, ...]"
     unread: "tuple[Unread, ...]"
+
+
+NOTHING = Program((), (), (), ())
+"""What is known of code that is not read."""
 
 
 def language_of(name: str, head: str) -> str | None:
@@ -90,19 +94,24 @@ def read(source: "Source", language: str) -> Program:
         codes_found = (Code(ascii_only(source.text), language),)
     if codes_found and not installed():
         raise Missing(missing_extra())
-    from .documents import bound
-
     by_code = [(code, list(_readings(code))) for code in codes_found]
     if len(by_code) > 1 and any(code.language == "glsl" for code, _ in by_code):
         from .glsl.description_trees import with_page_counts
 
         by_code = with_page_counts(by_code)
     every = [entry for _, item in by_code for entry in item]
+    return program_of(source, codes_found, every, lambda at: f"line {source.position(at.start).line}")
+
+
+def program_of(source: "Source", codes: "Sequence[Code]", every: "Sequence[Read]", line: "Callable[[Span], str]") -> Program:
+    """Returns the documents of what was read, whose places are in `source`; `line` names the line of a place to the user."""
+    from .documents import bound
+
     reads = [entry for entry in every if entry.tree.value or not entry.unread]
     unread = tuple(part for entry in every for part in entry.unread)
-    pieces = any(code.fragments for code in codes_found)
+    pieces = any(code.fragments for code in codes)
     documents = tuple(bound(source, read.tree, pieces)._replace(modules=read.modules) for read in reads)
-    return Program(documents, tuple(_assumption_lines(read.assumed, source) for read in reads), codes_found, unread)
+    return Program(documents, tuple(_assumption_lines(read.assumed, line) for read in reads), tuple(codes), unread)
 
 
 def _readings(code: "Code") -> "Iterator[Read]":
@@ -128,8 +137,8 @@ MAX_ASSUMED = 3
 """The number of assumptions shown for each document."""
 
 
-def _assumption_lines(assumed: "tuple[tuple[str, Span, str], ...]", source: "Source") -> tuple[str, ...]:
+def _assumption_lines(assumed: "tuple[tuple[str, Span, str], ...]", line: "Callable[[Span], str]") -> tuple[str, ...]:
     """Returns the first assumptions as lines for the user."""
-    lines = [f"{what} (line {source.position(at.start).line}) is unknown; assumed to be {value}" for what, at, value in assumed]
+    lines = [f"{what} ({line(at)}) is unknown; assumed to be {value}" for what, at, value in assumed]
     more = len(lines) - MAX_ASSUMED
     return (*lines[:MAX_ASSUMED], f"{more} more assumption{'' if more == 1 else 's'}") if more > 0 else tuple(lines)

@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
+from typing import NamedTuple
 
+from msaa_lint.core.text.node import Node
 from msaa_lint.core.text.node_builder import mapping
 from msaa_lint.core.text.span import Span
 from msaa_lint.input.code.core.limits import Work
+from msaa_lint.input.code.core.terms import Unit
 from msaa_lint.input.code.parsing import Code, Read, tree
 from msaa_lint.input.code.sample_counts.choices import choices
 from msaa_lint.input.code.vulkan.creation import VulkanInterpreter
@@ -26,25 +30,61 @@ _FRAMES = re.compile(r"cquireNextImage")
 """Where a program starts its frames."""
 
 
-def trees(code: Code) -> list[Read]:
-    """Returns the tree of a file or of a page's fragments: one or none. Raises `Missing` if the grammar is not installed."""
+CPP = ("cpp", "objcpp")
+"""The languages with references."""
+
+
+class FileSyntax(NamedTuple):
+    """What is known of a file, or of the files of a program, before it is executed.
+
+    `choices` are sample count choices: name, place, and entry. `fills_structures` says that the code fills in Vulkan structures, `waits`
+    that it synchronizes frames, `begins_frames` that it starts them. `length` is in characters.
+    """
+
+    unit: Unit
+    choices: Sequence[tuple[str, Span, Node]]
+    fills_structures: bool
+    waits: bool
+    begins_frames: bool
+    length: int
+
+
+def file_syntax(code: Code) -> FileSyntax:
+    """Returns what is known of a file or of a page's fragments. Raises `Missing` if the grammar is not installed."""
     code = code._replace(text=without_modules(code.text))
     root = tree(code).root_node
     text, sections = clear_list_directives(code.text, root)
     if sections:
         code = code._replace(text=text)
         root = tree(code).root_node
-    interpreter = VulkanInterpreter(unit(code, root, sections), code.fragments, code.language in ("cpp", "objcpp"), Work(len(code.text)))
-    if code.fragments or _VULKAN.search(code.text) is not None:
+    return FileSyntax(
+        unit(code, root, sections),
+        # Sample count masks have this in their name, whatever their source.
+        choices(root, code) if "ampleCounts" in code.text else (),
+        _VULKAN.search(code.text) is not None,
+        _WAITS.search(code.text) is not None,
+        _FRAMES.search(code.text) is not None,
+        len(code.text),
+    )
+
+
+def trees(code: Code) -> list[Read]:
+    """Returns the tree of a file or of a page's fragments: one or none. Raises `Missing` if the grammar is not installed."""
+    return executed(file_syntax(code), code.fragments, code.language in CPP)
+
+
+def executed(syntax: FileSyntax, fragments: bool, is_cpp: bool) -> list[Read]:
+    """Returns the tree of a file, of the files of a program, or of a page's fragments: one or none."""
+    interpreter = VulkanInterpreter(syntax.unit, fragments, is_cpp, Work(syntax.length))
+    if fragments or syntax.fills_structures:
         interpreter.run()
-    read = DescriptionWriter(interpreter, code.fragments, _WAITS.search(code.text) is not None or _FRAMES.search(code.text) is None).read()
-    # Sample count masks have this in their name, whatever their source.
-    chosen = choices(root, code) if "ampleCounts" in code.text else []
+    read = DescriptionWriter(interpreter, fragments, syntax.waits or not syntax.begins_frames).read()
     unread = (interpreter.unread,) if interpreter.unread is not None else ()
-    if not chosen:
+    if not syntax.choices:
         return [(read or Read(mapping([], Span(0, 0))))._replace(unread=unread)] if read is not None or unread else []
-    start = Span(chosen[0][1].start, chosen[0][1].start)
+    at = syntax.choices[0][1].start
+    start = Span(at, at)
     node = read.tree if read is not None else mapping([], Span(0, 0))
     items = [(key, node.keys[key].span, value) for key, value in node.value.items()]
-    items.append(("sampleCountChoices", start, mapping(chosen, start)))
+    items.append(("sampleCountChoices", start, mapping(syntax.choices, start)))
     return [Read(mapping(items, Span(0, 0)), read.assumed if read is not None else (), unread=unread)]

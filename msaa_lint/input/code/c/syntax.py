@@ -51,7 +51,7 @@ class _Reader(Statements):
         self.public: set[int] = set()
         """The start offsets of public member declarations."""
         self.virtual: set[str] = set()
-        """The names of virtual methods."""
+        """Virtual methods, each with its class."""
         self.aliases: dict[str, str] = {}
         self.called_names: set[str] = set()
         """The names of functions that other functions call."""
@@ -59,7 +59,8 @@ class _Reader(Statements):
     def unit(self, root: SyntaxNode) -> Unit:
         self.read_declarations(root)
         functions = [self.function(node, namespace, class_name) for namespace, class_name, node in self.relevant_functions()]
-        return Unit([f for f in functions if f is not None], self.members, self.outside, self.prototypes, self.called_names)
+        read = [function for function in functions if function is not None]
+        return Unit(read, self.members, self.outside, self.prototypes, self.called_names, self.virtual)
 
     def read_declarations(self, root: SyntaxNode) -> None:
         """Reads everything that can contain functions: namespaces, classes, and preprocessor blocks."""
@@ -91,7 +92,7 @@ class _Reader(Statements):
                         terms = [term if term[5] else (*term[:3], None, *term[4:]) for term in terms]
                     self.members.setdefault(class_name, []).extend(terms)
                     self.note_prototype(node)
-                    self.note_virtual_methods(node)
+                    self.note_virtual_methods(node, class_name)
             elif kind == "declaration":
                 self.queue_class(node, stack, namespace, class_name, depth)
                 self.outside += [(*term[:2], namespace + term[2], *term[3:]) for term in self.declared(node)]
@@ -143,11 +144,11 @@ class _Reader(Statements):
             elif public:
                 self.public.add(child.start_byte)
 
-    def note_virtual_methods(self, node: SyntaxNode) -> None:
+    def note_virtual_methods(self, node: SyntaxNode, class_name: str) -> None:
         if VIRTUAL.search(self.text_of(node)):
             _, name = function_declarator(node)
             if name is not None:
-                self.virtual.add(self.text_of(name))
+                self.virtual.add(f"{class_name}::{self.text_of(name)}")
 
     def alias(self, node: SyntaxNode) -> None:
         """Records a namespace alias, a `using`, or a `typedef` of one type name."""
@@ -187,7 +188,7 @@ class _Reader(Statements):
             parameters = tuple(
                 item._replace(default=item.default or entry.default) for item, entry in zip(parameters, declared, strict=True)
             )
-        overridden = VIRTUAL.search(self.text, node.start_byte, body.start_byte) is not None or short in self.virtual
+        overridden = VIRTUAL.search(self.text, node.start_byte, body.start_byte) is not None or f"{owner}::{short}" in self.virtual
         return Function(short, owner, kind, parameters, statements, span(name), namespace, overridden)
 
     def initializer(self, node: SyntaxNode) -> Iterator[Term]:

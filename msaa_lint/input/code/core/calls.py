@@ -117,7 +117,7 @@ class Calls(ListMethods):
                 return None
             if qualifier:
                 self.work.spend(1 + len(group.fixed) // 16)
-                named = [f for f in group.fixed if f"{f.class_name or f.namespace.rstrip(':')}".endswith(qualifier)]
+                named = [f for f in group.fixed if _qualified_owner(f).endswith(qualifier)]
                 return named[0] if len(named) == 1 else None
             group = self.functions.of_scope(name, count, scope.class_name, scope.namespace)
         return group.sole()
@@ -205,6 +205,12 @@ class Calls(ListMethods):
         if not all(isinstance(value, (int, float)) for value in values):
             return UNKNOWN_VALUE
         return (Alternative(min(values) if name == "min" else max(values), place),)
+
+
+def _qualified_owner(function: Function) -> str:
+    """Returns the class of a function, or else its namespace, as a call of it may state it: without what tells files apart."""
+    owner = function.class_name or function.namespace.removesuffix("::")
+    return "::".join(part for part in owner.split("::") if part[:1] != "#") if "#" in owner else owner
 
 
 def _callee(function: Term) -> tuple[str, Term | None]:

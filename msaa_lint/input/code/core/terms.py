@@ -65,14 +65,15 @@ class Function(NamedTuple):
 
 
 class Unit(NamedTuple):
-    """The contents of a file: its functions in order, the members of each class, global declarations, the parameters of declared
-    functions by name, and the names of functions that others call."""
+    """The contents of a file, or of the files of a program: functions in order, the members of each class, global declarations, the
+    parameters of declared functions by name, the names of functions that others call, and virtual methods with their class."""
 
     functions: Sequence[Function]
     members: Mapping[str, Sequence[Term]]
     outside: Sequence[Term]
     prototypes: Mapping[str, tuple[Parameter, ...]]
     called: Set[str]
+    virtual: Set[str] = frozenset()
 
 
 def at(term: Term) -> Span:

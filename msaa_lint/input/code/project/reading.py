@@ -1,0 +1,107 @@
+"""Reads the files of a program as one text."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+from msaa_lint.core.text.node_builder import mapping
+from msaa_lint.core.text.source import Source, Unreadable
+from msaa_lint.core.text.span import Span
+from msaa_lint.input.code.c.description_trees import CPP, FileSyntax, executed, file_syntax
+from msaa_lint.input.code.parsing import Code, Missing, Read, Unread, ascii_only
+
+from .merge import File, merged
+from .serialized import dumps, loads
+
+
+class ProgramFile(NamedTuple):
+    """A file of a program: its text, its language, and the numbers of the files that it includes."""
+
+    source: Source
+    language: str
+    includes: Sequence[int] = ()
+
+    @property
+    def code(self) -> Code:
+        return Code(ascii_only(self.source.text), self.language)
+
+
+def starts(files: Sequence[ProgramFile]) -> list[int]:
+    """Returns the offset of each file in the text of the program, in which a line end follows each file."""
+    offsets = [0]
+    for file in files[:-1]:
+        offsets.append(offsets[-1] + len(file.source.text) + 1)
+    return offsets
+
+
+def joined(files: Sequence[ProgramFile]) -> Source:
+    """Returns the text of a program."""
+    return files[0].source if len(files) == 1 else Source(files[0].source.name, "\n".join(file.source.text for file in files))
+
+
+def read(files: Sequence[ProgramFile], headers: Sequence[bool]) -> list[Read]:
+    """Returns what a program creates, with places in its text. `headers` says which of its files only declare.
+
+    If following the program takes too long, its files are read one by one. Raises `Missing` if the grammar is not installed.
+    """
+    offsets = starts(files)
+    syntaxes: list[FileSyntax | None] = []
+    unread: list[Read] = []
+    for file, offset in zip(files, offsets, strict=True):
+        try:
+            syntaxes.append(loads(dumps(file_syntax(file.code)), offset))
+        except Missing:
+            raise
+        except (Unreadable, RecursionError) as error:
+            syntaxes.append(None)
+            unread.append(_unread(error, offset))
+    reads = _read(files, syntaxes, headers)
+    if any(entry.unread for entry in reads):
+        alone = (entry for syntax, file in zip(syntaxes, files, strict=True) if syntax is not None for entry in _alone(syntax, file))
+        reads = [*alone, *(entry._replace(tree=mapping([], Span(0, 0))) for entry in reads if entry.unread)]
+    return [*reads, *unread]
+
+
+def _read(files: Sequence[ProgramFile], syntaxes: Sequence[FileSyntax | None], headers: Sequence[bool]) -> list[Read]:
+    """Returns what a program creates, from the syntax of its files, None for a file without."""
+    numbers = [number for number, syntax in enumerate(syntaxes) if syntax is not None]
+    position = {number: at for at, number in enumerate(numbers)}
+    entries: list[File] = []
+    for number in numbers:
+        syntax = syntaxes[number]
+        assert syntax is not None
+        includes = [position[other] for other in files[number].includes if other in position]
+        entries.append(File(syntax.unit, not headers[number], includes))
+    every = [syntax for syntax in syntaxes if syntax is not None]
+    if not every:
+        return []
+    names: dict[str, int] = {}
+    program = FileSyntax(
+        merged(entries),
+        [(_unique(name, names), at, node) for syntax in every for name, at, node in syntax.choices],
+        any(syntax.fills_structures for syntax in every),
+        any(syntax.waits for syntax in every),
+        any(syntax.begins_frames for syntax in every),
+        sum(syntax.length for syntax in every),
+    )
+    return executed(program, False, any(file.language in CPP for file in files))
+
+
+def _unique(name: str, names: dict[str, int]) -> str:
+    """Returns the name of a sample count choice, with a number if another file has one of the same name."""
+    names[name] = names.get(name, 0) + 1
+    return name if names[name] == 1 else _unique(f"{name} {names[name]}", names)
+
+
+def _alone(syntax: FileSyntax, file: ProgramFile) -> Iterator[Read]:
+    """Yields what a file creates by itself. What takes too long is left to the message about the program."""
+    for entry in executed(syntax, False, file.language in CPP):
+        if entry.tree.value:
+            yield entry._replace(unread=())
+
+
+def _unread(error: Exception, offset: int) -> Read:
+    """Returns that a file is not read."""
+    reason = "the code nests too deeply to be read" if isinstance(error, RecursionError) else str(error)
+    return Read(mapping([], Span(offset, offset)), unread=(Unread(f"{reason}; it is not checked", Span(offset, offset)),))

@@ -1,0 +1,78 @@
+"""The syntax of a file as bytes, and read again at its place in the text of a program.
+
+The files of a program are read as if they were one text: each place in a file has the offset of the file added to it.
+"""
+
+from __future__ import annotations
+
+import io
+import pickle
+from typing import Any
+
+from msaa_lint.core.text.node import Node
+from msaa_lint.core.text.span import Span
+from msaa_lint.input.code.c.description_trees import FileSyntax
+from msaa_lint.input.code.core.terms import Function, Parameter, Unit
+
+_TYPES = {(kind.__module__, kind.__name__): kind for kind in (FileSyntax, Function, Node, Parameter, Unit)}
+
+
+def dumps(syntax: FileSyntax) -> bytes:
+    """Returns the syntax of a file as bytes. Raises RecursionError if it nests too deeply."""
+    return pickle.dumps(syntax, pickle.HIGHEST_PROTOCOL)
+
+
+def loads(data: bytes, offset: int) -> FileSyntax:
+    """Returns the syntax that bytes hold, with an offset added to each place. Raises ValueError for other bytes."""
+    try:
+        syntax = _Reader(data, offset).load()
+    except RecursionError:
+        raise
+    except Exception as error:
+        raise ValueError(f"not the syntax of a file: {error}") from None
+    if not isinstance(syntax, FileSyntax):
+        raise ValueError("not the syntax of a file")
+    for _, _, node in syntax.choices if offset else ():
+        move(node, offset)
+    return syntax
+
+
+class _Reader(pickle.Unpickler):
+    """Reads tuples of the known types. It looks no other name up, so that nothing that the bytes state is executed."""
+
+    def __init__(self, data: bytes, offset: int) -> None:
+        super().__init__(io.BytesIO(data))
+        self.span = _span_type(offset) if offset else Span
+
+    def find_class(self, module: str, name: str) -> Any:
+        if (module, name) == (Span.__module__, Span.__name__):
+            return self.span
+        kind = _TYPES.get((module, name))
+        if kind is None:
+            raise ValueError(f"unexpected type {module}.{name}")
+        return kind
+
+
+def _span_type(offset: int) -> type:
+    class Moved(Span):
+        """Creates places with the offset added."""
+
+        def __new__(cls, start: int, end: int) -> Span:  # type: ignore[misc]
+            return Span(start + offset, end + offset)
+
+    return Moved
+
+
+def move(node: Node, offset: int) -> None:
+    """Adds an offset to the places of a tree. Nodes are visited once, also if they are in several places of it."""
+    waiting = [node]
+    moved: set[int] = set()
+    while waiting:
+        at = waiting.pop()
+        if id(at) in moved:
+            continue
+        moved.add(id(at))
+        at.start += offset
+        at.end += offset
+        waiting += at.keys.values()
+        waiting += at.value.values() if at.kind == "mapping" else at.value if at.kind == "sequence" else ()
