@@ -78,7 +78,7 @@ static VkRenderPass create(VkDevice device, std::span<const VkAttachmentDescript
 
 VkRenderPass ofLists(VkDevice device) {
     const auto attachments = std::to_array<VkAttachmentDescription>({
-        describe(VK_SAMPLE_COUNT_4_BIT, VK_ATTACHMENT_STORE_OP_STORE),  // expect-later: MSAA201
+        describe(VK_SAMPLE_COUNT_4_BIT, VK_ATTACHMENT_STORE_OP_STORE),  // expect: MSAA201
         describe(VK_SAMPLE_COUNT_1_BIT, VK_ATTACHMENT_STORE_OP_STORE),
     });
     return create(device, attachments);
@@ -86,7 +86,7 @@ VkRenderPass ofLists(VkDevice device) {
 
 VkRenderPass ofChoice(VkDevice device, bool multisampled, VkRenderPass pass) {
     const VkAttachmentDescription one = describe(VK_SAMPLE_COUNT_1_BIT, VK_ATTACHMENT_STORE_OP_STORE);
-    const VkAttachmentDescription several = describe(VK_SAMPLE_COUNT_4_BIT, VK_ATTACHMENT_STORE_OP_STORE);  // expect-later: MSAA201
+    const VkAttachmentDescription several = describe(VK_SAMPLE_COUNT_4_BIT, VK_ATTACHMENT_STORE_OP_STORE);  // expect: MSAA201
     std::array<VkAttachmentDescription, 2> attachments = {multisampled ? several : one, one};
     VkAttachmentReference color = {0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
     VkAttachmentReference target = {1, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};

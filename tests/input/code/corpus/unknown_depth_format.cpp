@@ -18,7 +18,7 @@ void DepthPrepass::create() {
     VkAttachmentDescription depth{};
     depth.format = format;
     depth.samples = VK_SAMPLE_COUNT_4_BIT;
-    depth.loadOp = VK_ATTACHMENT_LOAD_OP_LOAD;  // expect-later: MSAA202
+    depth.loadOp = VK_ATTACHMENT_LOAD_OP_LOAD;  // expect: MSAA202
     depth.storeOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
     depth.stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
     depth.stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;

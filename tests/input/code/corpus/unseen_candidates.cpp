@@ -107,7 +107,7 @@ private:
             {.format = gpu.depthFormat(),
              .samples = samples,
              .loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR,
-             .storeOp = VK_ATTACHMENT_STORE_OP_STORE,  // expect-later: MSAA203
+             .storeOp = VK_ATTACHMENT_STORE_OP_STORE,  // expect: MSAA203
              .stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE,
              .stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE,
              .finalLayout = VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL},

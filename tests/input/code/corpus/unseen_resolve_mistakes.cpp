@@ -90,7 +90,7 @@ VkRenderPass depthGoesOn(VkDevice device, VkFormat depthFormat) {
     VkAttachmentDescription depth{0,
                                   depthFormat,
                                   VK_SAMPLE_COUNT_4_BIT,
-                                  VK_ATTACHMENT_LOAD_OP_LOAD,  // expect-later: MSAA202
+                                  VK_ATTACHMENT_LOAD_OP_LOAD,  // expect: MSAA202
                                   VK_ATTACHMENT_STORE_OP_STORE,
                                   VK_ATTACHMENT_LOAD_OP_DONT_CARE,
                                   VK_ATTACHMENT_STORE_OP_DONT_CARE,

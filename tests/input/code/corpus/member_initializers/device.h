@@ -8,7 +8,7 @@ public:
 
     operator VkDevice() const { return m_device; }
 
-    VkSampleCountFlagBits samples() const {  // expect-later: MSAA851
+    VkSampleCountFlagBits samples() const {  // expect: MSAA851
         auto counts = m_properties.limits.framebufferColorSampleCounts &
                       m_properties.limits.framebufferDepthSampleCounts;  // expect-later: MSAA854
         if (counts & VK_SAMPLE_COUNT_16_BIT)

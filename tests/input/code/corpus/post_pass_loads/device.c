@@ -5,7 +5,7 @@ renderer_t renderer;
 VkSampleCountFlagBits renderer_samples;
 
 void Device_ChooseSamples(const VkPhysicalDeviceProperties *properties, int wanted) {
-    const VkSampleCountFlags most = MIN(properties->limits.framebufferColorSampleCounts,  // expect-later: MSAA852
+    const VkSampleCountFlags most = MIN(properties->limits.framebufferColorSampleCounts,  // expect: MSAA852
                                         properties->limits.framebufferDepthSampleCounts);
     renderer.multisampled = wanted > 1;
     if (renderer.multisampled) {

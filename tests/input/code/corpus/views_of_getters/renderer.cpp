@@ -24,7 +24,7 @@ void Renderer::drawScene(VkCommandBuffer commands, const Texture& color, const T
     attachment.resolveImageView = target.view();
     attachment.resolveImageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
     attachment.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
-    attachment.storeOp = VK_ATTACHMENT_STORE_OP_STORE;  // expect-later: MSAA201
+    attachment.storeOp = VK_ATTACHMENT_STORE_OP_STORE;  // expect: MSAA201
 
     VkRenderingAttachmentInfo depthAttachment{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
     depthAttachment.imageView = depth.view();

@@ -48,7 +48,7 @@ void View::createPass(vk::Device device) {
             .setFormat(vk::Format::eB8G8R8A8Srgb)
             .setSamples(vk::SampleCountFlagBits::e1)
             .setLoadOp(vk::AttachmentLoadOp::eDontCare)
-            .setStoreOp(vk::AttachmentStoreOp::eDontCare)  // expect-later: MSAA206
+            .setStoreOp(vk::AttachmentStoreOp::eDontCare)  // expect: MSAA206
             .setStencilLoadOp(vk::AttachmentLoadOp::eDontCare)
             .setStencilStoreOp(vk::AttachmentStoreOp::eDontCare);
         resolves.push_back(vk::AttachmentReference(2, vk::ImageLayout::eColorAttachmentOptimal));
