@@ -20,6 +20,8 @@ class Configuration:
     def __init__(self, objects: Sequence[ApiObject]) -> None:
         self.current_objects = list(objects)
         self.configuration: dict[str, bool] = {}
+        self.equal: dict[str, str] = {}
+        """What the subject of a comparison equals, as text."""
         self.multisampled: set[str] = set()
         """The keys of unknown sample counts that are above 1."""
         self.assumed: dict[str, tuple[str, Span, str]] = {}
@@ -34,6 +36,10 @@ class Configuration:
         guards = list(guards)
         if any(self.configuration.get(text, way) is not way for text, way in guards):
             return False
+        for subject, compared in [text.split("==", 1) for text, way in guards if way and "==" in text]:
+            # A value that equals one thing does not equal another.
+            if self.equal.setdefault(subject, compared) != compared:
+                return False
         for text, way in guards:
             self.configuration[text] = way
             key, _, number = text.rpartition("=")

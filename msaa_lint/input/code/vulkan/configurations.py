@@ -41,6 +41,7 @@ class VulkanConfiguration(Configuration):
         self.barriers = barriers
         """Whether the file records barriers, which can replace subpass dependencies."""
         self.resolves = program.resolves
+        self.has_dynamic_samples = program.names.has_dynamic_samples
         self.multisampled_structs: set[int] = set()
         """The structures, by identity, whose unknown count is above 1."""
         self.object_names: dict[int, str] = {}

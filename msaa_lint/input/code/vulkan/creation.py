@@ -85,7 +85,8 @@ class VulkanInterpreter(Interpreter):
     """Executes a program that calls Vulkan."""
 
     def __init__(self, unit: Unit, fragments: bool, is_cpp: bool, work: Work) -> None:
-        super().__init__(unit, VulkanLibrary(), fragments, is_cpp, work)
+        self.names = VulkanLibrary()
+        super().__init__(unit, self.names, fragments, is_cpp, work)
         self.resolves: dict[Span, tuple[Value, Value]] = {}
         """The source and the target of each resolve command."""
 
@@ -99,6 +100,8 @@ class VulkanInterpreter(Interpreter):
         if name in ("vkCmdResolveImage", "resolveImage", "vkCmdResolveImage2", "vkCmdResolveImage2KHR", "resolveImage2"):
             self.record_resolve(name, values, place)
             return UNKNOWN_VALUE
+        if "etRasterizationSamples" in name:
+            self.names.has_dynamic_samples = True
         if name in ("vkBindImageMemory", "bindImageMemory", "bindMemory"):
             self.bind_memory(values, owner, scope)
             return UNKNOWN_VALUE

@@ -16,6 +16,8 @@ _COUNTS = re.compile(
     re.IGNORECASE,
 )
 
+_DYNAMIC = re.compile(r"(?:DYNAMIC_STATE_|^)(?:RASTERIZATION_SAMPLES|SAMPLE_MASK|ALPHA_TO_|SAMPLE_LOCATIONS_ENABLE)")
+
 _MEMBER_TYPES = {
     "extent": "VkExtent3D",
     "subpasses": "std::vector<VkSubpassDescription>",
@@ -35,8 +37,15 @@ _ONE_SAMPLE = {
 class VulkanLibrary(Library):
     """The names of Vulkan in C and of vulkan.hpp."""
 
+    def __init__(self) -> None:
+        self.has_dynamic_samples = False
+        """Whether the program makes a part of the multisample state dynamic (VK_EXT_extended_dynamic_state3, VK_EXT_shader_object)."""
+
     def constant(self, name: str) -> int | str | bool | None:
-        return names.constant(name)
+        value = names.constant(name)
+        if isinstance(value, str) and _DYNAMIC.search(value):
+            self.has_dynamic_samples = True
+        return value
 
     def structure(self, type_text: str) -> str:
         return names.vulkan_struct(type_text)

@@ -25,7 +25,7 @@ from msaa_lint.input.code.core.values import (
     sole_value,
 )
 
-from .configurations import VulkanConfiguration, chosen_counts, inner_structs
+from .configurations import COUNTS, VulkanConfiguration, chosen_counts, inner_structs
 
 _FLAG = re.compile(r"[\w:.]*(?:msaa|multi_?sampl)\w*(?:\(\))?", re.IGNORECASE)
 _OPPOSITE = re.compile(r"(?:^|[._:])(?:no|non|not|disable|without|skip|un)_?(?:msaa|multi)", re.IGNORECASE)
@@ -56,6 +56,11 @@ class Multisampling(VulkanConfiguration):
         for alternative in chain.from_iterable(value for _, value in slots):
             if isinstance(alternative.value, Symbol) and f"{alternative.value.key}>1" in guards:
                 self.assume_multisampled(alternative.value, alternative.guards)
+        self.assume_present()
+        for text in guards - self.configuration.keys():
+            subject, _, other = text.partition("==")
+            if self.equal.get(subject, other) != other:
+                self.configuration[text] = False
         self.assume_same_counts()
 
     def assume_counts(self, slots: Iterable[Value]) -> None:
@@ -75,6 +80,29 @@ class Multisampling(VulkanConfiguration):
                 for item in value:
                     if isinstance(item.value, Symbol) and item.guards:
                         self.assume_multisampled(item.value, item.guards)
+
+    def assume_present(self) -> None:
+        """Assumes the conditions of optional attachments, subpasses, and references, so that the lists are known."""
+        for obj in self.current_objects:
+            if obj.kind == "renderPass" and self.assume_elements(obj.info, "attachments") and self.assume_elements(obj.info, "subpasses"):
+                for subpass in self.subpasses(obj):
+                    for name in ("colorAttachments", "resolveAttachments", "inputAttachments"):
+                        self.assume_elements(subpass, name)
+            if obj.kind == "rendering":
+                self.assume_elements(obj.info, "colorAttachments")
+
+    def assume_elements(self, struct: Struct, name: str) -> bool:
+        """Assumes that the optional elements of a list exist, as many as it can have. Returns whether there is such a list."""
+        array = self.dereference(self.get(struct, name)[0])
+        for cell in array.items if isinstance(array, Array) else ():
+            writes = self.settle(cell.writes)
+            if writes and all(write.guards for write in writes):
+                self.assume(writes[-1].guards)
+        count = struct.fields.get(COUNTS.get(name, ""))
+        counts = [item for item in self.settle(count.writes) if type(item.value) is int] if count is not None else []
+        if len(counts) > 1:
+            self.assume(max(counts, key=lambda item: int(item.value)).guards)
+        return isinstance(array, (Array, Struct))
 
     def sample_slots(self) -> Iterator[tuple[Struct, str]]:
         """Yields the structures with a sample count, and the member that holds it."""

@@ -7,12 +7,13 @@ from collections.abc import Iterator, Sequence
 from msaa_lint.core.text.node import Node
 from msaa_lint.core.text.node_builder import mapping, scalar, sequence
 from msaa_lint.core.text.span import Span
-from msaa_lint.input.code.core.values import UNKNOWN, ApiObject, Array, Struct, sole_value
+from msaa_lint.input.code.core.values import ApiObject, Array, Struct, sole_value
 
-from .members import Item, Members, complete, head_of
+from .members import Item, complete, head_of
+from .subpasses import Subpasses
 
 
-class Passes(Members):
+class Passes(Subpasses):
     """Converts render passes to nodes."""
 
     def bind(self, passes: Sequence[ApiObject]) -> None:
@@ -69,23 +70,25 @@ class Passes(Members):
         for n, struct in enumerate(structs):
             name = struct.name if struct is not None and struct.name else f"{list_name}[{n}]" if list_name else f"attachment {n}"
             names.append(name if name not in names else f"{name} ({n})")
-        subpasses = [self.subpass(struct, names) for struct in self.structs(info, "subpasses") or ()]
-        sources = _resolved([node for node in subpasses if node is not None])
+        head = head_of(obj.at)
+        subpasses = [self.subpass(struct, names, head) for struct in self.structs(info, "subpasses") or ()]
+        sources = _resolved([subpass.node for subpass in subpasses])
+        referred = {reference.text for subpass in subpasses for reference in _leaves(subpass.node)}
+        is_complete = all(subpass.complete for subpass in subpasses)
         nodes: list[Item] = []
         for name, struct, image in zip(names, structs, images, strict=True):
             at = head_of(self.place_of(struct, obj.at))
-            nodes.append((name, at, self.attachment(struct, image, attached, at, name in sources)))
+            node = self.attachment(struct, image, attached, at, name in sources)
+            nodes.append((name, at, node if is_complete else _certain(node, name in referred, name in sources)))
         if type(self.known_value(info, "attachmentCount")) is not int:
             # The count is unknown: trailing attachments that nothing references may not exist.
-            referred = {reference.text for node in subpasses if node is not None for reference in _leaves(node)}
             while nodes and nodes[-1][0] not in referred:
                 nodes.pop()
             if not nodes:
                 return None
-        head = head_of(obj.at)
         items: list[Item] = [("attachments", head, mapping(nodes, head))]
-        if known := complete(subpasses):
-            items.append(("subpasses", head, sequence(known, head)))
+        if referred or (subpasses and is_complete):
+            items.append(("subpasses", head, sequence([subpass.node for subpass in subpasses], head)))
         dependencies = self.structs(info, "dependencies")
         if dependencies and not self.barriers and self.has_single_images(structs, images):
             nodes_of_dependencies = complete(map(self.dependency, dependencies))
@@ -121,98 +124,6 @@ class Passes(Members):
             self.assumed.setdefault(f"{struct.name}.storeOp", (f"{struct.name}.storeOp", at, "STORE"))
             yield "storeOp", at, scalar("STORE", at)
 
-    def subpass(self, struct: Struct | None, names: Sequence[str]) -> Node | None:
-        """Returns a subpass, or None if any of its lists is unknown."""
-        if struct is None:
-            return None
-        head = head_of(struct.at)
-        items: list[Item] = []
-        for name in ("colorAttachments", "resolveAttachments", "inputAttachments"):
-            if not struct.zeroed and name not in struct.fields and not self.fragments:
-                return None
-            references = self.references(struct, name, names)
-            if references is None:
-                return None
-            at = self.get(struct, name)[1]
-            if references:
-                items.append((name, at, sequence(references, head_of(at))))
-        if struct.zeroed or "depthStencilAttachment" in struct.fields or self.fragments:
-            value, at = self.get(struct, "depthStencilAttachment")
-            if value is not None and not (value is UNKNOWN and "depthStencilAttachment" not in struct.fields):
-                node = self.reference(self.struct(struct, "depthStencilAttachment"), names)
-                if node is None:
-                    return None
-                items.append(("depthStencilAttachment", at, node))
-        else:
-            return None
-        chained = self.dereference(self.get(struct, "next")[0]) if struct.zeroed or "next" in struct.fields else None
-        if chained is not None and not isinstance(chained, Struct):
-            return None
-        if isinstance(chained, Struct) and chained.kind == "SubpassDescriptionDepthStencilResolve":
-            node = self.depth_resolve(chained, names)
-            if node is None:
-                return None
-            items.append(("depthStencilResolve", head_of(chained.at), node))
-        elif isinstance(chained, Struct) and chained.kind == "MultisampledRenderToSingleSampledInfo":
-            count, place = self.samples(chained, "rasterizationSamples")
-            inner = [*self.item(chained, "multisampledRenderToSingleSampledEnable")]
-            if count is not None:
-                inner.append(("rasterizationSamples", place, scalar(count, place)))
-            items.append(("multisampledRenderToSingleSampled", head_of(chained.at), mapping(inner, head_of(chained.at))))
-        elif chained is not None:
-            return None
-        return mapping(items, head)
-
-    def depth_resolve(self, struct: Struct, names: Sequence[str]) -> Node | None:
-        items: list[Item] = []
-        target = self.dereference(self.get(struct, "depthStencilResolveAttachment")[0])
-        if isinstance(target, Struct):
-            node = self.reference(target, names)
-            if node is None:
-                return None
-            items.append(("attachment", head_of(target.at), node))
-        elif target is not None:
-            return None
-        for name in ("depthResolveMode", "stencilResolveMode"):
-            items += self.item(struct, name)
-        return mapping(items, head_of(struct.at))
-
-    def references(self, struct: Struct, name: str, names: Sequence[str]) -> list[Node] | None:
-        if name not in struct.fields:
-            return []
-        structs = self.structs(struct, name)
-        return complete(self.reference(item, names) for item in structs) if structs is not None else None
-
-    def reference(self, struct: Struct | None, names: Sequence[str]) -> Node | None:
-        if struct is None:
-            return None
-        index, at = self.get(struct, "attachment")
-        if index is UNKNOWN and self.fragments:
-            # Pages that modify a program do not repeat that `colorAttachmentRef` refers to `colorAttachment`.
-            indices = [n for n, name in enumerate(names) if struct.name and struct.name.startswith(name) and struct.name != name]
-            index = indices[-1] if len(indices) == 1 else UNKNOWN
-        if index is None:
-            index = 0
-        if index == 2**32 - 1 or index == "VK_ATTACHMENT_UNUSED":
-            return scalar(None, at)
-        return scalar(names[index], at) if type(index) is int and 0 <= index < len(names) else None
-
-    def dependency(self, struct: Struct | None) -> Node | None:
-        if struct is None:
-            return None
-        items: list[Item] = []
-        for name in ("srcSubpass", "dstSubpass"):
-            value, at = self.get(struct, name)
-            if value in ("VK_SUBPASS_EXTERNAL", 2**32 - 1):
-                items.append((name, at, scalar("EXTERNAL", at)))
-            elif value is None or type(value) is int:
-                items.append((name, at, scalar(value or 0, at)))
-            else:
-                return None
-        for name in ("srcStageMask", "dstStageMask", "srcAccessMask", "dstAccessMask"):
-            items += self.item(struct, name)
-        return mapping(items, head_of(struct.at)) if len(items) == 6 else None
-
 
 def _leaves(node: Node) -> Iterator[Node]:
     """Yields the scalars of a subpass."""
@@ -223,6 +134,23 @@ def _leaves(node: Node) -> Iterator[Node]:
             yield inner
         else:
             stack += inner.value.values() if inner.kind == "mapping" else inner.value
+
+
+OPERATIONS = ("loadOp", "storeOp", "stencilLoadOp", "stencilStoreOp")
+
+
+def _certain(node: Node, referred: bool, resolved: bool) -> Node:
+    """Returns an attachment of a pass of which parts are unknown, without the operations that these parts may need.
+
+    An attachment that no known part refers to may be used in any way; one that is discarded may be read or resolved before.
+    """
+    items = [(name, node.keys[name].span, value) for name, value in node.value.items()]
+    kept = [
+        item
+        for item in items
+        if item[0] not in OPERATIONS or (referred and (resolved or not item[0].endswith("toreOp") or item[2].text == "STORE"))
+    ]
+    return mapping(kept, node.span) if len(kept) < len(items) else node
 
 
 def _resolved(subpasses: Sequence[Node]) -> set[str]:

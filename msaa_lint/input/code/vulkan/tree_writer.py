@@ -147,14 +147,14 @@ class DescriptionWriter(Passes, Commands):
             yield "enabled", head_of(info.at), mapping([("features", at, sequence(names, at))], head_of(info.at))
 
     def dynamic(self, info: Struct) -> list[Item] | None:
-        """Returns the dynamic states, or None if they are unknown, since the sample count may be dynamic."""
+        """Returns the dynamic states, or None if they are unknown and the sample count may be among them."""
         value, at = self.get(info, "dynamicState")
         if value is None:
             return []
         state = self.dereference(value)
         list_node = self.dereference(self.get(state, "dynamicStates")[0]) if isinstance(state, Struct) else UNKNOWN
         if not isinstance(list_node, Array) or not list_node.complete:
-            return None
+            return None if self.has_dynamic_samples else []
         names = [parse_enum("VkDynamicState", str(sole_value(self.settle(cell.writes)))) for cell in list_node.items]
         nodes = [scalar(name, at) for name in names if name is not None]
         return [("dynamicState", at, sequence(nodes, at))] if nodes else []
