@@ -22,7 +22,7 @@ public:
         color.resolveImageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
         color.resolveMode = VK_RESOLVE_MODE_AVERAGE_BIT;
         color.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
-        color.storeOp = VK_ATTACHMENT_STORE_OP_STORE;  // expect-later: MSAA201
+        color.storeOp = VK_ATTACHMENT_STORE_OP_STORE;  // expect: MSAA201
 
         VkRenderingAttachmentInfo depthInfo{};
         depthInfo.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO;
@@ -38,24 +38,6 @@ public:
         info.colorAttachmentCount = 1;
         info.pColorAttachments = &color;
         info.pDepthAttachment = &depthInfo;
-        vkCmdBeginRendering(commands_, &info);
-    }
-
-    // A pass that resolves where its caller gives a target for it: its samples may be read by the caller.
-    void beginOverlay(const Target& target, bool resolve) const {
-        const VkRenderingAttachmentInfo color{
-            .sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
-            .imageView = target.color(),
-            .imageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
-            .resolveMode = resolve ? VK_RESOLVE_MODE_AVERAGE_BIT : VK_RESOLVE_MODE_NONE,
-            .resolveImageView = resolve ? target.resolved() : VK_NULL_HANDLE,
-            .resolveImageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
-            .loadOp = VK_ATTACHMENT_LOAD_OP_LOAD,
-            .storeOp = resolve ? VK_ATTACHMENT_STORE_OP_DONT_CARE : VK_ATTACHMENT_STORE_OP_STORE,
-        };
-        VkRenderingInfo info{.sType = VK_STRUCTURE_TYPE_RENDERING_INFO, .layerCount = 1, .colorAttachmentCount = 1};
-        info.renderArea.extent = target.extent();
-        info.pColorAttachments = &color;
         vkCmdBeginRendering(commands_, &info);
     }
 
