@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterable, Mapping
+from collections.abc import Hashable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from msaa_lint.core.finding import InputSummary, Unread
@@ -17,7 +17,26 @@ from .results import FileResult
 
 if TYPE_CHECKING:
     from msaa_lint.input.capture_input import CaptureInput
+    from msaa_lint.input.code.parsing import Code
     from msaa_lint.input.source_file import SourceFile
+
+
+def input_summaries(data: bytes | CaptureInput | SourceFile, result: FileResult) -> list[InputSummary]:
+    """The summaries of an input that was linted: of a program, one for each of its files that is an input."""
+    files = () if isinstance(data, bytes) else getattr(data, "files", ())
+    if isinstance(data, bytes) or len(files) < 2:
+        return [input_summary(data, result)]
+    documents = [each.document for each in result.documents if each.checked]
+    fatal = {finding.file for finding in result.findings if finding.fatal}
+    summaries = []
+    for file in files:
+        if file.is_input:
+            within = Span(file.start, file.start + len(file.source.text))
+            counts = _summary(file.source.name, file.language, documents, file.source.name in fatal, None, within)
+            is_read = counts.images + counts.passes + counts.pipelines > 0
+            unread = _unread_code(file.codes, documents if is_read else (), False)
+            summaries.append(counts._replace(unread=unread))
+    return summaries
 
 
 def input_summary(data: bytes | CaptureInput | SourceFile, result: FileResult) -> InputSummary:
@@ -33,13 +52,16 @@ def input_summary(data: bytes | CaptureInput | SourceFile, result: FileResult) -
         # What is known of the images that a shader reads, and of its pipeline, is that they are there.
         shaders = [document for document in documents if _is_shader(document)]
         frames = [document for document in documents if not _is_shader(document)]
-        unread = _unread_code(data, frames, bool(shaders))
+        unread = _unread_code(data.program.codes, frames, bool(shaders))
         return _summary(result.file, data.language, frames, failed, unread)._replace(shaders=len(shaders))
     unread = _unread_frame(documents, "capture a whole frame")
     return _summary(result.file, data.format, documents, failed, unread)._replace(capture=data.summary)
 
 
-def _summary(file: str, format: str, documents: Iterable[Document], failed: bool, unread: Unread | None) -> InputSummary:
+def _summary(
+    file: str, format: str, documents: Iterable[Document], failed: bool, unread: Unread | None, within: Span | None = None
+) -> InputSummary:
+    """The summary of documents, of a program what they state `within` one of its files."""
     images, passes, pipelines, choices = set[Hashable](), set[Hashable](), set[Hashable](), set[Hashable]()
     for document in documents:
         frame = document.description
@@ -50,9 +72,15 @@ def _summary(file: str, format: str, documents: Iterable[Document], failed: bool
             (choices, frame.sampleCountChoices),
         ]
         for distinct, section in sections:
-            distinct.update(_identity(document.source, record, name) for name, record in section.items())
-        passes.update(_identity(document.source, rendering) for rendering in _commands(document, BeginRendering))
+            distinct.update(_identity(document.source, record, name) for name, record in section.items() if _is_in(record, within))
+        renderings = _commands(document, BeginRendering)
+        passes.update(_identity(document.source, rendering) for rendering in renderings if _is_in(rendering, within))
     return InputSummary(file, format, len(images), len(passes), len(pipelines), 0, len(choices), failed, unread)
+
+
+def _is_in(record: Record, within: Span | None) -> bool:
+    """Whether a record is stated in a range of the text."""
+    return within is None or within.start <= record.head.start <= within.end
 
 
 def _commands(document: Document, kind: type[Record]) -> list[Record]:
@@ -85,7 +113,7 @@ def _unread_frame(documents: Iterable[Document], help: str) -> Unread | None:
     return first
 
 
-def _unread_code(code: SourceFile, documents: Iterable[Document], reads: bool) -> Unread | None:
+def _unread_code(codes: Sequence[Code], documents: Iterable[Document], reads: bool) -> Unread | None:
     """The first code that creates something multisampled of which no pass, or no pipeline, was read."""
     from msaa_lint.input.code.creations import IMAGES, READS, Creation, creations
 
@@ -98,7 +126,7 @@ def _unread_code(code: SourceFile, documents: Iterable[Document], reads: bool) -
     if passes:
         return None
     found: dict[str, Creation] = {}
-    for creation in creations(code.program.codes):
+    for creation in creations(codes):
         found.setdefault(creation.kind, creation)
         if creation.kind == IMAGES:
             break

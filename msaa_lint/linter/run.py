@@ -6,13 +6,15 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from msaa_lint.core.diagnostics import diagnostic
-from msaa_lint.core.finding import Finding, InputSummary, Result, Savings, Suppressed, Undecided, is_confident, rank
+from msaa_lint.core.finding import Finding, InputSummary, Result, Savings, Suppressed, Undecided, Unread, is_confident, rank
+from msaa_lint.core.text.source import Source
 from msaa_lint.input.file_types import STDIN
 
 from .engine import rule_infos
-from .input_summary import input_summary
+from .input_summary import input_summaries
 from .results import FileResult, can_try_fixes, finding_kind
 from .settings.settings import Settings
+from .source_programs import ProgramInput
 from .workspace import InputFile, Request, Workspace
 
 if TYPE_CHECKING:
@@ -66,7 +68,7 @@ class _Run:
         self.undecided: list[Undecided] = []
         self.suppressed: list[Suppressed] = []
         self.accepted: list[Suppressed] = []
-        self.inputs: list[InputSummary] = []
+        self.summaries: dict[str, InputSummary] = {}
         self.savings: dict[str, Savings] = {}
         self.untried: dict[str, bool] = {}
         self.failing: dict[str, Savings] = {}
@@ -87,14 +89,20 @@ class _Run:
 
     def run(self, progress: Progress | None) -> Outcome:
         discovered = self.workspace.discover(sources=True)
+        programs = {path: program for program in self.workspace.programs(discovered) for path in program.inputs}
+        done: set[str] = set()
         for number, path in enumerate(discovered.files):
             if progress is not None:
                 progress(number, len(discovered.files), path)
-            summaries = len(self.inputs)
-            with self.workspace.guard(path):
-                self._run_input(path)
-            if len(self.inputs) == summaries:
-                self.inputs.append(InputSummary(self.request.input_name(path), failed=True))
+            if path in programs and path not in done:
+                done.update(programs[path].inputs)
+                with self.workspace.guard(path):
+                    self._run_program(programs[path])
+            name = self.request.input_name(path)
+            if name not in self.summaries and path not in self.workspace.failed:
+                with self.workspace.guard(path):
+                    self._run_input(path)
+            self.summaries.setdefault(name, InputSummary(name, failed=True))
             if gc.get_count()[0] > MAX_GARBAGE and number + 1 < len(discovered.files):
                 # Not the oldest generation: the results so far are no garbage, and are not gone through again after each input.
                 gc.collect(1)
@@ -120,15 +128,22 @@ class _Run:
             rules,
             self.savings,
             self.baseline is not None,
-            self.inputs,
+            [self.summaries[file] for file in files],
             self.untried,
         )
         return Outcome(result, self.settings, notes, self.fixed, self.failing)
 
+    def _run_program(self, program: ProgramInput) -> None:
+        file = self.workspace.open_program(program)
+        if file is not None:
+            self._run_file(file)
+
     def _run_input(self, path: str) -> None:
         file = self.workspace.open(path)
-        if file is None:
-            return
+        if file is not None:
+            self._run_file(file)
+
+    def _run_file(self, file: InputFile) -> None:
         result = file.lint(prices=self.with_prices)
         if not isinstance(file.data, bytes):
             self.notes.extend(file.data.notes)
@@ -168,13 +183,11 @@ class _Run:
 
     def _add(self, file: InputFile, result: FileResult) -> None:
         """Adds the result of an input to the run's, after settings and baseline."""
-        summary = input_summary(file.data, result)
-        self.inputs.append(summary)
-        if result.source is not None and (result.findings or result.suppressed or result.undecided or summary.unread):
-            self.workspace.sources[result.file] = result.source
-        if summary.unread is not None and file.resolved.settings.strict_inputs:
-            help = "check a capture or a description of its frame instead, or exclude the file"
-            self.findings.append(diagnostic("MSAA931", summary.unread.message, result.file, summary.unread.span, help=help))
+        for summary in input_summaries(file.data, result):
+            self.summaries[summary.file] = summary
+            if summary.unread is not None:
+                self._add_unread(summary.unread, summary.file, result, file.resolved.settings.strict_inputs)
+        self.workspace.sources |= _sources_shown(result)
         settled = [found for found in map(file.resolved.selection.settle, result.findings) if found is not None]
         if self.with_savings and any(found.fix is not None for found in settled):
             if can_try_fixes(result) or self.settings.fail_on_cost is not None:
@@ -186,6 +199,15 @@ class _Run:
         self.suppressed.extend(result.suppressed)
         self.accepted.extend(accepted)
         self.undecided.extend(result.undecided)
+
+    def _add_unread(self, unread: Unread, name: str, result: FileResult, strict: bool) -> None:
+        """Keeps the text of an input that creates something multisampled but shows no pass to check; if `strict`, that is a finding."""
+        source = result.sources.get(name, result.source)
+        if source is not None:
+            self.workspace.sources[name] = source
+        if strict:
+            help = "check a capture or a description of its frame instead, or exclude the file"
+            self.findings.append(diagnostic("MSAA931", unread.message, name, unread.span, help=help))
 
     def _try_fixes(self, file: InputFile, result: FileResult, settled: list[Finding]) -> list[Finding]:
         """Determines what fixes of an input save; returns its findings with the reasons why fixes are not made."""
@@ -226,6 +248,16 @@ class _Run:
 
         findings = [*self.workspace.findings, *self.findings, *(each.finding for each in self.accepted)]
         return list(map(str, baseline.stale(self.baseline, findings, files, self.workspace.current.selection.names())))
+
+
+def _sources_shown(result: FileResult) -> dict[str, Source]:
+    """The texts that the findings of an input are about, of a program those of the files that they name."""
+    if not result.sources:
+        is_shown = result.findings or result.suppressed or result.undecided
+        return {result.file: result.source} if result.source is not None and is_shown else {}
+    findings = [*result.findings, *(entry.finding for entry in result.suppressed)]
+    names = {file for finding in findings for file in (finding.file, *(label.file for label in finding.labels))}
+    return {name: source for name, source in result.sources.items() if name in names}
 
 
 def _highest_price(finding: Finding) -> tuple[float, float]:

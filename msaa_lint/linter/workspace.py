@@ -25,12 +25,13 @@ from .rules.rule import EDITIONS
 from .run_limits import RunLimits
 from .settings.config import Configurations, Loaded
 from .settings.selection import Selection
-from .settings.selectors import unknown_selectors
+from .settings.selectors import Weighed, unknown_selectors
 from .settings.settings import COMMAND_LINE, Settings, override
+from .source_programs import ProgramInput, is_read_together, programs, related_text
 
 if TYPE_CHECKING:
     from msaa_lint.input.capture_input import CaptureInput
-    from msaa_lint.input.source_file import SourceFile
+    from msaa_lint.input.source_file import SourceFile, SourceText
 
 
 class Request(NamedTuple):
@@ -153,6 +154,8 @@ class Workspace:
         self._resolved: dict[str | None, ResolvedSettings] = {}
         self._engines: dict[object, Engine] = {}
         self._projects: Mapping[str, str] = {}
+        self.failed: set[str] = set()
+        """The inputs that could not be read as part of a program."""
         self._limits = RunLimits()
         self._keys = Allowance() if request.keys is None else Allowance(request.keys)
         self.current = self.resolve(os.curdir)
@@ -234,11 +237,82 @@ class Workspace:
         except (OSError, Unreadable) as error:
             self.findings.append(opening.unreadable(error, name))
             return None
+        return self._input(path, name, data, resolved)
+
+    def _input(self, path: str, name: str, data: "bytes | CaptureInput | SourceFile", resolved: ResolvedSettings) -> InputFile:
+        """An input that has been read."""
+        request, device = self.request, resolved.device
         self._limits.rules.extend(len(data if isinstance(data, bytes) else data.source.text))
-        device = resolved.device
         severity = resolved.selection.for_file(name, device.vendor if device is not None else None)
         options = LintOptions(severity, resolved.limits, request.format, device, request.ignores, False, self._keys, request.all_keys)
         return InputFile(path, name, data, resolved, options, self.current.settings.min_severity, request.log)
+
+    def programs(self, discovered: Discovered) -> list[ProgramInput]:
+        """The programs that the source files among the inputs form; files under different configurations are in different ones."""
+        if self.request.format is not None or not any(map(is_read_together, discovered.files)):
+            return []
+        by_settings: dict[str | None, tuple[list[str], dict[str, str]]] = {}
+        for path in discovered.files:
+            if path != STDIN and is_read_together(path):
+                by_settings.setdefault(self.resolve(path).configuration, ([], {}))[0].append(path)
+        for path, project in discovered.related.items():
+            related = by_settings.get(self.resolve(path).configuration)
+            if related is not None and is_read_together(path):
+                related[1][path] = project
+        return [program for inputs, related in by_settings.values() for program in programs(inputs, related, discovered.projects)]
+
+    def open_program(self, program: ProgramInput) -> InputFile | None:
+        """Reads the files of a program, with a finding for each input that cannot be read; None if they cannot be read together."""
+        texts: list[SourceText | None] = [self._text(path, path in program.inputs) for path in program.paths]
+        kept = [number for number, text in enumerate(texts) if text is not None]
+        position = {number: at for at, number in enumerate(kept)}
+        read = [text for text in texts if text is not None]
+        first = next((text for text in read if text.is_input), None)
+        if first is None:
+            return None
+        from msaa_lint.input.source_file import read_program, read_source_text
+
+        name = first.source.name
+        try:
+            if len(read) == 1:
+                data = read_source_text(first)
+            else:
+                includes = [[position[other] for other in program.includes[number] if other in position] for number in kept]
+                data = read_program(read, includes, [program.headers[number] for number in kept])
+        except Unreadable:
+            return None
+        resolved = self.resolve(name)
+        file = self._input(name, name, data, resolved)
+        if len(read) == 1 or not resolved.settings.per_file_ignores:
+            return file
+        vendor = resolved.device.vendor if resolved.device is not None else None
+        in_files = [resolved.selection.for_file(text.source.name, vendor) for text in read if text.is_input]
+
+        def severity(rule: Weighed, suggested: str, device_vendor: str | None) -> str | None:
+            return next((found for each in in_files if (found := each(rule, suggested, device_vendor)) is not None), None)
+
+        options = file.options._replace(severity=severity, severity_in=lambda other: resolved.selection.for_file(other, vendor))
+        return file._replace(options=options)
+
+    def _text(self, path: str, is_input: bool) -> "SourceText | None":
+        """The text of a source file; None, after adding a finding if it is an input, if it cannot be read. An input with other content than
+        its name states is left to `open`."""
+        from msaa_lint.input.code import check_length
+        from msaa_lint.input.source_file import SourceText
+
+        project = self._projects.get(path)
+        if not is_input:
+            return related_text(path, project)
+        try:
+            content = opening.load_text(path, self.resolve(path).limits, path, None, None, project)
+            if isinstance(content, bytes) or not isinstance(content, SourceText):
+                return None
+            check_length(content.source)
+        except (OSError, Unreadable) as error:
+            self.findings.append(opening.unreadable(error, path))
+            self.failed.add(path)
+            return None
+        return content
 
 
 def _named(configuration: str | None) -> str:

@@ -81,11 +81,9 @@ def read(source: "Source", language: str) -> Program:
 
     Code that is not understood is left out. Raises `Missing` if the extra is not installed, and `Unreadable` if the code is too long.
     """
-    from .core.limits import MAX_CHARACTERS
     from .parsing import Code, Missing, ascii_only
 
-    if len(source.text) > MAX_CHARACTERS:
-        raise Unreadable(f"source code is read up to {MAX_CHARACTERS} characters, and this file has {len(source.text)}")
+    check_length(source)
     if language in PAGES:
         from .fences import codes
 
@@ -101,6 +99,14 @@ def read(source: "Source", language: str) -> Program:
         by_code = with_page_counts(by_code)
     every = [entry for _, item in by_code for entry in item]
     return program_of(source, codes_found, every, lambda at: f"line {source.position(at.start).line}")
+
+
+def check_length(source: "Source") -> None:
+    """Raises `Unreadable` if a file is too long to be read."""
+    from .core.limits import MAX_CHARACTERS
+
+    if len(source.text) > MAX_CHARACTERS:
+        raise Unreadable(f"source code is read up to {MAX_CHARACTERS} characters, and this file has {len(source.text)}")
 
 
 def program_of(source: "Source", codes: "Sequence[Code]", every: "Sequence[Read]", line: "Callable[[Span], str]") -> Program:

@@ -1,0 +1,59 @@
+"""What the words of a source file say about the other files of its project: what it includes, what it declares, whether it is a program.
+
+Files are searched by words, without being parsed, so that the files of a large project take little time.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import NamedTuple
+
+MAX_BYTES = 4 << 20
+"""The number of bytes of a file that are searched, which is the maximum length of a source file."""
+
+HEADERS = (".h", ".hpp", ".hh", ".hxx", ".h++", ".inl", ".ipp", ".tpp", ".inc")
+"""The endings of files that sources include."""
+
+_INCLUDE = re.compile(rb'^[ \t]*#[ \t]*(?:include|import)[ \t]*[<"]([^>"\r\n]{1,400})[>"]', re.MULTILINE)
+
+_MAIN = re.compile(
+    rb"^[ \t]*(?:extern[ \t]+\"C\"[ \t]+)?(?:(?:int|auto|sapp_desc|SDL_AppResult)\s+(?:[A-Z_a-z]\w*[ \t]+){0,2}"
+    rb"(?:_?main_?|w?WinMain|_tmain|wmain|SDL_main|SDL_AppInit|sokol_main)|void\s+android_main)[ \t]*\((?![^()]{0,400}\)[ \t]*;)"
+    rb"|^[A-Z][A-Z0-9_]*_MAIN[A-Z_]*[ \t]*\(",
+    re.MULTILINE,
+)
+"""Where a program starts, also by the macro of a framework."""
+
+_CLASS = re.compile(
+    rb"\b(?:class|struct|@interface|@implementation)[ \t]+(?:[A-Z_0-9]+[ \t]+)?([A-Za-z_]\w*)(?=[ \t]*(?:final\b|:|\{|\r?$))", re.MULTILINE
+)
+_FUNCTION = re.compile(rb"^[A-Za-z_][\w \t*&:<>,]{0,200}?[ \t*&]([A-Za-z_]\w*)(?:::~?\w+)?[ \t]*\(", re.MULTILINE)
+"""A function that is declared or defined at the left margin; of a method, its class."""
+
+_RELATED = re.compile(rb"VK_|\bVk[A-Z]|\bvk::|MTL|[sS]ampl|SAMPL|[mM]saa|MSAA|[mM]ulti[sS]|MULTIS")
+"""What a file has that can matter to another one that uses multisampling."""
+
+
+class Words(NamedTuple):
+    """The words of a file. `names` are the classes and functions that it declares or defines; `is_related` says whether it can matter to
+    files that use multisampling."""
+
+    includes: tuple[str, ...]
+    names: frozenset[str]
+    has_main: bool
+    is_related: bool
+
+
+def words(data: bytes) -> Words:
+    """Returns the words of a file, in time linear in its length."""
+    data = data[:MAX_BYTES]
+    if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
+        data = data.decode("utf-16", "replace").encode()
+    includes = dict.fromkeys(name.decode("utf-8", "replace").replace("\\", "/") for name in _INCLUDE.findall(data))
+    names = {name.decode() for pattern in (_CLASS, _FUNCTION) for name in pattern.findall(data)}
+    return Words(tuple(includes), frozenset(names), _MAIN.search(data) is not None, _RELATED.search(data) is not None)
+
+
+def is_header(name: str) -> bool:
+    """Returns whether a file is one that sources include, by its name."""
+    return name.lower().endswith(HEADERS)
