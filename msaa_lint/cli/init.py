@@ -32,7 +32,7 @@ edition = "{EDITIONS[-1]}"
 # The lowest severity that makes `msaa-lint check` exit with 1: note, warning, or error.
 fail-on = "warning"
 
-# The lowest confidence that does: low, medium, or high. Findings in source code have low confidence.
+# The lowest confidence that does: low, medium, or high. Findings in source code that rest on assumptions have low confidence.
 # fail-confidence = "medium"
 
 # Whether an input that creates multisampled images but shows no pass to check makes the exit code 2.

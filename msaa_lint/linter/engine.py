@@ -19,6 +19,7 @@ from msaa_lint.frame.description.problems import Problem as DocumentProblem
 from msaa_lint.frame.devices import DeviceProfile
 from msaa_lint.frame.profiles import Problem, device_for, replace_captured
 
+from .code_confidence import Qualifier
 from .code_files import code_only, hidden_in, in_file, in_order
 from .programs import merge, merged, of_turns
 from .results import DocumentResult, FileResult, location_order
@@ -153,7 +154,8 @@ class Engine:
     def _lint_code(self, code: SourceFile, file: str, options: LintOptions) -> FileResult:
         """The findings of source code.
 
-        Its text alone does not determine what it does: confidence is low, fixes have no edits, and undecided rules are not reported.
+        Its text alone does not determine what it does: confidence is low or medium, fixes have no edits, and undecided rules are not
+        reported.
         """
         program = code.program
         findings: list[Finding] = []
@@ -163,7 +165,11 @@ class Engine:
             verdicts, device = self.lint_document(document, file, options)
             prefix = f"documents[{number}]." if len(program.documents) > 1 else ""
             notes = program.assumed[number]
-            usable = (found._replace(notes=(*found.notes, *notes)) for found in verdicts.findings if not found.fatal)
+            usable = (
+                found._replace(notes=(*found.notes, *notes)) if found.confidence == CONFIDENCES[0] else found
+                for found in verdicts.findings
+                if not found.fatal
+            )
             findings.extend(_prefixed(usable, prefix))
             undecided.update(rule.rule for rule in verdicts.undecided)
             results.append(DocumentResult(document, verdicts.fix_specs, number, device, verdicts.checked))
@@ -275,8 +281,9 @@ class Engine:
         document, device, frame, modules = analysis
         # Nobody writes keys into source code.
         missing_keys = MissingKeys(frame).of if document.whole or document.format else None
+        qualify = Qualifier(document, frame.bindings.attachments) if document.tree is not None and not document.format else None
         verdicts = self._runner.run(
-            subjects, file, options.severity, document.api, missing_keys, options.all_keys, options.keys or Allowance(0)
+            subjects, file, options.severity, document.api, missing_keys, options.all_keys, options.keys or Allowance(0), qualify
         )
         verdicts = of_turns(verdicts, frame.turns.of.values()) if verdicts.findings else verdicts
         at = document.description.place("commands", "renderPasses")
@@ -376,7 +383,8 @@ def _of_code(finding: Finding) -> Finding:
     if finding.code == HIDDEN_CHARACTER:
         return finding
     fix = finding.fix and finding.fix._replace(edits=(), shown=True)
-    return finding._replace(confidence=CONFIDENCES[0], fix=fix)
+    # Code that is not understood may have the finding that a comment suppresses.
+    return finding._replace(fix=fix, confidence=CONFIDENCES[0] if finding.code in DIAGNOSTICS else finding.confidence)
 
 
 def _untold(hidden: Iterable[Finding], findings: Iterable[Finding]) -> list[Finding]:

@@ -115,7 +115,7 @@ class InputFile(NamedTuple):
 
         if not result.is_code:
             return is_shown
-        # The description has neither the comments of the code nor its low confidence.
+        # The description has neither the comments of the code nor its lower confidence.
         reported = {finding_kind(finding) for finding in result.findings}
         return lambda finding: finding_kind(finding) in reported and is_shown(finding)
 

@@ -179,7 +179,7 @@ def test_code_that_creates_multisampled_objects_without_a_pass_is_named(tmp_path
     text, place, quote = CREATES[name]
     (tmp_path / name).write_text(text)
     done = run(tmp_path, "check", "--isolated", name)
-    assert done.returncode == 0
+    assert done.returncode == ("warning[" in done.stdout)
     (line, *_) = [line for line in done.stdout.splitlines() if "not checked" in line]
     assert line.startswith(f"{name}:{place}: not checked: `{quote}` ") and line.endswith(HELP)
     strict = run(tmp_path, "check", "--isolated", "--strict-inputs", "--output", "json", name)

@@ -1,10 +1,11 @@
 """A description as it was read: the result of every reader."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Set
 from typing import NamedTuple
 
 from msaa_lint.core.text.node import Node
 from msaa_lint.core.text.source import Source
+from msaa_lint.core.text.span import Span
 
 from .models import Description, MetalStencilAttachment
 from .problems import Problem
@@ -33,6 +34,17 @@ class Lowered(NamedTuple):
     """The API whose rules apply: VULKAN if the Vulkan frame itself is meant."""
 
 
+class Basis(NamedTuple):
+    """What the values that were read from source code rest on.
+
+    `conditions` are those that were decided for the value at a place, by their subjects; `assumed` are the values that the code does not
+    state, by their places, each with the assumption in words (empty: an assumption of the document).
+    """
+
+    conditions: Mapping[Span, Set[str]] = {}
+    assumed: Mapping[Span, str] = {}
+
+
 class Document(NamedTuple):
     """One frame, or part of one.
 
@@ -56,6 +68,8 @@ class Document(NamedTuple):
     """Whether the passes run in their order, and the commands are complete. Neither is known of source code."""
     metal: Lowered | None = None
     """The origins of the Vulkan records, for a frame in Metal's terms."""
+    basis: Basis = Basis()
+    """What the values of a document from source code rest on."""
     format: str = ""
     """The format that it was read in, as `--input-format` names it; empty for source code."""
 

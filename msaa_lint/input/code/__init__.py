@@ -116,7 +116,7 @@ def program_of(source: "Source", codes: "Sequence[Code]", every: "Sequence[Read]
     reads = [entry for entry in every if entry.tree.value or not entry.unread]
     unread = tuple(part for entry in every for part in entry.unread)
     pieces = any(code.fragments for code in codes)
-    documents = tuple(bound(source, read.tree, pieces)._replace(modules=read.modules) for read in reads)
+    documents = tuple(bound(source, read.tree, pieces)._replace(modules=read.modules, basis=read.basis) for read in reads)
     return Program(documents, tuple(_assumption_lines(read.assumed, line) for read in reads), tuple(codes), unread)
 
 

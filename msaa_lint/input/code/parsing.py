@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from msaa_lint.core.text.node import Node
 from msaa_lint.core.text.source import Unreadable
 from msaa_lint.core.text.span import Span
+from msaa_lint.frame.description.document import Basis
 from msaa_lint.input.file_types import missing_extra
 
 if TYPE_CHECKING:
@@ -70,13 +71,15 @@ class Unread(NamedTuple):
 class Read(NamedTuple):
     """A description tree read from code, whose nodes have locations in the input; empty if nothing is known but what is not read.
 
-    `assumed` lists unknown values, their locations, and the values assumed for them. `modules` are shaders by the names in the tree.
+    `assumed` lists unknown values, their locations, and the values assumed for them. `modules` are shaders by the names in the tree,
+    `basis` says what the values in the tree rest on.
     """
 
     tree: Node
     assumed: tuple[tuple[str, Span, str], ...] = ()
     modules: Mapping[str, bytes] = {}
     unread: tuple[Unread, ...] = ()
+    basis: Basis = Basis()
 
 
 def span(node: SyntaxNode) -> Span:

@@ -27,6 +27,9 @@ Key = tuple[str, Span | None, str]
 FixSpecs = dict[Key, list[tuple[FixSpec, Subject]]]
 """By finding: the fix on its rule's page and the subject it applies to; several if the finding stands for several subjects."""
 
+Qualify = Callable[[Finding, Subject], Finding]
+"""A finding about a subject with the confidence that what is known of the subject allows."""
+
 FindKeys = Callable[[Subject, str], Sequence[MissingKey]]
 """The keys to write next so that a fact of a subject is known."""
 
@@ -101,11 +104,12 @@ class RuleRunner:
         missing_keys: FindKeys | None = None,
         all_keys: bool = False,
         key_budget: Allowance | None = None,
+        qualify: Qualify | None = None,
     ) -> Verdicts:
         """The findings and undecided rules for the subjects of a document, from the rules for its API.
 
         `missing_keys` finds the keys that undecided rules name: those of one fact that it takes, or with `all_keys` of all facts. It is
-        asked for as many of them as `key_budget` has left (None: for all).
+        asked for as many of them as `key_budget` has left (None: for all). `qualify` may lower the confidence of findings.
         """
         findings: list[Finding] = []
         undecided: list[Undecided] = []
@@ -146,6 +150,7 @@ class RuleRunner:
                     if level is not None:
                         at = rule.places.get("message", at)
                         found = finding(rule, case, subject, file, level)
+                        found = qualify(found, subject) if qualify is not None else found
                         self._charge(rule, REPORT + len(found.message) + len(found.help) + sum(len(each.text) for each in found.labels))
                 except OverBudget as error:
                     findings.append(rule.problem(f"{error}; it was turned off at {shortened(file, 200)}, and not run from there on", at))

@@ -74,9 +74,9 @@ def findings(program: Path) -> list[Found]:
     out, err = io.StringIO(), io.StringIO()
     with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
         code = check(given)
-    assert code == 0, f"{program.name}: exit code {code}: {err.getvalue()}"
+    assert code in (0, 1), f"{program.name}: exit code {code}: {err.getvalue()}"
     found = [finding for finding in json.loads(out.getvalue())["findings"] if finding["severity"] != "note"]
-    assert all(finding["confidence"] == "low" for finding in found), program.name
+    assert all(finding["confidence"] in ("low", "medium") for finding in found), program.name
     whole = program.is_dir()
     return sorted(
         Found(entry["line"], entry["code"], entry["message"], os.path.relpath(entry["file"], program) if whole else "") for entry in found

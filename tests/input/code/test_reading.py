@@ -1,4 +1,4 @@
-"""Source code as an input of the command: detected by name and content, checked with low confidence, suppressed by its comments."""
+"""Source code as an input of the command: detected by name and content, with a confidence, suppressed by its comments."""
 
 from __future__ import annotations
 
@@ -176,16 +176,21 @@ def test_the_hook_takes_the_endings_of_source_code() -> None:
 # Findings.
 
 
-def test_findings_of_code_fail_nothing_unless_asked_to(tmp_path: Path) -> None:
+def test_findings_that_rest_on_an_assumption_fail_nothing_unless_asked_to(tmp_path: Path) -> None:
     write(tmp_path, "a.cpp")
     done = run(tmp_path, "check", *ONLY, "a.cpp")
+    assert done.returncode == 1
+    assert "Found 1 finding (1 warning) in 1 file (1 C++ file: 1 pass)\n" in done.stdout
+    write(tmp_path, "a.md", f"```cpp\n{CODE}```\n")
+    done = run(tmp_path, "check", *ONLY, "a.md")
     assert done.returncode == 0
-    assert "Found 1 finding (1 warning) in 1 file (1 C++ file: 1 pass); 1 of low confidence, below --fail-confidence\n" in done.stdout
-    done = run(tmp_path, "check", *ONLY, "a.cpp", "--fail-confidence", "low")
+    assert "Found 1 finding (1 warning) in 1 file (1 Markdown page: 1 pass); 1 of low confidence, below --fail-confidence\n" in done.stdout
+    done = run(tmp_path, "check", *ONLY, "a.md", "--fail-confidence", "low")
     assert done.returncode == 1
     assert "confidence" not in done.stdout
     write(tmp_path, "msaa-lint.toml", 'fail-confidence = "low"\n')
-    assert run(tmp_path, "check", "--select", RULE, "a.cpp").returncode == 1
+    assert run(tmp_path, "check", "--select", RULE, "a.md").returncode == 1
+    assert run(tmp_path, "check", "--select", RULE, "a.md", "--fail-confidence", "medium").returncode == 0
     assert run(tmp_path, "check", "--select", RULE, "a.cpp", "--fail-confidence", "high").returncode == 0
     write(tmp_path, "msaa-lint.toml", 'fail-confidence = "lowest"\n')
     done = run(tmp_path, "check", "--select", RULE, "a.cpp")
@@ -193,11 +198,11 @@ def test_findings_of_code_fail_nothing_unless_asked_to(tmp_path: Path) -> None:
     assert "msaa-lint.toml:1:19: error[configuration] unknown value `lowest`" in done.stdout
 
 
-def test_every_finding_of_code_is_of_low_confidence_and_without_edits(tmp_path: Path) -> None:
+def test_every_finding_of_code_is_of_medium_confidence_at_most_and_without_edits(tmp_path: Path) -> None:
     write(tmp_path, "a.cpp")
     found = findings(tmp_path, "--isolated", "a.cpp")
     assert RULE in {each["rule"] for each in found}
-    assert {each["confidence"] for each in found} == {"low"}
+    assert {each["confidence"] for each in found} == {"medium"}
     assert not any(each["fixable"] for each in found)
     (own,) = (each for each in found if each["rule"] == RULE)
     assert own["fix"] == {"title": "set storeOp to STORE", "safe": False, "shown": True, "choice": False, "refusal": None}
@@ -214,12 +219,12 @@ def test_code_is_not_fixed(tmp_path: Path) -> None:
     write(tmp_path, "a.cpp")
     for flag in ("--fix", "--diff"):
         done = run(tmp_path, "check", *ONLY, "--unsafe-fixes", flag, "a.cpp")
-        assert done.returncode == 0
+        assert done.returncode == (flag == "--fix")
         assert "a.cpp is source code and is not fixed" in done.stderr
     assert (tmp_path / "a.cpp").read_text() == CODE
     for text in (CODE, "// µ\r\nint samples;\r\n"):
         done = run(tmp_path, "check", *ONLY, "--fix", "-", "--stdin-filename", "a.cpp", stdin=text.encode())
-        assert (done.returncode, done.stdout) == (0, text)
+        assert (done.returncode, done.stdout) == (int(text == CODE), text)
 
 
 def test_the_same_bytes_every_time(tmp_path: Path) -> None:
@@ -261,7 +266,7 @@ def test_no_text_is_an_error_but_one_that_takes_too_long_to_parse(tmp_path: Path
         assert (done.returncode, done.stderr) == (2, "")
         assert "the code is too long or too complex to parse (MSAA906)" in done.stdout
     else:
-        assert (done.returncode, done.stderr) == (0, ""), done.stdout
+        assert (done.returncode, done.stderr) == (int(FOUND in done.stdout), ""), done.stdout
     assert (FOUND in done.stdout) == (b"R8G8B8A8" in text.replace(b"\0", b"") and name in ("a.c", "a.cpp"))
 
 
@@ -464,7 +469,7 @@ def test_what_is_silenced_keeps_its_reason(tmp_path: Path) -> None:
     write(tmp_path, "a.cpp", CODE.replace(MISTAKE, f"{MISTAKE} /* msaa-lint: ignore[{RULE}] shown elsewhere */"))
     done = run(tmp_path, "check", "--output", "json", *ONLY, "a.cpp")
     (entry,) = json.loads(done.stdout)["suppressed"]
-    assert (entry["how"], entry["reason"], entry["finding"]["confidence"]) == ("inline", "shown elsewhere", "low")
+    assert (entry["how"], entry["reason"], entry["finding"]["confidence"]) == ("inline", "shown elsewhere", "medium")
 
 
 def test_what_is_no_comment_silences_nothing(tmp_path: Path) -> None:

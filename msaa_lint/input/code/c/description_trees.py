@@ -9,6 +9,7 @@ from typing import NamedTuple
 from msaa_lint.core.text.node import Node
 from msaa_lint.core.text.node_builder import mapping
 from msaa_lint.core.text.span import Span
+from msaa_lint.frame.description.document import Basis
 from msaa_lint.input.code.core.limits import Work
 from msaa_lint.input.code.core.terms import Unit
 from msaa_lint.input.code.parsing import Code, Read, tree
@@ -87,4 +88,11 @@ def executed(syntax: FileSyntax, fragments: bool, is_cpp: bool) -> list[Read]:
     node = read.tree if read is not None else mapping([], Span(0, 0))
     items = [(key, node.keys[key].span, value) for key, value in node.value.items()]
     items.append(("sampleCountChoices", start, mapping(syntax.choices, start)))
-    return [Read(mapping(items, Span(0, 0)), read.assumed if read is not None else (), unread=unread)]
+    return [
+        Read(
+            mapping(items, Span(0, 0)),
+            read.assumed if read is not None else (),
+            unread=unread,
+            basis=read.basis if read is not None else Basis(),
+        )
+    ]

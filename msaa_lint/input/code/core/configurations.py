@@ -2,16 +2,25 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Sequence
 from typing import Any
 
 from msaa_lint.core.text.span import Span
+from msaa_lint.frame.description.document import Basis
 
 from .values import UNKNOWN, ApiObject, Ref, Symbol, Value, possible_writes, sole_value
 
 ASSUMED = 4
 """The sample count above 1 that every device supports for color, depth, and stencil (Vulkan specification, "Required Limits"; Apple's
 documentation of supportsTextureSampleCount)."""
+
+
+_VALUE = re.compile(r"(?:>1|=\d+)\Z")
+"""What a condition says of its subject."""
+
+_UNION = re.compile(r"[^=]=\d+\Z")
+"""The condition that a member has one of the values that several functions write to it; comparisons have another sign."""
 
 
 class Configuration:
@@ -25,6 +34,10 @@ class Configuration:
         self.multisampled: set[str] = set()
         """The keys of unknown sample counts that are above 1."""
         self.assumed: dict[str, tuple[str, Span, str]] = {}
+        self.conditions: dict[Span, set[str]] = {}
+        """The subjects of the conditions that were decided for the value at each place."""
+        self.assumed_places: dict[Span, str] = {}
+        """The places of values that are assumed, with the assumption in words."""
 
     def assume_multisampled(self, symbol: Symbol, guards: Iterable[tuple[str, bool]]) -> None:
         if self.assume(guards):
@@ -54,8 +67,22 @@ class Configuration:
         """Returns whether an object is created only in another configuration."""
         return any(self.configuration.get(text, way) is not way for text, way in obj.guards)
 
+    @property
+    def basis(self) -> Basis:
+        """What the values rest on that were read so far."""
+        return Basis(self.conditions, self.assumed_places)
+
     def settle(self, value: Value) -> Value:
-        return possible_writes(value, self.configuration)
+        settled = possible_writes(value, self.configuration)
+        if len(value) > 1 or (value and value[0].guards):
+            texts = {text for write in value for text, _ in write.guards if text in self.configuration}
+            subjects = {_VALUE.sub("", text) for text in texts}
+            for alternative in settled if subjects else ():
+                self.conditions.setdefault(alternative.at, set()).update(subjects)
+                for text in sorted(filter(_UNION.search, texts))[:1]:
+                    name = _VALUE.sub("", text).rpartition("::")[2]
+                    self.assumed_places.setdefault(alternative.at, f"functions write different values to `{name}`")
+        return settled
 
     def dereference(self, value: Any) -> Any:
         for _ in range(4):
@@ -75,4 +102,5 @@ class Configuration:
     def assumed_count(self, key: str, name: str, at: Span) -> int:
         """Returns the count that stands for an unknown one above 1, which the user is told."""
         self.assumed.setdefault(key, (name, at, str(ASSUMED)))
+        self.assumed_places.setdefault(at, "")
         return ASSUMED

@@ -92,6 +92,13 @@ class Evaluator(ConditionEvaluator):
         if cell is None:
             return UNKNOWN_VALUE
         value = cell.read(scope.guards)
+        if (
+            cell.kind == MEMBER
+            and cell.key in self.changeable
+            and cell.writes is self.initial.get(cell.key)
+            and cell.key not in self.summary
+        ):
+            self.initial_reads[term[-1]] = f"`{cell.name.rpartition('::')[2]}` keeps its initial value"
         if not value and cell.kind == MEMBER:
             value = self.gathered_struct(cell.name, term[-1])
         if not value:

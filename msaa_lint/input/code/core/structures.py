@@ -48,6 +48,7 @@ class Structures(Evaluator):
         self.current_objects = {}
         self.declared_structs.clear()
         self.follow_counts.clear()
+        self.initial_reads.clear()
 
     def construct(self, kind: str, items: Items, place: Span, scope: Scope) -> Value:
         """Returns a structure of the API, or a copy of one."""

@@ -50,6 +50,10 @@ class Variables(ABC):
         self.initial: dict[str, Value] = {}
         """The values of those members before the entry point was executed."""
         self.declared_values: dict[str, Value] = {}
+        self.changeable: set[str] = set()
+        """The members that are taken to keep their initial value, although other code may change it."""
+        self.initial_reads: dict[Span, str] = {}
+        """Where such a value is read, with the assumption in words."""
         self.parts: dict[str, dict[str, None]] = {}
         """The names of members used with each member."""
         self._classes: dict[str, list[str]] = {}
@@ -208,6 +212,7 @@ class Variables(ABC):
             if not fixed:
                 # Other code may change the value; discard values that are typical placeholders: one sample, null, false, an operation.
                 lasting = [a for a in lasting if self.lasts(a.value)]
+                self.changeable.add(key)
             self.declared_values[key] = tuple(Alternative(self.stored_value(a.value, kind, name), a.at, a.guards) for a in lasting)
         elif not indirect and not class_name and (self.library.structure(kind) or self.library.structure(element_type(kind) or "")):
             # Global variables are zero-initialized.

@@ -12,6 +12,7 @@ import re
 from msaa_lint.core.text.node import Node
 from msaa_lint.core.text.node_builder import mapping
 from msaa_lint.core.text.span import Span
+from msaa_lint.frame.description.document import Basis
 from msaa_lint.input.code.core.limits import WorkLimitExceeded
 from msaa_lint.input.code.parsing import Code, Read, SyntaxNode, Unread, span, tree
 
@@ -47,7 +48,9 @@ def trees(code: Code) -> list[Read]:
     node: Node | None = writer.tree(Span(0, len(code.text)))
     if node is None:
         return []
-    return [Read(node, tuple((what, at, value) for what, (at, value) in writer.textures.assumed.items()))]
+    assumed = writer.textures.assumed
+    basis = Basis(assumed={at: "" for at, _ in assumed.values()})
+    return [Read(node, tuple((what, at, value) for what, (at, value) in assumed.items()), basis=basis)]
 
 
 def interpret(code: Code, interpreter: Interpreter) -> None:

@@ -37,6 +37,7 @@ class VulkanConfiguration(Configuration):
 
     def __init__(self, program: VulkanInterpreter, fragments: bool, barriers: bool) -> None:
         super().__init__(list(program.current_objects.values()))
+        self.assumed_places.update(program.initial_reads)
         self.fragments = fragments
         self.barriers = barriers
         """Whether the file records barriers, which can replace subpass dependencies."""

@@ -50,7 +50,7 @@ class DescriptionWriter(Passes, Commands):
         if commands:
             at = Span(commands[0].start, commands[0].start)
             sections.append(("commands", at, sequence(commands, at)))
-        return Read(mapping(sections, Span(0, 0)), tuple(self.assumed.values())) if sections else None
+        return Read(mapping(sections, Span(0, 0)), tuple(self.assumed.values()), basis=self.basis) if sections else None
 
     def is_multisampled(self, obj: ApiObject) -> bool:
         return (self.samples(obj.info)[0] or 1) > 1
