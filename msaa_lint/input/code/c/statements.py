@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from msaa_lint.core.text.span import Span
-from msaa_lint.input.code.core.terms import BINARY, BLOCK, DECLARE, DO, IF, LEAVE, LOOP, RETURN, SOME, UNPARSED, Term
+from msaa_lint.input.code.core.terms import BLOCK, BREAK, DECLARE, DO, IF, LEAVE, LOOP, RETURN, SOME, SWITCH, UNPARSED, Term
 from msaa_lint.input.code.parsing import SyntaxNode, fields, span, without_comments
 
 from .declarations import Declarations
@@ -31,8 +31,10 @@ class Statements(Declarations):
         if kind == "return_statement" or kind == "co_return_statement":
             children = without_comments(node)
             return [(RETURN, self.expression(children[0], depth) if children else None, at)]
-        if kind in ("break_statement", "continue_statement", "throw_statement", "goto_statement"):
+        if kind in ("throw_statement", "goto_statement"):
             return [(LEAVE, at)]
+        if kind in ("break_statement", "continue_statement"):
+            return [(BREAK, at)]
         if kind == "if_statement":
             return self.if_chain(node, depth)
         if kind in ("for_statement", "while_statement", "do_statement"):
@@ -108,18 +110,21 @@ class Statements(Declarations):
         return [(SOME, "#" + self.text_of(test).strip(), tuple(then), tuple(otherwise), span(node))]
 
     def switch_cases(self, node: SyntaxNode, depth: int) -> list[Term]:
-        """Returns a switch as one `if` for each case."""
+        """Returns a switch with the statements at each of its labels."""
         test, body = fields(node, "condition", "body")
-        value = self.expression(test, depth)
-        terms: list[Term] = []
+        cases: list[tuple[list[Term | None], list[Term]]] = []
         for child in body.named_children if body is not None and depth < MAX_DEPTH else ():
             if child.type != "case_statement":
+                statements = self.statement(child, depth + 1)
+                if cases:
+                    cases[-1][1].extend(statements)
                 continue
-            at = span(child)
             value_node = child.child_by_field_name("value")
-            condition: Term = (UNPARSED, "default", at)
-            if value_node is not None:
-                condition = (BINARY, "==", value, self.expression(value_node, depth), at)
-            inner = (item for item in child.named_children if item != value_node and item.type != "break_statement")
-            terms.append((IF, condition, tuple(term for item in inner for term in self.statement(item, depth + 1)), (), at))
-        return terms
+            label = self.expression(value_node, depth) if value_node is not None else None
+            inner = [term for item in child.named_children if item != value_node for term in self.statement(item, depth + 1)]
+            if cases and not cases[-1][1]:
+                cases[-1][0].append(label)
+                cases[-1][1].extend(inner)
+            else:
+                cases.append(([label], inner))
+        return [(SWITCH, self.expression(test, depth), tuple((tuple(labels), tuple(inner)) for labels, inner in cases), span(node))]

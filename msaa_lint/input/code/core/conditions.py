@@ -3,48 +3,18 @@
 from __future__ import annotations
 
 import re
-from hashlib import blake2b
 from typing import Any
 
 from msaa_lint.core.text.span import Span
 
+from .guards import Guards, brief, either, negated
 from .operators import COMPARISONS
 from .scope import Scope
 from .terms import ADDRESS, BINARY, CALL, FIELD, INDEX, LITERAL, NAME, TARGET, UNARY, Term
-from .values import MAX_ALTERNATIVES, ApiObject, Guards, Symbol, sole_value
+from .values import MAX_ALTERNATIVES, ApiObject, Symbol, sole_value
 from .variables import Variables
 
 _DEFINED = re.compile(r"(!?)\s*defined\s*(?:\(\s*(\w+)\s*\)|(\w+))")
-
-MAX_TEXT = 200
-"""The maximum length of the text that stands for an expression; a digest stands for a longer one."""
-
-
-def brief(text: str) -> str:
-    """Returns a text that stands for an expression, so that texts that contain others stay short."""
-    return text if len(text) <= MAX_TEXT else f"?{blake2b(text.encode(), digest_size=16).hexdigest()}"
-
-
-def negated(guards: Guards) -> Guards:
-    """Returns the guards of the opposite condition."""
-    if len(guards) == 1:
-        ((text, way),) = guards
-        return frozenset({(text, not way)})
-    return frozenset({(brief(str(sorted(guards))), False)})
-
-
-def contradicts(left: Guards, right: Guards) -> bool:
-    """Returns whether two sets of guards contradict each other."""
-    return any((text, not way) in right for text, way in left)
-
-
-def decided(condition: bool | Guards, guards: Guards) -> bool | None:
-    """Returns whether a condition holds where guards hold, or None if that is unknown."""
-    if isinstance(condition, bool):
-        return condition
-    if contradicts(condition, guards):
-        return False
-    return True if condition <= guards else None
 
 
 def condition_key(text: str, way: bool = True) -> tuple[str, bool]:
@@ -103,7 +73,7 @@ class ConditionEvaluator(Variables):
                 return True
             if left is False or right is False:
                 return right if left is False else left
-            return frozenset({(brief(f"{sorted(left)}||{sorted(right)}"), True)})
+            return either(left, right)
         if kind == UNARY and term[1] == "!":
             inner = self.condition(term[2], scope)
             return not inner if isinstance(inner, bool) else negated(inner)
@@ -167,12 +137,12 @@ class ConditionEvaluator(Variables):
             left, right, sign = right, left, {"<": ">", ">": "<", "<=": ">=", ">=": "<="}.get(sign, sign)
             term = (BINARY, sign, term[3], term[2], term[-1])
         subject = symbol_key(left) or self.canonical_condition(term[2], scope)
+        if isinstance(right, bool) and sign in ("==", "!="):
+            return frozenset({(subject, (sign == "==") is right)})
         if isinstance(right, int) and right == 1 and sign in ("!=", ">", "==", "<="):
             # The usual ways to test for multisampling.
             return frozenset({(f"{subject}>1", sign in ("!=", ">"))})
         if isinstance(right, int) and right == 2 and sign in (">=", "<"):
             return frozenset({(f"{subject}>1", sign == ">=")})
-        if isinstance(right, bool):
-            return frozenset({(subject, (sign == "==") is right)})
         other = symbol_key(right) or (str(right) if isinstance(right, (int, float, str)) else self.canonical_condition(term[3], scope))
         return frozenset({(f"{subject}{sign.replace('!', '=')}{other}", sign != "!=")})

@@ -9,6 +9,7 @@ from typing import Any
 from msaa_lint.core.text.span import Span
 from msaa_lint.frame.description.document import Basis
 
+from .guards import chosen
 from .values import UNKNOWN, ApiObject, Ref, Symbol, Value, possible_writes, sole_value
 
 ASSUMED = 4
@@ -47,7 +48,7 @@ class Configuration:
     def assume(self, guards: Iterable[tuple[str, bool]]) -> bool:
         """Adds guards to the configuration; returns False if they contradict it."""
         guards = list(guards)
-        if any(self.configuration.get(text, way) is not way for text, way in guards):
+        if any(chosen(text, self.configuration) not in (way, None) for text, way in guards):
             return False
         for subject, compared in [text.split("==", 1) for text, way in guards if way and "==" in text]:
             # A value that equals one thing does not equal another.
@@ -65,7 +66,7 @@ class Configuration:
 
     def is_excluded(self, obj: ApiObject) -> bool:
         """Returns whether an object is created only in another configuration."""
-        return any(self.configuration.get(text, way) is not way for text, way in obj.guards)
+        return any(chosen(text, self.configuration) not in (way, None) for text, way in obj.guards)
 
     @property
     def basis(self) -> Basis:

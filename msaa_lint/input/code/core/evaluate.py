@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Sequence
+from collections.abc import Iterable
 from typing import Any
 
 from msaa_lint.core.text.span import Span
 
-from .conditions import ConditionEvaluator, contradicts, negated
+from .conditions import ConditionEvaluator
+from .guards import contradicts, negated
 from .scope import MEMBER, Scope, name_objects
 from .terms import ADDRESS, ASSIGN, BINARY, BRACES, CALL, CHOICE, FIELD, INDEX, LAMBDA, LITERAL, NAME, TARGET, UNARY, Term, at
 from .values import (
@@ -84,7 +85,7 @@ class Evaluator(ConditionEvaluator):
         """Handles a write to an unknown target."""
 
     @abstractmethod
-    def block(self, statements: Sequence[Term], scope: Scope) -> None:
+    def block(self, statements: Iterable[Term], scope: Scope) -> None:
         """Executes statements."""
 
     def read(self, term: Term, scope: Scope) -> Value:

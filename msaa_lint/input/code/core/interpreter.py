@@ -8,20 +8,20 @@ functions write to it, so the file is executed repeatedly, each time with the me
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
 from msaa_lint.core.text.span import Span
 from msaa_lint.input.code.parsing import Unread
 
 from .calls import Calls
-from .conditions import contradicts, decided, negated
+from .conditions import canonical_text
 from .escapes import mark_escaped
+from .guards import ALWAYS, Guards, brief, contradicts, decided, either, negated
 from .limits import WorkLimitExceeded
-from .scope import MAX_PASSES, MAX_TURNS, Scope, name_objects
-from .terms import BINARY, BLOCK, DECLARE, DO, FIELD, IF, INDEX, LEAVE, LOOP, NAME, RETURN, SOME, UNARY, Function, Term, at
+from .scope import MAX_CASES, MAX_PASSES, MAX_TURNS, Scope, name_objects
+from .terms import BINARY, BLOCK, BREAK, DECLARE, DO, FIELD, IF, INDEX, LEAVE, LOOP, NAME, RETURN, SOME, SWITCH, UNARY, Function, Term, at
 from .values import (
-    ALWAYS,
     MAX_ALTERNATIVES,
     UNKNOWN,
     UNKNOWN_VALUE,
@@ -30,7 +30,6 @@ from .values import (
     Array,
     Cell,
     Closure,
-    Guards,
     Ref,
     Struct,
     Symbol,
@@ -99,13 +98,13 @@ class Interpreter(Calls):
         mark_escaped(tuple(scope.return_values), self.work)
         self.create_unused(scope)
 
-    def block(self, statements: Sequence[Term], scope: Scope) -> None:
+    def block(self, statements: Iterable[Term], scope: Scope) -> None:
         for statement in statements:
             if scope.unreachable:
                 return
             self.statement(statement, scope)
 
-    def run_block(self, statements: Sequence[Term], scope: Scope, guards: Guards, scoped: bool = True) -> bool:
+    def run_block(self, statements: Iterable[Term], scope: Scope, guards: Guards, scoped: bool = True) -> bool:
         """Executes a block under guards with its own variables. Returns whether the block leaves the enclosing one."""
         outer, scopes = scope.guards, scope.scopes
         scope.guards = outer | guards
@@ -130,14 +129,17 @@ class Interpreter(Calls):
                     Alternative(UNKNOWN, term[-1], base)
                 ]
             scope.unreachable = True
-        elif kind == LEAVE:
+        elif kind in (LEAVE, BREAK):
             scope.unreachable = True
+            scope.interrupted = scope.interrupted or kind == BREAK
         elif kind == IF:
             self.test(self.condition(term[1], scope), term, scope)
         elif kind == SOME:
             self.test(self.preprocessor_condition(term[1]), term, scope)
         elif kind == LOOP:
             self.loop(term, scope)
+        elif kind == SWITCH:
+            self.switch(term, scope)
         elif kind == BLOCK:
             scope.unreachable = self.run_block(term[1], scope, ALWAYS)
 
@@ -156,9 +158,50 @@ class Interpreter(Calls):
         if left is not leaves:
             scope.guards |= against if left else condition
 
+    def switch(self, term: Term, scope: Scope) -> None:
+        """Executes the statements at each label that the value may have. Those of the next label follow unless they are left before."""
+        _, subject, cases, place = term
+        if subject[0] not in (NAME, FIELD):
+            # A call is executed once.
+            name = f"switch {place.start}"
+            scope.scopes[-1][name] = Cell("", name, self.value(subject, scope), brief(canonical_text(subject)))
+            subject = (NAME, name, subject[-1])
+        conditions = [self.label_condition(subject, labels, scope) for labels, _ in cases]
+        others = [condition for (labels, _), condition in zip(cases, conditions, strict=True) if None not in labels]
+        undecided = [condition for condition in others if not isinstance(condition, bool)]
+        otherwise = False if True in others else ALWAYS.union(*map(negated, undecided))
+        returns = any(None in labels for labels, _ in cases)
+        for n, (labels, _) in enumerate(cases):
+            condition = conditions[n] if None not in labels or conditions[n] is True else otherwise
+            known = decided(condition, scope.guards)
+            if known is False:
+                continue
+            guards = ALWAYS if isinstance(condition, bool) else condition
+            outer, scope.interrupted = scope.interrupted, False
+            left = self.run_block(_from_case(cases, n), scope, guards) and not scope.interrupted
+            scope.interrupted = outer
+            if known:
+                scope.unreachable = left
+                return
+            returns = returns and left
+            if left:
+                scope.guards |= negated(guards)
+        scope.unreachable = returns
+
+    def label_condition(self, subject: Term, labels: Sequence[Term | None], scope: Scope) -> bool | Guards:
+        """Returns the condition under which a value is one of several labels."""
+        result: bool | Guards = False
+        for label in labels:
+            if label is None or result is True:
+                continue
+            condition = self.comparison((BINARY, "==", subject, label, label[-1]), scope)
+            if condition is not False:
+                result = condition if isinstance(condition, bool) or isinstance(result, bool) else either(result, condition)
+        return result
+
     def loop(self, term: Term, scope: Scope) -> None:
         declared, over, body = term[1], term[2], term[3]
-        scopes, iterations = scope.scopes, scope.iterations
+        scopes, iterations, interrupted = scope.scopes, scope.iterations, scope.interrupted
         scope.scopes = (*scopes, {})
         turns = self.range_elements(declared, over, scope) if over is not None else self.counter_values(declared, body, scope)
         if turns is not None:
@@ -174,7 +217,7 @@ class Interpreter(Calls):
             scope.unknown_loops += 1
             self.run_block(body, scope, ALWAYS)
             scope.unknown_loops -= 1
-        scope.scopes, scope.iterations = scopes, iterations
+        scope.scopes, scope.iterations, scope.interrupted = scopes, iterations, interrupted
 
     def counter_values(self, declared: Sequence[Term], body: Sequence[Term], scope: Scope) -> list[Cell] | None:
         """Returns the variable of a loop that counts, one for each iteration, if they are known and few; otherwise None."""
@@ -230,6 +273,15 @@ class Interpreter(Calls):
         if before is None or before.kind.partition("[")[0] != kind.partition("[")[0] or not scope.guards or not before.writes:
             return None
         return before if all(contradicts(write.guards, scope.guards) for write in before.writes) else None
+
+
+def _from_case(cases: Sequence[tuple[Sequence[Term | None], Sequence[Term]]], start: int) -> Iterator[Term]:
+    """Yields the statements of a switch from a label on, up to where they certainly leave it."""
+    for _, statements in cases[start : start + MAX_CASES]:
+        for statement in statements:
+            yield statement
+            if statement[0] in (BREAK, LEAVE, RETURN):
+                return
 
 
 def _mark(write: Alternative) -> tuple[Any, ...]:

@@ -6,11 +6,11 @@ from collections.abc import Sequence
 
 from msaa_lint.core.text.span import Span
 
+from .guards import ALWAYS
 from .scope import Scope
 from .structures import Structures
 from .terms import CALL, FIELD, INDEX, LITERAL, NAME, Term
 from .values import (
-    ALWAYS,
     UNKNOWN,
     UNKNOWN_VALUE,
     Alternative,

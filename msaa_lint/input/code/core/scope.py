@@ -4,10 +4,14 @@ from __future__ import annotations
 
 from msaa_lint.core.text.span import Span
 
-from .values import ALWAYS, Alternative, ApiObject, Cell, Guards, Value
+from .guards import ALWAYS, Guards
+from .values import Alternative, ApiObject, Cell, Value
 
 MAX_TURNS = 16
 """The maximum number of loop iterations that are executed individually."""
+
+MAX_CASES = 8
+"""The maximum number of labels of a switch that are executed one after the other without a break."""
 
 MAX_PASSES = 3
 """The maximum number of times that a file is executed. A member's value may depend on another member, which depends on a third."""
@@ -43,6 +47,8 @@ class Scope:
         self.return_type = ""
         self.unreachable = False
         """Whether the following statements are unreachable."""
+        self.interrupted = False
+        """Whether a loop or a switch was left before its end."""
         self.unknown_loops = 0
         self.iterations: tuple[int, ...] = ()
         """The current iterations of the enclosing loops that are executed individually."""

@@ -8,20 +8,19 @@ from typing import Any
 from msaa_lint.core.text.span import Span
 
 from .evaluate import Evaluator
+from .guards import ALWAYS, Guards
 from .library import Construction, Library
 from .limits import Work
 from .scope import Scope
 from .terms import ADDRESS, BRACES, CALL, FIELD, INDEX, LITERAL, NAME, SOME, UNPARSED, Term, Unit
 from .types import element_type
 from .values import (
-    ALWAYS,
     UNKNOWN,
     UNKNOWN_VALUE,
     Alternative,
     ApiObject,
     Array,
     Cell,
-    Guards,
     Struct,
     Value,
     pointee,

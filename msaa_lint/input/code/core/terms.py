@@ -18,8 +18,10 @@ A term is a tuple of its kind, its parts, and its location. Expressions:
 Statements:
 
     (DECLARE, type, name, value or None, reference, fixed, at)     `fixed`: const, or the value of a macro or enumerator
-    (DO, expression, at), (RETURN, expression or None, at), (LEAVE, at)
+    (DO, expression, at), (RETURN, expression or None, at)
+    (LEAVE, at), (BREAK, at)                     the function; the loop or the switch
     (IF, condition, then, otherwise, at)
+    (SWITCH, value, cases, at)                   cases are (labels, statements); the label None is the default
     (LOOP, declared, over or None, body, at)     `over` is the range of a range-based loop
     (SOME, text, then, otherwise, at)            a preprocessor block
     (BLOCK, statements, at)
@@ -35,7 +37,7 @@ from msaa_lint.core.text.span import Span
 Term = tuple[Any, ...]
 
 NAME, LITERAL, FIELD, INDEX, ADDRESS, TARGET, UNARY, BINARY, ASSIGN, CHOICE, CALL, BRACES, LAMBDA, UNPARSED = range(14)
-DECLARE, DO, RETURN, LEAVE, IF, LOOP, SOME, BLOCK = range(20, 28)
+DECLARE, DO, RETURN, LEAVE, IF, LOOP, SOME, BLOCK, SWITCH, BREAK = range(20, 30)
 
 
 class Parameter(NamedTuple):

@@ -9,12 +9,8 @@ from typing import Any, NamedTuple
 
 from msaa_lint.core.text.span import Span
 
+from .guards import ALWAYS, Conjunction, Guards, chosen, covers, excluded
 from .limits import Work
-
-Guards = frozenset[tuple[str, bool]]
-"""Conditions that all hold, each as its text and its value."""
-
-ALWAYS: Guards = frozenset()
 
 MAX_ALTERNATIVES = 12
 """The maximum number of alternatives of a value; with more, it is unknown."""
@@ -62,10 +58,15 @@ class Cell:
     def write(self, value: Value, at: Span, guards: Guards) -> None:
         """Writes under conditions; replaces earlier writes that these conditions imply."""
         fresh = tuple(Alternative(a.value, a.at, a.guards | guards) for a in value) or (Alternative(UNKNOWN, at, guards),)
+        if guards and self.writes and len(fresh) == 1 and self.certainly_holds(fresh[0]):
+            return
         before = tuple(w for w in self.writes if not guards <= w.guards) if guards else ()
-        writes = (*before, *fresh)
-        # If only the earliest writes were dropped, the value could seem known.
-        self.writes = writes if len(writes) <= MAX_ALTERNATIVES else (Alternative(UNKNOWN, at),)
+        self.writes = limited((*before, *fresh), at)
+
+    def certainly_holds(self, write: Alternative) -> bool:
+        """Returns whether a conditional write changes nothing."""
+        current = self.read(write.guards)
+        return not current[0].guards and all(are_equal(a.value, write.value) for a in current) if current else False
 
     def read(self, guards: Guards) -> Value:
         """Returns the possible values under some conditions."""
@@ -82,22 +83,37 @@ class Unknown:
 UNKNOWN = Unknown()
 
 
+def limited(writes: Value, at: Span) -> Value:
+    """Returns writes, of which at most MAX_ALTERNATIVES are kept apart: an unconditional one stays, and what others write is unknown."""
+    if len(writes) <= MAX_ALTERNATIVES:
+        return writes
+    first = () if writes[0].guards else writes[:1]
+    rest = writes[len(first) :]
+    value = rest[0].value if all(are_equal(w.value, rest[0].value) for w in rest) else UNKNOWN
+    return (*first, Alternative(value, at, frozenset({(f"a write before {at.start}", True)})))
+
+
 def possible_writes(writes: Value, configuration: Mapping[str, bool]) -> Value:
-    """Returns the writes that are visible in a configuration: from the last back to the first that certainly happens."""
+    """Returns the writes that are visible in a configuration: from the last back to the first from which on one certainly happens."""
     if len(writes) == 1 and not writes[0].guards:
         return writes
     alternatives: list[Alternative] = []
+    tests: set[tuple[str, bool]] = set()
     for write in reversed(writes):
         rest = []
         for guard in write.guards:
-            way = configuration.get(guard[0])
+            way = chosen(guard[0], configuration)
             if way is None:
                 rest.append(guard)
             elif way is not guard[1]:
                 break
         else:
+            if excluded(frozenset(rest), configuration):
+                continue
             alternatives.append(Alternative(write.value, write.at, frozenset(rest)) if len(rest) < len(write.guards) else write)
-            if not rest:
+            opposite = any((text, not way) in tests or isinstance(text, Conjunction) for text, way in (*rest, *tests))
+            tests.update(rest)
+            if not rest or (opposite and covers(a.guards for a in alternatives)):
                 break
     return tuple(reversed(alternatives))
 

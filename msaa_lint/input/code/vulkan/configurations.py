@@ -8,6 +8,7 @@ from typing import Any
 from msaa_lint.core.text.node import Node
 from msaa_lint.core.text.span import Span
 from msaa_lint.input.code.core.configurations import Configuration
+from msaa_lint.input.code.core.guards import covers
 from msaa_lint.input.code.core.values import UNKNOWN, ApiObject, Array, Cell, Ref, Struct, Value, sole_value
 
 from .creation import VulkanInterpreter
@@ -63,7 +64,7 @@ class VulkanConfiguration(Configuration):
             is_zero = struct.zeroed and cell is None and all(need in struct.fields for need in needs)
             return (None if is_zero else UNKNOWN), struct.at
         value = self.settle(cell.writes)
-        if struct.zeroed and value and all(a.guards for a in value):
+        if struct.zeroed and value and not covers(a.guards for a in value):
             return UNKNOWN, struct.at
         constant = sole_value(value)
         return constant, value[-1].at if value else struct.at

@@ -12,8 +12,9 @@ from typing import Any
 
 from msaa_lint.core.text.span import Span
 from msaa_lint.frame.vulkan.enums import VALUES
-from msaa_lint.input.code.core.conditions import brief, canonical_text
+from msaa_lint.input.code.core.conditions import canonical_text
 from msaa_lint.input.code.core.escapes import forget, forget_captures, mark_escaped, mark_used, settle_under
+from msaa_lint.input.code.core.guards import brief
 from msaa_lint.input.code.core.interpreter import Interpreter
 from msaa_lint.input.code.core.limits import Work
 from msaa_lint.input.code.core.scope import Scope, name_objects
