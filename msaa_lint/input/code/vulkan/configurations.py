@@ -81,30 +81,35 @@ class VulkanConfiguration(Configuration):
 
     def structs(self, struct: Struct, name: str) -> list[Struct | None] | None:
         """Returns the structures that a member lists or points to: empty for null, None if unknown. Unknown elements are None."""
+        structs, complete = self.elements(struct, name)
+        return structs if complete else None
+
+    def elements(self, struct: Struct, name: str) -> tuple[list[Struct | None], bool]:
+        """Returns the known elements that a member lists or points to, and whether their order and number are known."""
         value = self.dereference(self.get(struct, name)[0])
         if value is None or (value == 0 and type(value) is int):
-            return []
+            return [], True
         if isinstance(value, Struct):
-            return [value]
-        if not isinstance(value, Array) or not value.complete:
-            return None
+            return [value], True
+        if not isinstance(value, Array):
+            return [], False
         structs: list[Struct | None] = []
+        complete = value.complete
         for cell in value.items:
             writes = self.settle(cell.writes)
             if cell.writes and not writes:
                 # Present only in another configuration.
                 continue
-            if writes and all(write.guards for write in writes):
-                return None
+            complete = complete and not (writes and all(write.guards for write in writes))
             item = self.dereference(sole_value(writes))
             structs.append(item if isinstance(item, Struct) else None)
         count_member = COUNTS.get(name, "")
         count = self.known_value(struct, count_member)
         if type(count) is int and 0 <= count <= len(structs):
-            return structs[:count]
+            return structs[:count], complete
         count_cell = struct.fields.get(count_member)
         # The number of elements depends on another condition.
-        return None if count_cell is not None and len(self.settle(count_cell.writes)) > 1 else structs
+        return structs, complete and (count_cell is None or len(self.settle(count_cell.writes)) < 2)
 
     def samples(self, struct: Struct, name: str = "samples") -> tuple[int | None, Span]:
         cell = struct.fields.get(name)

@@ -60,32 +60,26 @@ class Passes(Subpasses):
 
     def render_pass(self, obj: ApiObject, attached: dict[int, ApiObject]) -> Item | None:
         info = obj.info
-        structs = self.structs(info, "attachments")
+        structs, ordered = self.elements(info, "attachments")
         if not structs:
             return None
-        images = [*self.framebuffer_images.get(id(obj), ()), *[None] * len(structs)][: len(structs)]
-        names: list[str] = []
-        array = self.dereference(self.get(info, "attachments")[0])
-        list_name = array.name if isinstance(array, Array) else ""
-        for n, struct in enumerate(structs):
-            name = struct.name if struct is not None and struct.name else f"{list_name}[{n}]" if list_name else f"attachment {n}"
-            names.append(name if name not in names else f"{name} ({n})")
+        bound = self.framebuffer_images.get(id(obj), ()) if ordered else ()
+        images = [*bound, *[None] * len(structs)][: len(structs)]
+        names = self.attachment_names(info, structs)
         head = head_of(obj.at)
-        subpasses = [self.subpass(struct, names, head) for struct in self.structs(info, "subpasses") or ()]
+        subpasses = [self.subpass(struct, names, head) for struct in self.structs(info, "subpasses") or ()] if ordered else []
         sources = _resolved([subpass.node for subpass in subpasses])
-        referred = {reference.text for subpass in subpasses for reference in _leaves(subpass.node)}
+        referred = {reference.text for subpass in subpasses for reference in _leaves(subpass.node)} & set(names)
         is_complete = all(subpass.complete for subpass in subpasses)
         nodes: list[Item] = []
         for name, struct, image in zip(names, structs, images, strict=True):
             at = head_of(self.place_of(struct, obj.at))
             node = self.attachment(struct, image, attached, at, name in sources)
-            nodes.append((name, at, node if is_complete else _certain(node, name in referred, name in sources)))
-        if type(self.known_value(info, "attachmentCount")) is not int:
+            nodes.append((name, at, node if is_complete or not referred else _certain(node, name in referred, name in sources)))
+        if referred and type(self.known_value(info, "attachmentCount")) is not int:
             # The count is unknown: trailing attachments that nothing references may not exist.
-            while nodes and nodes[-1][0] not in referred:
+            while nodes[-1][0] not in referred:
                 nodes.pop()
-            if not nodes:
-                return None
         items: list[Item] = [("attachments", head, mapping(nodes, head))]
         if referred or (subpasses and is_complete):
             items.append(("subpasses", head, sequence([subpass.node for subpass in subpasses], head)))
@@ -95,6 +89,16 @@ class Passes(Subpasses):
             if nodes_of_dependencies is not None:
                 items.append(("dependencies", head, sequence(nodes_of_dependencies, head)))
         return self.object_name(obj, "renderPass"), head, mapping(items, head)
+
+    def attachment_names(self, info: Struct, structs: Sequence[Struct | None]) -> list[str]:
+        """Returns unique names of attachments: those of their variables, or indices of their list."""
+        names: list[str] = []
+        array = self.dereference(self.get(info, "attachments")[0])
+        list_name = array.name if isinstance(array, Array) else ""
+        for n, struct in enumerate(structs):
+            name = struct.name if struct is not None and struct.name else f"{list_name}[{n}]" if list_name else f"attachment {n}"
+            names.append(name if name not in names else f"{name} ({n})")
+        return names
 
     def has_single_images(self, structs: Sequence[Struct | None], images: Sequence[ApiObject | None]) -> bool:
         """Returns whether each multisampled image of a pass is known and single.

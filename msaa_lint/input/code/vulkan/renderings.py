@@ -18,9 +18,9 @@ class Commands(Members):
     def rendering(self, obj: ApiObject, attached: dict[int, ApiObject]) -> Node | None:
         """Returns a dynamic rendering, or None if nothing is known of its attachments. Unknown color attachments keep their index."""
         info = obj.info
-        colors = self.structs(info, "colorAttachments") if info.zeroed or "colorAttachments" in info.fields else None
+        colors = self.elements(info, "colorAttachments")[0]
         depth = [(name, self.struct(info, name)) for name in ("depthAttachment", "stencilAttachment")]
-        structs = [*(colors or ()), *(struct for _, struct in depth)]
+        structs = [*colors, *(struct for _, struct in depth)]
         # All images of a rendering have the same count (VUID-VkRenderingInfo-multisampledRenderToSingleSampled-06857).
         multisampled = any(struct is not None and self.is_multisampled_attachment(struct) for struct in structs)
         head = head_of(obj.at)

@@ -18,7 +18,7 @@ static VkAttachmentLoadOp AttachmentLoadOpToVk(ATTACHMENT_LOAD_OP Op) {
 
 static VkAttachmentStoreOp AttachmentStoreOpToVk(ATTACHMENT_STORE_OP Op) {
     static constexpr std::array<VkAttachmentStoreOp, 2> Ops = {VK_ATTACHMENT_STORE_OP_STORE, VK_ATTACHMENT_STORE_OP_DONT_CARE};
-    return Ops[Op];
+    return Ops[Op];  // may: MSAA201
 }
 
 static VkFormat FormatToVk(TEXTURE_FORMAT Format) {
