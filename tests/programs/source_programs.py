@@ -38,7 +38,7 @@ _VULKAN = re.compile(r"\b(?:VkImageCreateInfo|VkAttachmentDescription2?|VkRender
 _STORE = re.compile(r"\b(?:storeOp\s*=(?!=)|[sS]etStoreOp\s*\()[^;{}]*?(?:VK_ATTACHMENT_STORE_OP_|AttachmentStoreOp::e)")
 _SAMPLES = re.compile(r"(?:[.>]samples\s*=(?!=)\s*|\.[sS]etSamples\s*\(\s*)(?P<count>[^;,\n]+)")
 _ONE = re.compile(r"\bVK_SAMPLE_COUNT_1_BIT\b|SampleCountFlagBits::e1\b|^\s*1\s*\)?$|\.samples\b")
-_SOURCES = (".c", ".cc", ".cpp", ".cxx", ".h", ".hpp", ".hxx", ".inl", ".mm", ".m", ".ipp")
+_SOURCES = (".c", ".cc", ".cpp", ".cxx", ".h", ".hpp", ".hxx", ".inl", ".ipp")
 _LIBRARIES = re.compile(r"vk_mem_alloc|vulkan_(?:core|structs|raii|hash|handles|enums|funcs|to_string)|vulkan\.hpp|volk\.")
 
 
@@ -185,27 +185,31 @@ def stated(text: str) -> tuple[set[int], set[int]]:
     return {line(match.end()) for match in _STORE.finditer(code)}, samples
 
 
-def places_read(path: Path) -> set[tuple[str, int]]:
-    """Returns the keys and lines of the store operations and sample counts that the descriptions of a source file have."""
+def places_read(folder: Path) -> set[tuple[str, str, int]]:
+    """Returns the files, keys, and lines of the store operations and sample counts that the descriptions of a folder's programs have."""
     from msaa_lint.core.text.source import Unreadable
+    from msaa_lint.core.text.span import Span
     from msaa_lint.input.code import language_of
-    from msaa_lint.input.source_file import read_source_file
+    from msaa_lint.input.source_file import read_program, read_source_text, source_text
+    from msaa_lint.linter.source_programs import is_read_together, programs
 
-    data = path.read_bytes()
-    language = language_of(path.name, data[:4096].decode("utf-8", "replace"))
-    if language not in ("c", "cpp", "objc", "objcpp"):
-        return set()
-    try:
-        read = read_source_file(data, path.name, language)
-    except Unreadable:
-        return set()
-    text = read.source.text
-    return {
-        (key, text.count("\n", 0, offset) + 1)
-        for document in read.program.documents
-        if document.tree is not None
-        for key, offset in _places(document.tree, "")
-    }
+    paths = [str(path) for path in sorted(folder.rglob("*")) if path.is_file() and is_read_together(path.name)]
+    places = set()
+    for program in programs(paths, {}, {}):
+        contents = [Path(path).read_bytes() for path in program.paths]
+        languages = [language_of(path, data[:4096].decode("utf-8", "replace")) for path, data in zip(program.paths, contents, strict=True)]
+        files = [
+            source_text(data, path, language or "cpp") for data, path, language in zip(contents, program.paths, languages, strict=True)
+        ]
+        try:
+            read = read_source_text(files[0]) if len(files) == 1 else read_program(files, program.includes, program.headers)
+        except Unreadable:
+            continue
+        for document in read.program.documents:
+            for key, offset in _places(document.tree, "") if document.tree is not None else ():
+                file, place = read.place(Span(offset, offset))
+                places.add((os.path.relpath(file.source.name, folder), key, file.source.position(place.start).line))
+    return places
 
 
 def _places(node: object, key: str) -> Iterator[tuple[str, int]]:
@@ -226,16 +230,15 @@ def _places(node: object, key: str) -> Iterator[tuple[str, int]]:
 def texts(folder: Path) -> Texts:
     """Counts in the code of a program what states a store operation or a sample count, and how much of it a description has."""
     counts = Texts()
+    read = places_read(folder)
     for path in sorted(folder.rglob("*")):
         if path.suffix not in _SOURCES or not path.is_file() or _LIBRARIES.search(path.name):
             continue
         stores, samples = stated(path.read_text(encoding="utf-8", errors="replace"))
-        if not stores and not samples:
-            continue
-        read = places_read(path)
+        name = str(path.relative_to(folder))
         for key, lines in (("storeOp", stores), ("samples", samples)):
-            missing = {line for line in lines if (key, line) not in read}
-            counts.unread += [f"{path.relative_to(folder)}:{line} {key}" for line in sorted(missing)]
+            missing = {line for line in lines if (name, key, line) not in read}
+            counts.unread += [f"{name}:{line} {key}" for line in sorted(missing)]
             if key == "storeOp":
                 counts.add(Texts(len(lines), len(lines) - len(missing)))
             else:
