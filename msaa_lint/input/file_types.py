@@ -35,6 +35,7 @@ LANGUAGES: dict[str, tuple[str, ...]] = {
     "objc": (".m",),
     "objcpp": (".mm",),
     "swift": (".swift",),
+    "rust": (".rs",),
     "glsl": (".glsl", ".vert", ".frag", ".comp", ".tesc", ".tese", ".geom", ".mesh", ".task"),
     "markdown": (".md", ".markdown", ".mdx"),
     "asciidoc": (".adoc", ".asciidoc", ".asc"),

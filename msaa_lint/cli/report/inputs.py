@@ -28,6 +28,7 @@ _FORMATS = {
     "objc": "Objective-C file",
     "objcpp": "Objective-C++ file",
     "swift": "Swift file",
+    "rust": "Rust file",
     "glsl": "GLSL file",
     "markdown": "Markdown page",
     "asciidoc": "AsciiDoc page",

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 MODULES = {
     **dict.fromkeys(("c", "cpp", "objc", "objcpp"), "c.description_trees"),
     "swift": "swift.description_trees",
+    "rust": "rust.description_trees",
     "glsl": "glsl.description_trees",
 }
 """The module of this package that reads each language."""

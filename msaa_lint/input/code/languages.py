@@ -3,7 +3,6 @@
 import re
 
 UNREAD = {
-    ".rs": "Rust",
     ".go": "Go",
     ".zig": "Zig",
     ".cs": "C#",

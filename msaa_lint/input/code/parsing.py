@@ -27,6 +27,7 @@ GRAMMARS = {
     **dict.fromkeys(("c", "objc"), "tree_sitter_c"),
     **dict.fromkeys(("cpp", "objcpp"), "tree_sitter_cpp"),
     "swift": "tree_sitter_swift",
+    "rust": "tree_sitter_rust",
     "glsl": "tree_sitter_glsl",
 }
 """The package of each language's grammar."""

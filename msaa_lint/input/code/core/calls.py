@@ -69,6 +69,9 @@ class Calls(ListMethods):
             body = Function("", "", "", closure.parameters, closure.body, place, scope.namespace)
             return self.execute(body, term, scope, scope.this_object, closure.scopes)
         callee = self.find_function(name, len(arguments), function, scope)
+        if callee is not None and owner is not None and not callee.class_name and not self.fragments:
+            # The method of an object that the program does not define, with the name of a function.
+            callee = None
         this_object = self.receiver(callee, owner, scope) if callee is not None and callee.class_name else None
         if callee is not None and this_object is not OTHERS and self.may_follow(callee, place, scope):
             return self.call_function(callee, term, scope, this_object)

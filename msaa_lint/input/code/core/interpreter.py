@@ -91,11 +91,14 @@ class Interpreter(Calls):
 
     def run_entry_point(self, function: Function) -> None:
         scope = Scope(function.class_name, function.namespace)
+        scope.active_functions = (function.at,)
         for parameter in function.parameters:
             if parameter.name:
                 scope.scopes[-1][parameter.name] = Cell(parameter.type, parameter.name, (), f"{function.name}({parameter.name})")
         self.block(function.body, scope)
-        mark_escaped(tuple(scope.return_values), self.work)
+        if not function.class_name or self.class_of(function.return_type, function.namespace) != function.class_name:
+            # A function that creates an object of its own class is a constructor.
+            mark_escaped(tuple(scope.return_values), self.work)
         self.create_unused(scope)
 
     def block(self, statements: Iterable[Term], scope: Scope) -> None:

@@ -23,6 +23,9 @@ class Construction(NamedTuple):
 class Library(ABC):
     """The names of one API."""
 
+    copies_on_set = False
+    """Whether a setter returns a changed copy and leaves the structure as it is."""
+
     @abstractmethod
     def constant(self, name: str) -> int | str | bool | None:
         """Returns the value of a constant of the API: a sample count as a number, a boolean, or an enumerant; None for other names."""
@@ -70,6 +73,10 @@ class Library(ABC):
     @abstractmethod
     def is_format(self, value: str) -> bool:
         """Returns whether an enumerant is a format other than an undefined one."""
+
+    def command(self, name: str) -> str:
+        """Returns the name that the API gives a function."""
+        return name
 
     @abstractmethod
     def is_success(self, name: str) -> bool:

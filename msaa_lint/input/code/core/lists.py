@@ -48,6 +48,9 @@ class ListMethods(Structures):
             if len(arguments) != 1 or not self.library.has_member(value.kind, setter):
                 return content
             kind = self.library.member_type(value.kind, setter)
+            if self.library.copies_on_set:
+                value = self.copies.value(value)
+                content = (Alternative(value, content[0].at),)
             argument = self.value(arguments[0], scope, kind)
             # A setter of a list takes its address.
             argument = self.as_pointer("p" + name[3:], argument, arguments[0], scope)

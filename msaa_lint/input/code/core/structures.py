@@ -92,6 +92,14 @@ class Structures(Evaluator):
 
     def initialize_designated(self, struct: Struct, path: Sequence[str | int], term: Term, scope: Scope) -> None:
         """Initializes a designated member: `.extent.width = 4`."""
+        if path == ("..",):
+            base = self.target(term, scope)
+            if isinstance(base, Struct):
+                struct.zeroed = struct.zeroed and base.zeroed
+                struct.fields.update(self.copies.value(base).fields)
+            else:
+                struct.zeroed = False
+            return
         guards = ALWAYS
         if term[0] == SOME:
             guards, term = self.unwrap_conditions(term)

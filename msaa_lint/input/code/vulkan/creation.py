@@ -54,6 +54,10 @@ CREATE_INFOS = {
 STANDALONE_INFOS = ("PipelineMultisampleStateCreateInfo",)
 """Structures that are described even if no call takes them."""
 
+_RESOLVES = frozenset({
+    "vkCmdResolveImage", "vkCmdResolveImage2", "vkCmdResolveImage2KHR", "resolveImage", "resolveImage2", "cmdResolveImage", "cmdResolveImage2",
+})  # fmt: skip
+
 _QUERIES = re.compile(r"[gG]et|Requirement|[pP]ropert|[fF]ind|[lL]og|[pP]rint|assert|Supported|[hH]ash|validate|setDebug|Name$")
 
 _HARMLESS = re.compile(
@@ -85,8 +89,8 @@ _MEMORY_BITS = VALUES["VkMemoryPropertyFlagBits"]
 class VulkanInterpreter(Interpreter):
     """Executes a program that calls Vulkan."""
 
-    def __init__(self, unit: Unit, fragments: bool, is_cpp: bool, work: Work) -> None:
-        self.names = VulkanLibrary()
+    def __init__(self, unit: Unit, fragments: bool, is_cpp: bool, work: Work, names: VulkanLibrary | None = None) -> None:
+        self.names = names or VulkanLibrary()
         super().__init__(unit, self.names, fragments, is_cpp, work)
         self.resolves: dict[Span, tuple[Value, Value]] = {}
         """The source and the target of each resolve command."""
@@ -97,8 +101,8 @@ class VulkanInterpreter(Interpreter):
 
     def external_call(self, term: Term, name: str, owner: Term | None, values: Sequence[Value], scope: Scope) -> Value:
         """Returns the result of a function outside the file: the object that the structures among its arguments create."""
-        place = term[3]
-        if name in ("vkCmdResolveImage", "resolveImage", "vkCmdResolveImage2", "vkCmdResolveImage2KHR", "resolveImage2"):
+        place, name = term[3], self.library.command(name)
+        if name in _RESOLVES:
             self.record_resolve(name, values, place)
             return UNKNOWN_VALUE
         if "etRasterizationSamples" in name:
@@ -249,7 +253,7 @@ class VulkanInterpreter(Interpreter):
             info = next((v for v in (pointee(sole_value(value)) for value in values) if isinstance(v, Struct)), None)
             if info is not None:
                 self.resolves[place] = (info.cell("srcImage").writes, info.cell("dstImage").writes)
-        elif len(ends := values[1:] if name.startswith("vk") else values) >= 3:
+        elif len(ends := values[1:] if name.startswith(("vk", "cmd")) else values) >= 3:
             self.resolves[place] = (ends[0], ends[2])
 
     def create_unused(self, scope: Scope) -> None:

@@ -1,0 +1,109 @@
+"""Vulkan's names in Rust: those of ash, vulkanalia, and vulkano."""
+
+from __future__ import annotations
+
+import re
+from functools import cache
+
+from msaa_lint.frame.vulkan.enums import VALUES
+from msaa_lint.input.code.core.library import Construction
+from msaa_lint.input.code.core.limits import Work
+from msaa_lint.input.code.core.scope import Scope
+from msaa_lint.input.code.core.terms import Term, Unit
+from msaa_lint.input.code.core.values import Struct, Value
+
+from . import names
+from .creation import VulkanInterpreter
+from .library import VulkanLibrary
+
+_CONSTANT = re.compile(r"(?:vk::)?([A-Z]\w*)::(_?\w+)$")
+_SUFFIX = re.compile(r"(?:_(?:KHR|EXT|NV|AMD))+$")
+_SETTER = re.compile(r"[a-z][a-z0-9_]*$")
+
+
+@cache
+def _members() -> dict[str, str]:
+    """Returns the names of members in descriptions by their names in Rust."""
+    every = {name for members in names.MEMBERS.values() for name in members} | {"pNext"}
+    return {re.sub(r"(?<!^)([A-Z])", lambda match: "_" + match[1].lower(), name): names.member(name) for name in every} | {
+        re.sub(r"(?<!^)([A-Z])", lambda match: "_" + match[1].lower(), names.member(name)): names.member(name) for name in every
+    }
+
+
+_RENAMED = {"color_resolve_attachments": "resolveAttachments"}
+"""Members of vulkano that have other names."""
+
+
+class RustLibrary(VulkanLibrary):
+    """The names of Vulkan in Rust."""
+
+    copies_on_set = True
+
+    def constant(self, name: str) -> int | str | bool | None:
+        match = _CONSTANT.match(name)
+        if match is None:
+            return {"vk::QUEUE_FAMILY_IGNORED": None, "vk::ATTACHMENT_UNUSED": 2**32 - 1, "vk::TRUE": True, "vk::FALSE": False}.get(
+                name, "VK_SUBPASS_EXTERNAL" if name.endswith("SUBPASS_EXTERNAL") else None
+            )
+        enum, value = match[1], match[2]
+        if enum.startswith("SampleCount"):
+            count = re.fullmatch(r"(?:TYPE_|_|Sample)(1|2|4|8|16|32|64)", value)
+            return int(count[1]) if count is not None else None
+        for table in (
+            f"Vk{enum}",
+            f"Vk{_SUFFIX.sub('', enum)}",
+            f"Vk{enum.removesuffix('s')}Bits",
+            f"Vk{enum.removesuffix('s')}FlagBits",
+            f"Vk{enum}FlagBits",
+        ):
+            table = _TABLES.get(table, table)
+            if table in VALUES:
+                return _squashed(table).get(value.removeprefix("TYPE_").removeprefix("Dim").replace("_", "").lower())
+        return None
+
+    def construction(self, type_text: str) -> Construction:
+        return super().construction(type_text)._replace(takes_lists=False)
+
+    def member(self, name: str) -> str:
+        return _RENAMED.get(name) or _members().get(name, name)
+
+    def setter(self, method: str) -> str | None:
+        return self.member(method) if _SETTER.match(method) else None
+
+    def is_success(self, name: str) -> bool:
+        return name.endswith("Result::SUCCESS")
+
+    def command(self, name: str) -> str:
+        first, *words = name.split("_")
+        return first + "".join(word.capitalize() for word in words)
+
+
+_TABLES = {
+    "VkPipelineStageFlagBits": "VkPipelineStageFlagBits2",
+    "VkAccessFlagBits": "VkAccessFlagBits2",
+    "VkPipelineStageFlags": "VkPipelineStageFlagBits2",
+    "VkAccessFlags": "VkAccessFlagBits2",
+}
+
+
+@cache
+def _squashed(enum: str) -> dict[str, str]:
+    """Returns the values of an enum by their spelling without underscores, in lower case."""
+    return {value.replace("_", "").lower(): value for value in VALUES[enum]}
+
+
+class RustInterpreter(VulkanInterpreter):
+    """Executes a Rust program that calls Vulkan."""
+
+    def __init__(self, unit: Unit, fragments: bool, work: Work) -> None:
+        super().__init__(unit, fragments, False, work, RustLibrary())
+
+    def braced_value(self, term: Term, scope: Scope, kind: str) -> Value:
+        """Returns the value of a structure. One of a type that the program declares sets the members of the type, as constructors do."""
+        value = super().braced_value(term, scope, kind)
+        owner = self.class_of(term[1] or kind, scope.namespace) if term[2] else None
+        if owner is not None and len(value) == 1 and isinstance(value[0].value, Struct):
+            for name, cell in value[0].value.fields.items():
+                self.store(self.member_cell(f"{owner}::{name}"), cell.writes, cell.writes[-1].at if cell.writes else term[-1], scope)
+        return value
+
