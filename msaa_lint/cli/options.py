@@ -17,7 +17,21 @@ _LIMITS = Limits()
 CAPTURE_FORMATS = ("gfxreconstruct", "api-dump", "renderdoc", "fossilize")
 """The names in `readers.CAPTURES`."""
 
-INPUT_FORMATS = ("description", "vulkan-sc", *CAPTURE_FORMATS, "c", "cpp", "objc", "objcpp", "swift", "rust", "glsl", "markdown", "asciidoc", "rst")
+INPUT_FORMATS = (
+    "description",
+    "vulkan-sc",
+    *CAPTURE_FORMATS,
+    "c",
+    "cpp",
+    "objc",
+    "objcpp",
+    "swift",
+    "rust",
+    "glsl",
+    "markdown",
+    "asciidoc",
+    "rst",
+)
 """The names in `readers.FORMATS`, `readers.CAPTURES`, and `file_types.LANGUAGES`, so that help and errors import no reader."""
 
 COST_FORMATS = ("full", "json", "markdown")

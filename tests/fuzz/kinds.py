@@ -93,6 +93,7 @@ KINDS = {
     "c": _source("frame.c", "c", "tests/input/code/corpus/*.c", "examples/capture/*.c"),
     "cpp": _source("frame.cpp", "cpp", "tests/input/code/corpus/*.cpp", "examples/code/*.cpp"),
     "swift": _source("frame.swift", "swift", "tests/input/code/swift/*.swift"),
+    "rust": _source("frame.rs", "rust", "tests/input/code/corpus/*.rs"),
     "glsl": _source("shader.frag", "glsl", "tests/frame/spirv/shaders/*.frag", "rules/shaders/*.frag", "examples/capture/*.frag"),
     "markdown": Kind(
         "page.md", lambda: files("docs/*.md", "README.md", "examples/**/*.md", "rules/*.md"), CAPTURES, ("code", "page", "yaml")

@@ -19,7 +19,7 @@ class Comments(NamedTuple):
     alone: frozenset[int]
 
 
-# Tokens that may contain comment marks: strings, raw strings (C++ [lex.string]), and Swift's multi-line and `#` strings.
+# Tokens that may contain comment marks: strings, raw strings (C++ [lex.string]), Swift's multi-line and `#` strings, Rust's raw strings.
 _C = re.compile(
     r"""
     (?P<line>//(?:[^\n\\]|\\(?:\r\n|[^\n])|\\\n)*)
@@ -41,6 +41,17 @@ _SWIFT = re.compile(
     ''',
     re.VERBOSE | re.DOTALL,
 )
+_RUST = re.compile(
+    r"""
+    (?P<line>//[^\n]*)
+    | (?P<block>/\*)
+    | (?:\b[bc]?r(?P<hashes>\#{0,16})"(?:(?!"(?P=hashes)).)*(?:"(?P=hashes)|\Z))
+    | "(?:[^"\\]|\\.)*"?
+    | '(?:[^'\\\n]|\\[^\n]{1,10}?)'
+    """,
+    re.VERBOSE | re.DOTALL,
+)
+_TOKENS = {"swift": _SWIFT, "rust": _RUST}
 _EDGE = re.compile(r"/\*|\*/")
 _BLANKS = re.compile(r"[ \t]*")
 _BEFORE = re.compile(r"[ \t]*\**[ \t]*")
@@ -84,20 +95,19 @@ def _read(code: Code, lines: list[Comment], alone: set[int]) -> None:
 
 def spans(code: Code) -> Iterator[tuple[int, int]]:
     """Yields the ranges of comments, including their marks, in time linear in the text."""
-    text, swift = code.text, code.language == "swift"
-    token = _SWIFT if swift else _C
+    text, token, nests = code.text, _TOKENS.get(code.language, _C), code.language in _TOKENS
     at = 0
     while (match := token.search(text, at)) is not None:
         at = match.end()
         if match["line"] is not None:
             yield match.start(), match.start() + len(match[0].rstrip("\r"))
         elif match["block"] is not None:
-            at = _block_end(text, at, swift)
+            at = _block_end(text, at, nests)
             yield match.start(), at
 
 
 def _block_end(text: str, at: int, nested: bool) -> int:
-    """Returns the end of a block comment, which can nest in Swift."""
+    """Returns the end of a block comment, which can nest in Swift and Rust."""
     if not nested:
         end = text.find("*/", at)
         return end + 2 if end >= 0 else len(text)

@@ -15,6 +15,7 @@ NAMES = {
     "objc": "objc", "objective-c": "objc", "objectivec": "objc", "obj-c": "objc", "m": "objc",
     "objcpp": "objcpp", "objc++": "objcpp", "objective-c++": "objcpp", "obj-c++": "objcpp", "mm": "objcpp",
     "swift": "swift",
+    "rust": "rust", "rs": "rust",
     "glsl": "glsl", "vert": "glsl", "frag": "glsl", "comp": "glsl",
 }  # fmt: skip
 """Languages by the word that a page names them with, in lowercase."""

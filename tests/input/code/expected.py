@@ -19,7 +19,7 @@ from msaa_lint.cli.arguments import parse
 from msaa_lint.cli.check import check
 
 CORPUS = Path(__file__).parent / "corpus"
-PROGRAMS = sorted(path for path in CORPUS.iterdir() if path.suffix in (".c", ".cpp") or path.is_dir())
+PROGRAMS = sorted(path for path in CORPUS.iterdir() if path.suffix in (".c", ".cpp", ".rs") or path.is_dir())
 
 _MARK = re.compile(r"\b(?P<kind>expect-later|expect|may): (?P<codes>MSAA\d{3}(?:#\w+)?(?:, MSAA\d{3}(?:#\w+)?)*)")
 

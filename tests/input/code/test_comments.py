@@ -57,6 +57,22 @@ def test_of_swift(text: str, expected: list[str]) -> None:
     assert found(text, "swift") == expected
 
 
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("a // b\nc", ["// b"]),
+        ("/* a /* b */ c */ d", ["/* a /* b */ c */"]),
+        ('"\n// a \\" x" // b', ["// b"]),
+        ('r"// a \\" // b', ["// b"]),
+        ('r#"// "a"# // b', ["// b"]),
+        ("fn a<'a>(x: &'a u8, y: char) { y == '\"' } // b", ["// b"]),
+        ("'\\'' // b", ["// b"]),
+    ],
+)
+def test_of_rust(text: str, expected: list[str]) -> None:
+    assert found(text, "rust") == expected
+
+
 def test_a_comment_reads_as_that_of_a_description_would() -> None:
     text = "int a; // one \n/* two\n * three\n four\n */\n"
     made = comments([Code(text, "cpp")])

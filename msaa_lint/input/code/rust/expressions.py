@@ -1,7 +1,6 @@
 """Converts Rust expressions to terms.
 
-What only says who owns a value, or that it may be missing, is removed: `&*x`, `x.clone()`, `x?`, `x.unwrap()`, `Some(x)`, `Arc::new(x)`, and
-`unsafe { x }` are `x`.
+What only says who owns a value, or that it may be missing, is removed: `&*x`, `x.clone()`, `x?`, `Some(x)`, and `unsafe { x }` are `x`.
 """
 
 from __future__ import annotations
@@ -44,10 +43,10 @@ BLOCKS = frozenset({"block", "unsafe_block", "async_block", "const_block", "gen_
 _NUMBER = re.compile(r"(0x[0-9a-fA-F_]{1,32}|0b[01_]{1,140}|0o[0-7_]{1,44}|[0-9][0-9_]{0,40})(?:[iu](?:8|16|32|64|128|size))?")
 _REAL = re.compile(r"([0-9][0-9_]{0,40}\.?[0-9_]{0,40}(?:[eE][-+]?[0-9]{1,4})?)(?:_?f(?:32|64))?")
 _SAME = frozenset({
-    "unwrap", "expect", "unwrap_unchecked", "map_err", "ok", "ok_or", "ok_or_else", "context", "with_context", "wrap_err", "clone", "to_owned",
-    "into", "try_into", "as_ref", "as_mut", "as_deref", "as_deref_mut", "to_vec", "as_slice", "as_mut_slice", "into_boxed_slice", "iter",
-    "iter_mut", "into_iter", "cloned", "copied", "collect", "borrow", "borrow_mut", "lock", "read", "write", "deref", "as_ptr", "as_mut_ptr",
-    "unwrap_or_default", "by_ref", "into_inner", "result",
+    "unwrap", "expect", "unwrap_unchecked", "map_err", "ok", "ok_or", "ok_or_else", "context", "with_context", "wrap_err",
+    "clone", "to_owned", "into", "try_into", "as_ref", "as_mut", "as_deref", "as_deref_mut", "to_vec", "as_slice", "as_mut_slice",
+    "into_boxed_slice", "iter", "iter_mut", "into_iter", "cloned", "copied", "collect", "borrow", "borrow_mut", "lock", "read",
+    "write", "deref", "as_ptr", "as_mut_ptr", "unwrap_or_default", "by_ref", "into_inner", "result",
 })  # fmt: skip
 """Methods whose result stands for the object that they are called on."""
 

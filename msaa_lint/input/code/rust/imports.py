@@ -40,8 +40,8 @@ class Imports:
                 if alias is not None:
                     self.paths[text[alias.start_byte : alias.end_byte]] = _canonical([*prefix, *_words(path, text)])
             elif kind == "use_wildcard":
-                path = [*prefix, *_words(at.named_children[0] if at.named_child_count else None, text)]
-                self.wildcards = self.wildcards or (bool(path) and (path[0] in _CRATES or path[-1] == "vk"))
+                words = [*prefix, *_words(at.named_children[0] if at.named_child_count else None, text)]
+                self.wildcards = self.wildcards or (bool(words) and (words[0] in _CRATES or words[-1] == "vk"))
             else:
                 words = [*prefix, *(word for word in _words(at, text) if word != "self")]
                 if words:

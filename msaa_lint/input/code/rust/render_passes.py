@@ -6,6 +6,7 @@ The grammar does not read the arguments of macros, only their tokens. Vulkano, d
 from __future__ import annotations
 
 from collections.abc import Sequence
+
 from msaa_lint.core.text.span import Span
 from msaa_lint.input.code.core.terms import BRACES, CALL, LITERAL, NAME, UNPARSED, Term
 from msaa_lint.input.code.parsing import SyntaxNode, span
@@ -101,7 +102,9 @@ class RenderPassMacros(Statements):
         for name, member in _LISTS.items():
             value = _braced(members.get(name))
             if value is not None:
-                items.append(((member,), self.list_term([self.attachment_reference(child, numbers) for child in self.names_in(value)], span(value))))
+                items.append(
+                    ((member,), self.list_term([self.attachment_reference(child, numbers) for child in self.names_in(value)], span(value)))
+                )
         depth = _braced(members.get("depth_stencil"))
         if depth is not None:
             items += [(("depth_stencil_attachment",), self.attachment_reference(child, numbers)) for child in self.names_in(depth)[:1]]

@@ -55,7 +55,8 @@ STANDALONE_INFOS = ("PipelineMultisampleStateCreateInfo",)
 """Structures that are described even if no call takes them."""
 
 _RESOLVES = frozenset({
-    "vkCmdResolveImage", "vkCmdResolveImage2", "vkCmdResolveImage2KHR", "resolveImage", "resolveImage2", "cmdResolveImage", "cmdResolveImage2",
+    "vkCmdResolveImage", "vkCmdResolveImage2", "vkCmdResolveImage2KHR", "resolveImage", "resolveImage2", "cmdResolveImage",
+    "cmdResolveImage2",
 })  # fmt: skip
 
 _QUERIES = re.compile(r"[gG]et|Requirement|[pP]ropert|[fF]ind|[lL]og|[pP]rint|assert|Supported|[hH]ash|validate|setDebug|Name$")

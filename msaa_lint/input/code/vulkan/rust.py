@@ -106,4 +106,3 @@ class RustInterpreter(VulkanInterpreter):
             for name, cell in value[0].value.fields.items():
                 self.store(self.member_cell(f"{owner}::{name}"), cell.writes, cell.writes[-1].at if cell.writes else term[-1], scope)
         return value
-
