@@ -259,12 +259,13 @@ class Interpreter(Calls):
                 scope.scopes[-1][name] = cell
                 return
         cell = self.other_branch_variable(name, kind, scope) or Cell(kind, name)
-        scope.scopes[-1][name] = cell
         if initializer is None:
             value = UNKNOWN_VALUE if indirect else self.default_value(kind, name, place, scope)
         else:
             value = self.value(initializer, scope, kind)
             value = tuple(Alternative(self.stored_value(a.value, kind, name), a.at, a.guards) for a in value)
+        # An initializer can refer to a variable of the same name that this one shadows.
+        scope.scopes[-1][name] = cell
         cell.write(value, place, scope.guards)
         name_objects(value, name, scope)
         self.declared_structs += [(a.value, scope.guards) for a in value if isinstance(a.value, Struct) and a.value.kind]
