@@ -205,8 +205,13 @@ class Calls(ListMethods):
 
     def extreme(self, name: str, arguments: Sequence[Term], place: Span, scope: Scope) -> Value:
         values = [self.sole(argument, scope) for argument in arguments]
-        if not all(isinstance(value, (int, float)) for value in values):
-            return UNKNOWN_VALUE
+        known = [value for value in values if isinstance(value, (int, float))]
+        if len(known) < len(values):
+            # The lesser of a wish and a limit is chosen; the greater of an unknown number and one above 1 is above 1.
+            if 1 in known and name == "max":
+                return next((value for value in map(self.value, arguments, (scope, scope)) if sole_value(value) != 1), UNKNOWN_VALUE)
+            chosen = 1 not in known and (name == "min" or bool(known))
+            return (Alternative(Symbol(f"{name} at {place.start}", name, chosen), place),)
         return (Alternative(min(values) if name == "min" else max(values), place),)
 
 

@@ -216,6 +216,9 @@ class Evaluator(ConditionEvaluator):
             cell = content.cell
         if sign != "=":
             value = _combined(sign[:-1], cell.read(scope.guards), value, place) if not scope.unknown_loops else UNKNOWN_VALUE
+            if sign in (">>=", "/=") and sole_value(value) is UNKNOWN:
+                # What is halved until it fits is chosen by that.
+                value = (Alternative(Symbol(f"{_name_of(target)} at {place.start}", _name_of(target), True), place),)
         stored = tuple(Alternative(self.stored_value(a.value, cell.kind, _name_of(target)), a.at, a.guards) for a in value)
         self.store(cell, stored, place, scope)
         return value

@@ -12,7 +12,8 @@ from . import names
 _CAST = re.compile(r"(?:Vk|vk::)\w+(?:FlagBits2?|Flags2?|Bool32)(?:KHR|EXT)?$")
 
 _COUNTS = re.compile(
-    r"max.*sample|sample.*max|usable.*sample|supported.*sample|best.*sample|sample.*support|choose.*sample|pick.*sample|select.*sample",
+    r"max.*sample|sample.*max|usable.*sample|supported.*sample|best.*sample|sample.*support|choose.*sample|pick.*sample|select.*sample|clamp.*sample"
+    r"|^clamp$",
     re.IGNORECASE,
 )
 
