@@ -16,8 +16,9 @@ from msaa_lint.core.text.span import Span
 from msaa_lint.input.code.parsing import SyntaxNode
 
 from .chains import Chain
-from .masks import Bindings, Mask
+from .masks import Bindings, Mask, Order
 from .reading import Choice, ChoiceReader, Owner
+from .statements import live_children
 from .uses import Uses
 
 if TYPE_CHECKING:
@@ -47,6 +48,8 @@ def choices(root: SyntaxNode, code: Code) -> list[tuple[str, Span, Node]]:
             reading.statement(node, bindings, NOBODY, chains, 0)
         for target, chain in chains.items():
             reading.finish(target, chain, NOBODY)
+        lists = {name: value for name, value in bindings.items() if isinstance(value, Order)}
+        reading.expressions.members = {**lists, **reading.expressions.members}
         for node in relevant:
             reading.function(node)
     uses = Uses(root, reading.expressions) if reading.choices else None
@@ -71,7 +74,7 @@ def _functions_and_statements(root: SyntaxNode) -> tuple[list[SyntaxNode], list[
             if node.type == "declaration":
                 stack += [child for child in node.named_children if child.type.endswith("_specifier")]
         else:
-            stack += reversed(node.named_children)
+            stack += reversed(live_children(node))
     return functions, outside
 
 

@@ -137,7 +137,8 @@ class ChoiceReader:
                 self.combined.setdefault(value.at, (target or owner.name, value))
         if isinstance(value, Highest) and value.form == "COUNT":
             at = owner.at if target == RETURN and owner.at is not None else span(node) if node is not None else value.mask.at
-            most = 1 << (value.mask.allowed.bit_length() - 1) if value.mask.allowed else None
+            # The highest count of a mask from elsewhere, such as a setting, is not the device's highest.
+            most = 1 << (value.mask.allowed.bit_length() - 1) if value.mask.allowed and value.mask.limits and value.mask.known else None
             self.choices.append(Choice(target or owner.name, at, value.mask, (), most))
         elif target == RETURN and owner.name:
             returns = self.expressions.returns

@@ -31,6 +31,17 @@ def unwrapped(node: SyntaxNode | None) -> SyntaxNode | None:
     return node
 
 
+def live_children(node: SyntaxNode) -> list[SyntaxNode]:
+    """Returns the children of a node; of `#if 0` those of its `#else`, and of `#if 1` all but those."""
+    condition, alternative = fields(node, "condition", "alternative") if node.type in ("preproc_if", "preproc_elif") else (None, None)
+    holds = {b"0": False, b"1": True}.get(condition.text or b"") if condition is not None else None
+    if holds is None:
+        return node.named_children
+    if not holds:
+        return [alternative] if alternative is not None else []
+    return [child for child in node.named_children if child != alternative]
+
+
 def statements(node: SyntaxNode) -> Iterator[SyntaxNode]:
     """Yields the statements of a block or a single statement, including those in preprocessor blocks."""
     stack = [node]
@@ -38,7 +49,7 @@ def statements(node: SyntaxNode) -> Iterator[SyntaxNode]:
         inner = stack.pop()
         block = inner.type in ("compound_statement", "else_clause", "translation_unit") and (inner is node or node.type == "else_clause")
         if block or inner.type in _SPLICED:
-            stack += reversed(inner.named_children)
+            stack += reversed(live_children(inner))
         else:
             yield inner
 
