@@ -31,7 +31,7 @@ static void CreatePasses(void) {
             .format = ref_format,
             .samples = VK_SAMPLE_COUNT_1_BIT,
             .loadOp = multisampled ? VK_ATTACHMENT_LOAD_OP_DONT_CARE : ref_passes[PASS_WORLD].colorLoadOp,
-            .storeOp = multisampled ? VK_ATTACHMENT_STORE_OP_DONT_CARE : VK_ATTACHMENT_STORE_OP_STORE,  // expect-later: MSAA206
+            .storeOp = multisampled ? VK_ATTACHMENT_STORE_OP_DONT_CARE : VK_ATTACHMENT_STORE_OP_STORE,  // expect: MSAA206
             .stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE,
             .stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE,
             .finalLayout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,

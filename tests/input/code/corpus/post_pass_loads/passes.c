@@ -79,9 +79,9 @@ void Passes_Create(void) {
     }
     vkCreateRenderPass(renderer.device, &info, NULL, &renderer.scene);
 
-    attachments[0].loadOp = VK_ATTACHMENT_LOAD_OP_LOAD;  // expect-later: MSAA205
+    attachments[0].loadOp = VK_ATTACHMENT_LOAD_OP_LOAD;  // expect: MSAA205
     if (renderer.multisampled) {
-        attachments[1].loadOp = VK_ATTACHMENT_LOAD_OP_LOAD;  // expect-later: MSAA202  // may: MSAA403
+        attachments[1].loadOp = VK_ATTACHMENT_LOAD_OP_LOAD;  // expect: MSAA202  // may: MSAA403
         attachments[1].storeOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
     }
     vkCreateRenderPass(renderer.device, &info, NULL, &renderer.post);

@@ -101,7 +101,7 @@ void *GpuMakeOverlayPass(Gpu *gpu, uint32_t format) {
     descriptions[0].format = (VkFormat)format;
     descriptions[0].samples = sampleCounts[GPU_SAMPLES_4];
     descriptions[0].loadOp = loadOps[GPU_LOAD_CLEAR];
-    descriptions[0].storeOp = storeOps[GPU_STORE_RESOLVE_AND_KEEP];  // expect-later: MSAA201
+    descriptions[0].storeOp = storeOps[GPU_STORE_RESOLVE_AND_KEEP];  // expect: MSAA201
     descriptions[0].stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
     descriptions[0].stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
     descriptions[1].format = (VkFormat)format;
