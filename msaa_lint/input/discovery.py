@@ -34,6 +34,10 @@ class Scope(Protocol):
     def respect_gitignore(self) -> bool: ...
 
 
+InputsAmong = Callable[[Mapping[str, str | None], Mapping[str, str]], Iterable[str]]
+"""Of the inputs and the other source files of folders, with their projects: those of the latter that are inputs, too."""
+
+
 class Discovered(NamedTuple):
     """The input files, each once and sorted, as findings name them; findings about paths; notes for the user.
 
@@ -49,7 +53,11 @@ class Discovered(NamedTuple):
 
 
 def discover(
-    paths: Iterable[str], settings_for: Callable[[str], Scope], sources: bool = False, log: Callable[[str], None] | None = None
+    paths: Iterable[str],
+    settings_for: Callable[[str], Scope],
+    sources: bool = False,
+    log: Callable[[str], None] | None = None,
+    inputs_among: InputsAmong | None = None,
 ) -> Discovered:
     """The files to lint.
 
@@ -60,6 +68,7 @@ def discover(
     itself wrote are skipped. Links to folders are not followed; links to files are if they stay in the project. A missing path and a
     folder without inputs are findings (MSAA921).
 
+    `inputs_among` says which of the other source files of folders are inputs because of the programs that they belong to.
     `settings_for` gives the settings of a file or folder. `-` stays as it is. `log` is called with a line for each path that is skipped.
     """
     walk = _Walk(settings_for, sources, log)
@@ -77,6 +86,14 @@ def discover(
         else:
             reason = ": it is a broken link" if os.path.lexists(path) else ""
             walk.findings.append(diagnostic("MSAA921", f"no such file or folder {quoted(path)}{reason}", shown(path)))
+    if walk.related and inputs_among is not None:
+        for name in inputs_among(walk.files, {name: search.project for name, search in walk.related.items()}):
+            if name in walk.related:
+                search = walk.related.pop(name)
+                walk.files[name] = search.project
+                search.inputs += 1
+    for search in walk.searches:
+        walk.check_inputs(search)
     if walk.unreadable_sources:
         walk.notes.append(f"{_count(walk.unreadable_sources, 'source file')} skipped: {missing_extra()}")
     near = sorted(walk.near.keys() - walk.files.keys(), key=_by_folder)
@@ -90,7 +107,7 @@ def discover(
     if binary:
         walk.notes.append(_unconverted(binary))
     projects = {file: project for file, project in walk.files.items() if project is not None}
-    related = {name: walk.related[name] for name in sorted(walk.related.keys() - walk.files.keys(), key=_by_folder)}
+    related = {name: walk.related[name].project for name in sorted(walk.related.keys() - walk.files.keys(), key=_by_folder)}
     return Discovered(sorted(walk.files, key=_by_folder), walk.findings, list(dict.fromkeys(walk.notes)), projects, related)
 
 
@@ -130,11 +147,16 @@ class _Folder(NamedTuple):
 
 
 class _Search:
-    """The search of one named folder: its project, the number of inputs, and the candidates that `exclude` and ignore files skip."""
+    """The search of one named folder: its project, the numbers of inputs, problems, and files that are no inputs, and the candidates that
+    `exclude` and ignore files skip."""
 
     def __init__(self, top: str) -> None:
+        self.top = top
         self.project = project_root(top)
         self.inputs = 0
+        self.problems = 0
+        self.unreadable = 0
+        self.near = 0
         self.excluded: list[tuple[os.DirEntry[str], str, Sequence[Glob]]] = []
         self.ignored: list[str] = []
 
@@ -149,7 +171,8 @@ class _Walk:
         self.log = log
         self.unreadable_sources = 0
         self.files: dict[str, str | None] = {}
-        self.related: dict[str, str] = {}
+        self.related: dict[str, _Search] = {}
+        self.searches: list[_Search] = []
         self.near: dict[str, None] = {}
         self.binary: dict[str, None] = {}
         self.findings: list[Finding] = []
@@ -177,10 +200,15 @@ class _Walk:
                 continue
             if folder.path == top or all(entry.name != "pyvenv.cfg" for entry in entries):
                 self._add_entries(folder, entries, search, waiting)
-        if not search.inputs and len(self.findings) == findings:
-            no_extra = self.unreadable_sources > unreadable
-            reason = missing_extra() if no_extra else self._reason(search, len(self.near) - near)
-            self.findings.append(diagnostic("MSAA921", f"nothing to lint in {quoted(top)}: {reason}", shown(top)))
+        search.problems = len(self.findings) - findings
+        search.unreadable, search.near = self.unreadable_sources - unreadable, len(self.near) - near
+        self.searches.append(search)
+
+    def check_inputs(self, search: _Search) -> None:
+        """Adds a finding for a folder without inputs, unless another one says why."""
+        if not search.inputs and not search.problems:
+            reason = missing_extra() if search.unreadable else self._reason(search, search.near)
+            self.findings.append(diagnostic("MSAA921", f"nothing to lint in {quoted(search.top)}: {reason}", shown(search.top)))
 
     def _add_entries(self, folder: _Folder, entries: Sequence[os.DirEntry[str]], search: _Search, waiting: list[_Folder]) -> None:
         """Adds the inputs among the entries of a folder, and its folders to `waiting`."""
@@ -233,7 +261,7 @@ class _Walk:
         if kind == OTHER:
             self.skip(path, "not an input")
             if entry.name.lower().endswith(SOURCES) and entry.is_file(follow_symlinks=False):
-                self.related[shown(path)] = search.project
+                self.related[shown(path)] = search
         if kind == NEAR:
             self.near[shown(path)] = None
         elif kind == BINARY:

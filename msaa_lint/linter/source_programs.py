@@ -2,18 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Container, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
+from msaa_lint.core.project import folder_of, project_root, shown
 from msaa_lint.core.text.files import open_file
 from msaa_lint.input.file_types import HEAD_BYTES, LANGUAGES
 
 if TYPE_CHECKING:
-    from msaa_lint.input.code.project.programs import Program, Project
+    from msaa_lint.input.code.project.nearby import Nearby
+    from msaa_lint.input.code.project.programs import Entry, Program, Project
     from msaa_lint.input.source_file import SourceText
 
 MAX_BYTES = (4 << 20) + 1
 """The number of bytes of a file that are read to see what it defines; a longer one is not read."""
+
+MAX_ELSEWHERE = 1000
+"""The number of files that are read because inputs include them."""
 
 TOGETHER = ("c", "cpp", "objc", "objcpp")
 """The languages whose files are read together."""
@@ -23,12 +28,13 @@ _ENDINGS = tuple(ending for language in TOGETHER for ending in LANGUAGES[languag
 
 class ProgramInput(NamedTuple):
     """The source files of a program, by path, in the order of reading. Findings are reported in `inputs`; `includes` has the numbers of the
-    files that each file includes, and `headers` says which are headers."""
+    files that each file includes, `headers` says which are headers, and `roots` has the projects that they must be in."""
 
     paths: tuple[str, ...]
     inputs: tuple[str, ...]
     includes: tuple[tuple[int, ...], ...]
     headers: tuple[bool, ...]
+    roots: tuple[str | None, ...]
 
 
 def is_read_together(path: str) -> bool:
@@ -37,33 +43,72 @@ def is_read_together(path: str) -> bool:
 
 
 def programs(inputs: Iterable[str], related: Mapping[str, str], projects: Mapping[str, str]) -> list[ProgramInput]:
-    """The programs of source files, by their first file. `related` are the other source files, with their projects; `projects` has those of
-    inputs that are not named. A file that cannot be read is in none."""
-    from msaa_lint.input.code.project.index import words
-    from msaa_lint.input.code.project.programs import Entry, Project
+    """The programs of source files, by their first file. `related` are the other source files of folders, with their projects; `projects`
+    has those of inputs that are not named. What the inputs include elsewhere in their projects is read, too. A file that cannot be read is
+    in no program."""
+    from msaa_lint.input.code.project.programs import Project
 
-    entries: list[Entry] = []
-    named = set(inputs)
-    for path in sorted({*named, *related}):
-        if is_read_together(path):
-            data = _data(path, related.get(path) or projects.get(path))
-            if data is not None:
-                entries.append(Entry(path, len(data), words(data), path in named))
-    project = Project(entries)
-    return [_input(project, program) for program in project.programs()]
+    search = _Search({path for path in inputs if is_read_together(path)}, {**projects, **related})
+    search.add(sorted({*search.inputs, *filter(is_read_together, related)}), related)
+    project = Project([search.entries[path] for path in sorted(search.entries)])
+    return [_input(project, program, search.roots) for program in project.programs()]
 
 
-def _input(project: Project, program: Program) -> ProgramInput:
+class _Search:
+    """The files of programs. `roots` has the projects that files must be in; a named file may be anywhere."""
+
+    def __init__(self, inputs: set[str], roots: dict[str, str]) -> None:
+        self.inputs = inputs
+        self.roots = roots
+        self.entries: dict[str, Entry] = {}
+        self.nearby: dict[str, Nearby] = {}
+
+    def add(self, paths: Sequence[str], candidates: Container[str]) -> None:
+        """Reads files, and searches the files that inputs include, and that these include."""
+        from msaa_lint.input.code.project.index import words
+        from msaa_lint.input.code.project.programs import Entry
+
+        waiting = list(paths)
+        known = set(paths)
+        names = {path.rpartition("/")[2] for path in paths}
+        elsewhere: set[str] = set()
+        for path in waiting:
+            data = _data(path, self.roots.get(path))
+            if data is None:
+                continue
+            entry = self.entries[path] = Entry(path, len(data), words(data), path in self.inputs, path in candidates)
+            if path not in self.inputs and path not in elsewhere:
+                continue
+            near = self.near(path)
+            stated = (name for name in entry.words.includes if "." in name and name.rpartition("/")[2] not in names)
+            for header in map(shown, near.included(path, stated)):
+                for other in (header, *map(shown, near.sources(header))):
+                    if other not in known and is_read_together(other) and len(elsewhere) < MAX_ELSEWHERE:
+                        known.add(other)
+                        elsewhere.add(other)
+                        self.roots[other] = near.root
+                        waiting.append(other)
+
+    def near(self, path: str) -> Nearby:
+        """The search in the project of a file."""
+        from msaa_lint.input.code.project.nearby import Nearby
+
+        root = self.roots.get(path) or project_root(folder_of(path))
+        return self.nearby.setdefault(root, Nearby(root))
+
+
+def _input(project: Project, program: Program, roots: Mapping[str, str]) -> ProgramInput:
     """The files of a program that are read: headers before sources."""
-    own = [number for number in program.files if project.entries[number].is_input or project.entries[number].words.is_related]
+    inputs = set(program.inputs)
+    own = [number for number in program.files if number in inputs or project.entries[number].words.is_related]
     numbers = sorted((*own, *program.seen), key=lambda number: (not project.headers[number], number))
     position = {number: at for at, number in enumerate(numbers)}
-    inputs = [number for number in own if project.entries[number].is_input]
     return ProgramInput(
         tuple(project.entries[number].path for number in numbers),
-        tuple(project.entries[number].path for number in inputs),
+        tuple(project.entries[number].path for number in program.inputs),
         tuple(tuple(position[other] for other in project.includes[number] if other in position) for number in numbers),
         tuple(project.headers[number] for number in numbers),
+        tuple(roots.get(project.entries[number].path) for number in numbers),
     )
 
 

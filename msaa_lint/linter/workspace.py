@@ -15,6 +15,7 @@ from msaa_lint.core.text.tree import Limits
 from msaa_lint.frame.devices import DeviceProfile
 from msaa_lint.frame.profiles import Problem, profile_of
 from msaa_lint.input import opening
+from msaa_lint.input.code import installed
 from msaa_lint.input.discovery import Discovered, discover
 from msaa_lint.input.file_types import STDIN
 
@@ -154,6 +155,7 @@ class Workspace:
         self._resolved: dict[str | None, ResolvedSettings] = {}
         self._engines: dict[object, Engine] = {}
         self._projects: Mapping[str, str] = {}
+        self._programs: list[ProgramInput] | None = None
         self.failed: set[str] = set()
         """The inputs that could not be read as part of a program."""
         self._limits = RunLimits()
@@ -213,7 +215,7 @@ class Workspace:
 
     def discover(self, sources: bool = False) -> Discovered:
         """The inputs that the request names; `sources` includes the source code in folders."""
-        found = discover(self.request.paths, self.settings, sources, self.request.log)
+        found = discover(self.request.paths, self.settings, sources, self.request.log, self._inputs_among if sources else None)
         self.findings.extend(found.findings)
         self._projects = found.projects
         return found
@@ -247,23 +249,35 @@ class Workspace:
         options = LintOptions(severity, resolved.limits, request.format, device, request.ignores, False, self._keys, request.all_keys)
         return InputFile(path, name, data, resolved, options, self.current.settings.min_severity, request.log)
 
+    def _inputs_among(self, files: Mapping[str, str | None], related: Mapping[str, str]) -> list[str]:
+        """The inputs among source files of folders: those of the programs that use multisampling."""
+        if self.request.format is None and installed():
+            self._programs = self._find_programs(files, related)
+        return [path for program in self._programs or () for path in program.inputs]
+
     def programs(self, discovered: Discovered) -> list[ProgramInput]:
         """The programs that the source files among the inputs form; files under different configurations are in different ones."""
-        if self.request.format is not None or not any(map(is_read_together, discovered.files)):
-            return []
+        if self._programs is None:
+            files = {path: discovered.projects.get(path) for path in discovered.files}
+            self._programs = self._find_programs(files, discovered.related) if self.request.format is None else []
+        return self._programs
+
+    def _find_programs(self, files: Mapping[str, str | None], related: Mapping[str, str]) -> list[ProgramInput]:
         by_settings: dict[str | None, tuple[list[str], dict[str, str]]] = {}
-        for path in discovered.files:
+        for path in (*files, *related):
             if path != STDIN and is_read_together(path):
-                by_settings.setdefault(self.resolve(path).configuration, ([], {}))[0].append(path)
-        for path, project in discovered.related.items():
-            related = by_settings.get(self.resolve(path).configuration)
-            if related is not None and is_read_together(path):
-                related[1][path] = project
-        return [program for inputs, related in by_settings.values() for program in programs(inputs, related, discovered.projects)]
+                inputs, others = by_settings.setdefault(self.resolve(path).configuration, ([], {}))
+                if path in files:
+                    inputs.append(path)
+                else:
+                    others[path] = related[path]
+        projects = {path: project for path, project in files.items() if project is not None}
+        return [program for inputs, others in by_settings.values() for program in programs(inputs, others, projects)]
 
     def open_program(self, program: ProgramInput) -> InputFile | None:
         """Reads the files of a program, with a finding for each input that cannot be read; None if they cannot be read together."""
-        texts: list[SourceText | None] = [self._text(path, path in program.inputs) for path in program.paths]
+        inputs = set(program.inputs)
+        texts = [self._text(path, path in inputs, root) for path, root in zip(program.paths, program.roots, strict=True)]
         kept = [number for number, text in enumerate(texts) if text is not None]
         position = {number: at for at, number in enumerate(kept)}
         read = [text for text in texts if text is not None]
@@ -294,13 +308,12 @@ class Workspace:
         options = file.options._replace(severity=severity, severity_in=lambda other: resolved.selection.for_file(other, vendor))
         return file._replace(options=options)
 
-    def _text(self, path: str, is_input: bool) -> "SourceText | None":
+    def _text(self, path: str, is_input: bool, project: str | None) -> "SourceText | None":
         """The text of a source file; None, after adding a finding if it is an input, if it cannot be read. An input with other content than
         its name states is left to `open`."""
         from msaa_lint.input.code import check_length
         from msaa_lint.input.source_file import SourceText
 
-        project = self._projects.get(path)
         if not is_input:
             return related_text(path, project)
         try:

@@ -25,6 +25,20 @@ _MULTISAMPLING = re.compile(
 """Words about multisampling, except for the state that every pipeline has and the one sample that every image states."""
 
 
+_COUNT = re.compile(r"SAMPLE_COUNT_(?:2|4|8|16|32|64)_BIT|SampleCountFlagBits::e(?:2|4|8|16|32|64)\b")
+"""A sample count above one."""
+
+
+def mentions_api(text: str) -> bool:
+    """Returns whether a text mentions an API that the rules check."""
+    return _API.search(text) is not None
+
+
+def mentions_multisampling(text: str) -> bool:
+    """Returns whether a text mentions multisampling."""
+    return _MULTISAMPLING.search(text) is not None or _COUNT.search(text) is not None
+
+
 def speaks(text: str) -> bool:
     """Returns whether a text mentions both an API that the rules check and multisampling."""
     return _API.search(text) is not None and _MULTISAMPLING.search(text) is not None

@@ -46,6 +46,8 @@ class Calls(ListMethods):
     def __init__(self, unit: Unit, library: Library, fragments: bool, is_cpp: bool, work: Work) -> None:
         super().__init__(unit, library, fragments, is_cpp, work)
         self.functions = Overloads(unit.functions)
+        self.followed: set[Span] = set()
+        """The functions that a call was followed to."""
 
     @abstractmethod
     def external_call(self, term: Term, name: str, owner: Term | None, values: Sequence[Value], scope: Scope) -> Value:
@@ -182,6 +184,7 @@ class Calls(ListMethods):
                 cells[parameter.name] = Cell(parameter.type, parameter.name, value, f"default({parameter.name})")
         inner = Scope(function.class_name or scope.class_name, function.namespace, (*scopes, cells), scope.guards, (*scope.calls, term[3]))
         inner.active_functions = (*scope.active_functions, function.at)
+        self.followed.add(function.at)
         inner.unknown_loops = scope.unknown_loops
         inner.return_type = function.return_type
         inner.iterations = scope.iterations

@@ -55,13 +55,12 @@ class Interpreter(Calls):
 
     def run(self) -> None:
         """Executes the file until the values of members no longer change, or until it exceeds a limit, which `unread` then says."""
-        entry_points = self.entry_points()
         function = None
         try:
             for _ in range(MAX_PASSES):
                 self.begin()
                 writes_by_key: dict[str, dict[tuple[Any, ...], Alternative]] = {}
-                for function in entry_points:
+                for function in self.reached_functions():
                     self.overlay, self.initial = {}, {}
                     self.run_entry_point(function)
                     for key, cell in self.overlay.items():
@@ -79,6 +78,15 @@ class Interpreter(Calls):
             # Of half a frame, too much would be said: that nothing reads an image, for example.
             self.begin()
             self.unread = Unread(self.work.message(error), function.at if function is not None else Span(0, 0))
+
+    def reached_functions(self) -> Iterator[Function]:
+        """Yields the entry points, and then the functions that no call of these was followed to: another function may have their name."""
+        entry_points = self.entry_points()
+        yield from entry_points
+        known = {function.at for function in entry_points}
+        for function in self.unit.functions:
+            if function.at not in known and function.at not in self.followed:
+                yield function
 
     def entry_points(self) -> list[Function]:
         # The constructor of a member runs where the object is created; no call of it appears.

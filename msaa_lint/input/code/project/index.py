@@ -8,11 +8,16 @@ from __future__ import annotations
 import re
 from typing import NamedTuple
 
+from msaa_lint.input.code import mentions
+
 MAX_BYTES = 4 << 20
 """The number of bytes of a file that are searched, which is the maximum length of a source file."""
 
 HEADERS = (".h", ".hpp", ".hh", ".hxx", ".h++", ".inl", ".ipp", ".tpp", ".inc")
 """The endings of files that sources include."""
+
+SOURCES = (".cpp", ".c", ".cc", ".cxx", ".mm", ".m")
+"""The endings of files that define what headers declare."""
 
 _INCLUDE = re.compile(rb'^[ \t]*#[ \t]*(?:include|import)[ \t]*[<"]([^>"\r\n]{1,400})[>"]', re.MULTILINE)
 
@@ -36,12 +41,14 @@ _RELATED = re.compile(rb"VK_|\bVk[A-Z]|\bvk::|MTL|[sS]ampl|SAMPL|[mM]saa|MSAA|[m
 
 class Words(NamedTuple):
     """The words of a file. `names` are the classes and functions that it declares or defines; `is_related` says whether it can matter to
-    files that use multisampling."""
+    files that use multisampling, `has_api` and `has_multisampling` what it mentions itself."""
 
     includes: tuple[str, ...]
     names: frozenset[str]
     has_main: bool
     is_related: bool
+    has_api: bool
+    has_multisampling: bool
 
 
 def words(data: bytes) -> Words:
@@ -51,7 +58,16 @@ def words(data: bytes) -> Words:
         data = data.decode("utf-16", "replace").encode()
     includes = dict.fromkeys(name.decode("utf-8", "replace").replace("\\", "/") for name in _INCLUDE.findall(data))
     names = {name.decode() for pattern in (_CLASS, _FUNCTION) for name in pattern.findall(data)}
-    return Words(tuple(includes), frozenset(names), _MAIN.search(data) is not None, _RELATED.search(data) is not None)
+    related = _RELATED.search(data) is not None
+    text = data[: mentions.MAX_BYTES].decode("latin-1") if related else ""
+    return Words(
+        tuple(includes),
+        frozenset(names),
+        _MAIN.search(data) is not None,
+        related,
+        related and mentions.mentions_api(text),
+        related and mentions.mentions_multisampling(text),
+    )
 
 
 def is_header(name: str) -> bool:

@@ -21,18 +21,23 @@ VISIBLE_SHARE = 4
 
 
 class Entry(NamedTuple):
-    """A file of a project: its path with `/`, its length, its words, and whether findings in it are reported."""
+    """A file of a project: its path with `/`, its length, and its words.
+
+    Findings in an input are reported. A `candidate` becomes an input if it uses the API in a program that mentions multisampling.
+    """
 
     path: str
     length: int
     words: Words
     is_input: bool
+    is_candidate: bool = False
 
 
 class Program(NamedTuple):
-    """The numbers of the files of a program: its own, and those that it sees."""
+    """The numbers of the files of a program: its own, those of them that are inputs, and those that it sees."""
 
     files: tuple[int, ...]
+    inputs: tuple[int, ...]
     seen: tuple[int, ...]
 
 
@@ -80,8 +85,10 @@ class Project:
         programs = []
         for group in groups:
             numbers = sorted(number for component in group for module in components[component] for number in modules[module])
-            if any(self.entries[number].is_input for number in numbers):
-                programs.append(Program(tuple(numbers), self._seen(numbers)))
+            seen = self._seen(numbers)
+            inputs = self._inputs(numbers, seen)
+            if inputs:
+                programs.append(Program(tuple(numbers), inputs, seen))
         return sorted(programs, key=lambda program: program.files)
 
     def _modules(self) -> list[list[int]]:
@@ -103,6 +110,14 @@ class Project:
                 used.add(owner[self.mates[self.folders[number]]])
         used.discard(owner[numbers[0]])
         return used
+
+    def _inputs(self, numbers: Sequence[int], seen: Sequence[int]) -> tuple[int, ...]:
+        """Returns the inputs of a program, whose own files have `numbers`."""
+        entries = self.entries
+        candidates = [number for number in numbers if entries[number].is_candidate and entries[number].words.has_api]
+        if candidates and not any(entries[number].words.has_multisampling for number in (*numbers, *seen)):
+            candidates = []
+        return tuple(sorted({*candidates, *(number for number in numbers if entries[number].is_input)}))
 
     def _seen(self, numbers: Sequence[int]) -> tuple[int, ...]:
         """Returns the files of other programs that a program sees, the nearest first, as far as there is room."""
