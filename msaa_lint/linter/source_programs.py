@@ -76,7 +76,7 @@ class _Search:
             data = _data(path, self.roots.get(path))
             if data is None:
                 continue
-            entry = self.entries[path] = Entry(path, len(data), words(data), path in self.inputs, path in candidates)
+            entry = self.entries[path] = Entry(path, len(data), words(path, data), path in self.inputs, path in candidates)
             if path not in self.inputs and path not in elsewhere:
                 continue
             near = self.near(path)

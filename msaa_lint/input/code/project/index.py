@@ -35,6 +35,12 @@ _CLASS = re.compile(
 _FUNCTION = re.compile(rb"^[A-Za-z_][\w \t*&:<>,]{0,200}?[ \t*&]([A-Za-z_]\w*)(?:::~?\w+)?[ \t]*\(", re.MULTILINE)
 """A function that is declared or defined at the left margin; of a method, its class."""
 
+_API = re.compile(
+    r"vulkan(?:_core|_beta|_structs|_raii|_handles|_enums|_funcs|_hash|_to_string|_shared|_video|_format_traits|_static_assertions"
+    r"|_extension_inspection|_hpp_macros)?\.(?:h|hpp|cppm)|vk_(?:platform|layer|icd|mem_alloc|enum_string_helper)\.h|volk\.[ch]"
+)
+"""The names of files of Vulkan itself and of its allocator, whose definitions are known."""
+
 _RELATED = re.compile(rb"VK_|\bVk[A-Z]|\bvk::|MTL|[sS]ampl|SAMPL|[mM]saa|MSAA|[mM]ulti[sS]|MULTIS")
 """What a file has that can matter to another one that uses multisampling."""
 
@@ -51,14 +57,14 @@ class Words(NamedTuple):
     has_multisampling: bool
 
 
-def words(data: bytes) -> Words:
+def words(name: str, data: bytes) -> Words:
     """Returns the words of a file, in time linear in its length."""
     data = data[:MAX_BYTES]
     if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
         data = data.decode("utf-16", "replace").encode()
     includes = dict.fromkeys(name.decode("utf-8", "replace").replace("\\", "/") for name in _INCLUDE.findall(data))
     names = {name.decode() for pattern in (_CLASS, _FUNCTION) for name in pattern.findall(data)}
-    related = _RELATED.search(data) is not None
+    related = _API.fullmatch(name.rpartition("/")[2]) is None and _RELATED.search(data) is not None
     text = data[: mentions.MAX_BYTES].decode("latin-1") if related else ""
     return Words(
         tuple(includes),

@@ -224,7 +224,7 @@ class VulkanInterpreter(Interpreter):
     def vma_memory(self, info: Struct) -> Value:
         """Returns the memory properties that a VmaAllocationCreateInfo requests."""
         usage = sole_value(info.fields["usage"].writes) if "usage" in info.fields else None
-        if isinstance(usage, Symbol) and usage.name == "VMA_MEMORY_USAGE_GPU_LAZILY_ALLOCATED":
+        if usage == "VMA_MEMORY_USAGE_GPU_LAZILY_ALLOCATED":
             return (Alternative("LAZILY_ALLOCATED", info.fields["usage"].writes[-1].at),)
         for name in ("requiredFlags", "preferredFlags"):
             if name in info.fields and all(_of_memory(a.value) for a in info.fields[name].writes):

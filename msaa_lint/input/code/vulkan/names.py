@@ -138,6 +138,8 @@ def constant(name: str) -> int | str | bool | None:
 
     None for other names.
     """
+    if name.startswith("VMA_MEMORY_USAGE_"):
+        return name
     if name.startswith("VK_"):
         count = _COUNT.match(name)
         if count is not None:

@@ -116,7 +116,7 @@ def test_programs_side_by_side_stay_apart(tmp_path: Path) -> None:
 
 
 def test_programs_in_folders_see_their_own_header_and_what_is_shared(tmp_path: Path) -> None:
-    shared = settings(8).replace("SAMPLES", "SHARED_SAMPLES")
+    shared = settings(4).replace("SAMPLES", "SHARED_SAMPLES")
     include = '#include "../base/shared.h"\n#include "settings.h"\n'
     body = PASS.partition("\n")[2]
     write(
