@@ -141,6 +141,5 @@ def test_the_example_in_code() -> None:
     assert found == [
         (29, "source-sample-masks-compared"),
         (61, "multisampled-attachment-stored"),
-        (61, "transient-needs-memory"),
         (95, "multisampled-image-not-transient"),
     ]

@@ -21,6 +21,7 @@ from msaa_lint.frame.profiles import Problem, device_for, replace_captured
 
 from .code_confidence import Qualifier
 from .code_files import code_only, hidden_in, in_file, in_order
+from .mistakes import one_per_mistake
 from .programs import merge, merged, of_turns
 from .results import DocumentResult, FileResult, location_order
 from .rules.budget import Budget
@@ -174,7 +175,7 @@ class Engine:
             undecided.update(rule.rule for rule in verdicts.undecided)
             results.append(DocumentResult(document, verdicts.fix_specs, number, device, verdicts.checked))
         # Functions that share a structure are separate documents with the same finding.
-        in_program, suppressed = self._by_file(code, distinct(findings), options, undecided)
+        in_program, suppressed = self._by_file(code, distinct(findings), results, options, undecided)
         if options.prices:
             own = [found for _, found in in_program if found is not None]
             priced = iter(_with_fixes(results, own, options, editable=False))
@@ -186,10 +187,17 @@ class Engine:
         return FileResult(file, code.source, findings, [], suppressed, results, True, sources=sources)
 
     def _by_file(
-        self, code: SourceFile, findings: Sequence[Finding], options: LintOptions, undecided: Collection[str]
+        self,
+        code: SourceFile,
+        findings: Sequence[Finding],
+        results: Sequence[DocumentResult],
+        options: LintOptions,
+        undecided: Collection[str],
     ) -> tuple[list[tuple[Finding, Finding | None]], list[Suppressed]]:
-        """The findings of a program that are not suppressed where they lie, each with the finding whose places are in the program's text,
-        None if it is about the file; and the suppressed findings."""
+        """The findings of a program that are not suppressed where they lie, one for each mistake, and the suppressed findings.
+
+        With each of them is the finding whose places are in the program's text, None if it is about the file.
+        """
         by_file: dict[int, list[tuple[Finding, Finding]]] = {}
         for found in findings:
             part, located = in_file(code, found)
@@ -201,17 +209,27 @@ class Engine:
                 continue
             severity = options.severity if options.severity_in is None else options.severity_in(part.source.name)
             disabled = {rule.code for rule in self.registry.rules if severity(rule, rule.severity, None) is None}
-            pairs = [(located, found) for located, found in by_file.get(part.start, []) if located.code not in disabled]
+            enabled = [found for located, found in by_file.get(part.start, []) if located.code not in disabled]
+            merged = one_per_mistake(enabled, results, self._place_of)
+            pairs = [(in_file(code, found)[1], found) for found in merged]
+            covered = {found.rule for found in enabled} - {found.rule for found in merged}
             every = [*(located for located, _ in pairs), *hidden_in(part)]
             if options.ignores and _has_suppressions(part.source.text):
                 from msaa_lint.input.code.comments import comments
 
                 found_comments = comments(part.codes)
-                every, hidden = self._suppress(every, found_comments.comments, code_only(part), severity, undecided, found_comments.alone)
+                every, hidden = self._suppress(
+                    every, found_comments.comments, code_only(part), severity, {*undecided, *covered}, found_comments.alone
+                )
                 suppressed += hidden
             origins = {id(located): found for located, found in pairs}
             remaining += [(each, origins.get(id(each))) for each in every]
         return remaining, suppressed
+
+    def _place_of(self, code: str) -> str:
+        """The fact at whose place a rule reports; empty if there is none."""
+        rule = next((rule for rule in self.registry.rules if rule.code == code), None)
+        return next(iter(rule.at), "") if rule is not None else ""
 
     def lint_document(
         self, document: Document, file: str, options: LintOptions, broken: bool = False

@@ -90,7 +90,7 @@ private:
             .resolveImageView = *swapChainViews[index],
             .resolveImageLayout = vk::ImageLayout::eColorAttachmentOptimal,
             .loadOp = vk::AttachmentLoadOp::eClear,
-            .storeOp = vk::AttachmentStoreOp::eStore,  // expect: MSAA201  // may: MSAA403
+            .storeOp = vk::AttachmentStoreOp::eStore,  // expect: MSAA201
         };
         vk::RenderingAttachmentInfo depth{
             .imageView = *depthView,

@@ -67,7 +67,7 @@ void Renderer::record(VkCommandBuffer cmd, uint32_t index) {
     colorAttachment.resolveImageView = swapchainViews[index];
     colorAttachment.resolveImageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
     colorAttachment.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
-    colorAttachment.storeOp = VK_ATTACHMENT_STORE_OP_STORE;  // expect: MSAA201, MSAA403
+    colorAttachment.storeOp = VK_ATTACHMENT_STORE_OP_STORE;  // expect: MSAA201
     colorAttachment.clearValue.color = {{0.1f, 0.1f, 0.1f, 1.0f}};
 
     VkRenderingAttachmentInfo depthAttachment{.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};

@@ -30,7 +30,7 @@ private:
         std::array<vk::AttachmentDescription, 3> attachments;
         attachments[0] = vk::AttachmentDescription(
             vk::AttachmentDescriptionFlags(), colorFormat_, vk::SampleCountFlagBits::e4, vk::AttachmentLoadOp::eClear,
-            vk::AttachmentStoreOp::eStore,  // expect: MSAA201  // may: MSAA403
+            vk::AttachmentStoreOp::eStore,  // expect: MSAA201
             vk::AttachmentLoadOp::eDontCare, vk::AttachmentStoreOp::eDontCare, vk::ImageLayout::eUndefined,
             vk::ImageLayout::eColorAttachmentOptimal);
         attachments[1] = vk::AttachmentDescription(

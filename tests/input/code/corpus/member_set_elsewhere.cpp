@@ -51,7 +51,7 @@ bool Renderer::initPass() {
     attachments[0].format = VK_FORMAT_R8G8B8A8_UNORM;
     attachments[0].samples = m_samples;
     attachments[0].loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
-    attachments[0].storeOp = VK_ATTACHMENT_STORE_OP_STORE;  // expect: MSAA201  // may: MSAA403
+    attachments[0].storeOp = VK_ATTACHMENT_STORE_OP_STORE;  // expect: MSAA201
     attachments[0].finalLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
     attachments[1].format = VK_FORMAT_D32_SFLOAT;
     attachments[1].samples = m_samples;

@@ -103,7 +103,7 @@ void Application::recordCommandBuffer(uint32_t imageIndex) {
                                                    .resolveImageView = *swapChainImageViews[imageIndex],
                                                    .resolveImageLayout = vk::ImageLayout::eColorAttachmentOptimal,
                                                    .loadOp = vk::AttachmentLoadOp::eClear,
-                                                   .storeOp = vk::AttachmentStoreOp::eStore,  // expect: MSAA201, MSAA403
+                                                   .storeOp = vk::AttachmentStoreOp::eStore,  // expect: MSAA201
                                                    .clearValue = clearColor};
     vk::RenderingAttachmentInfo depthAttachment = {.imageView = *depthImageView,
                                                    .imageLayout = vk::ImageLayout::eDepthAttachmentOptimal,

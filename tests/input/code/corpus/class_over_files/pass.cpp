@@ -7,7 +7,7 @@ void Renderer::createRenderPass() {
     color.format = surfaceFormat;
     color.samples = samples;
     color.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
-    color.storeOp = VK_ATTACHMENT_STORE_OP_STORE;  // expect: MSAA201  // may: MSAA403
+    color.storeOp = VK_ATTACHMENT_STORE_OP_STORE;  // expect: MSAA201
     color.stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
     color.stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
     color.finalLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;

@@ -40,7 +40,7 @@ public:
             .resolveImageView = resolved_.at(frame).view(),
             .resolveImageLayout = vk::ImageLayout::eColorAttachmentOptimal,
             .loadOp = vk::AttachmentLoadOp::eClear,
-            .storeOp = vk::AttachmentStoreOp::eStore,  // expect: MSAA201  // may: MSAA403
+            .storeOp = vk::AttachmentStoreOp::eStore,  // expect: MSAA201
         };
         vk::RenderingAttachmentInfo depth{
             .imageView = depth_.at(frame).view(),

@@ -8,7 +8,7 @@ VkRenderPass createPass(const Device& device) {
     color.format = VK_FORMAT_B8G8R8A8_SRGB;
     color.samples = device.samples();
     color.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
-    color.storeOp = VK_ATTACHMENT_STORE_OP_STORE;  // expect: MSAA201  // may: MSAA403
+    color.storeOp = VK_ATTACHMENT_STORE_OP_STORE;  // expect: MSAA201
     color.stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
     color.stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
 
