@@ -5,9 +5,12 @@ from __future__ import annotations
 import re
 from abc import abstractmethod
 from collections.abc import Sequence
+from itertools import islice
 
 from msaa_lint.core.text.span import Span
 
+from .conditions import canonical_text
+from .guards import brief
 from .library import Library
 from .limits import Work
 from .lists import ListMethods
@@ -20,6 +23,7 @@ from .values import (
     UNKNOWN,
     UNKNOWN_VALUE,
     Alternative,
+    ApiObject,
     Cell,
     Closure,
     Ref,
@@ -76,7 +80,10 @@ class Calls(ListMethods):
             callee = None
         this_object = self.receiver(callee, owner, scope) if callee is not None and callee.class_name else None
         if callee is not None and this_object is not OTHERS and self.may_follow(callee, place, scope):
-            return self.call_function(callee, term, scope, this_object)
+            before = len(self.current_objects)
+            result = self.call_function(callee, term, scope, this_object)
+            is_method = bool(callee.class_name) and owner is not None and owner[:2] != (NAME, "this")
+            return self.result_of_unknown_object(result, callee, term, before) if is_method and this_object is None else result
         if owner is None:
             if function[0] == NAME and (instance := self.construct_class(function[1], term, scope)) is not None:
                 return instance
@@ -172,6 +179,20 @@ class Calls(ListMethods):
         ):
             return (Alternative(Symbol(f"{function.name}()", function.name, True), term[-1]),)
         return self.result_of(function, term, value, len(self.current_objects) > before, scope)
+
+    def result_of_unknown_object(self, value: Value, function: Function, term: Term, before: int) -> Value:
+        """Returns the result of a method of an object that is unknown: what is known of its class, but not an image or another API object
+        that a member holds, since each object has its own. `before` is the number of API objects before the call."""
+        created = list(islice(reversed(self.current_objects.values()), len(self.current_objects) - before))
+        kind = function.return_type
+        is_handle = self.library.is_type(kind) and not self.library.is_scalar(kind)
+        own = Symbol(brief(canonical_text(term)), function.name)
+        return tuple(
+            a._replace(value=own)
+            if (isinstance(a.value, ApiObject) and a.value not in created) or (isinstance(a.value, Symbol) and is_handle)
+            else a
+            for a in value
+        )
 
     def execute(self, function: Function, term: Term, scope: Scope, this_object: Cell | None, scopes: Scopes = ()) -> Value:
         """Executes a function with the arguments of a call. `scopes` are the enclosing variables of a lambda."""

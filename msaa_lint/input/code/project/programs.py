@@ -23,7 +23,8 @@ VISIBLE_SHARE = 4
 class Entry(NamedTuple):
     """A file of a project: its path with `/`, its length, and its words.
 
-    Findings in an input are reported. A `candidate` becomes an input if it uses the API in a program that mentions multisampling.
+    Findings in an input are reported. A candidate becomes an input if it can matter to a program that uses the API and mentions
+    multisampling.
     """
 
     path: str
@@ -114,9 +115,9 @@ class Project:
     def _inputs(self, numbers: Sequence[int], seen: Sequence[int]) -> tuple[int, ...]:
         """Returns the inputs of a program, whose own files have `numbers`."""
         entries = self.entries
-        candidates = [number for number in numbers if entries[number].is_candidate and entries[number].words.has_api]
-        if candidates and not any(entries[number].words.has_multisampling for number in (*numbers, *seen)):
-            candidates = []
+        words = [entries[number].words for number in (*numbers, *seen)]
+        is_relevant = any(word.has_multisampling for word in words) and any(entries[number].words.has_api for number in numbers)
+        candidates = [number for number in numbers if is_relevant and entries[number].is_candidate and entries[number].words.is_related]
         return tuple(sorted({*candidates, *(number for number in numbers if entries[number].is_input)}))
 
     def _seen(self, numbers: Sequence[int]) -> tuple[int, ...]:

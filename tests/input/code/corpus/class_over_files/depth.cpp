@@ -3,7 +3,7 @@
 void Renderer::createDepth() {
     const VkFormat format = findDepthFormat();
     createImage(extent.width, extent.height, samples, format,
-                VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,  // expect-later: MSAA401
+                VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,  // expect: MSAA401
                 VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, depthImage, depthMemory);
     depthView = createView(depthImage, format, VK_IMAGE_ASPECT_DEPTH_BIT);
     for (VkImageView view : swapChainViews) {
