@@ -12,13 +12,16 @@ from msaa_lint.core.text.span import Span
 from msaa_lint.frame.description.document import Basis
 from msaa_lint.input.code.core.limits import Work
 from msaa_lint.input.code.core.terms import Unit
-from msaa_lint.input.code.parsing import Code, Read, tree
+from msaa_lint.input.code.parsing import Code, Read, Unread, tree
 from msaa_lint.input.code.sample_counts.choices import choices
 from msaa_lint.input.code.vulkan.creation import VulkanInterpreter
 from msaa_lint.input.code.vulkan.tree_writer import DescriptionWriter
 
 from .directives import clear_list_directives
 from .modules import without_modules
+from .macros import NO_MACROS, Macros
+from .places import Piece, Places
+from .preprocessor import preprocessed
 from .syntax import unit
 
 _VULKAN = re.compile(r"\b(?:Vk|vk)[A-Z]|\bvk\w*\s*::|=\s*vk\b|VULKAN_HPP")
@@ -39,7 +42,8 @@ class FileSyntax(NamedTuple):
     """What is known of a file, or of the files of a program, before it is executed.
 
     `choices` are sample count choices: name, place, and entry. `fills_structures` says that the code fills in Vulkan structures, `waits`
-    that it synchronizes frames, `begins_frames` that it starts them. `length` is in characters.
+    that it synchronizes frames, `begins_frames` that it starts them. `length` is the number of characters after preprocessing, in which all
+    places are; `pieces` say where they come from. `unread` exceeds a limit; its places are those in the file.
     """
 
     unit: Unit
@@ -48,11 +52,16 @@ class FileSyntax(NamedTuple):
     waits: bool
     begins_frames: bool
     length: int
+    pieces: Sequence[Piece] = ()
+    unread: Sequence[Unread] = ()
 
 
-def file_syntax(code: Code) -> FileSyntax:
-    """Returns what is known of a file or of a page's fragments. Raises `Missing` if the grammar is not installed."""
-    code = code._replace(text=without_modules(code.text))
+def file_syntax(code: Code, macros: Macros = NO_MACROS) -> FileSyntax:
+    """Returns what is known of a file or of a page's fragments; `macros` are defined elsewhere.
+
+    Raises `Missing` if the grammar is not installed.
+    """
+    code, places, unread = preprocessed(code._replace(text=without_modules(code.text)), macros)
     root = tree(code).root_node
     text, sections = clear_list_directives(code.text, root)
     if sections:
@@ -66,12 +75,28 @@ def file_syntax(code: Code) -> FileSyntax:
         _WAITS.search(code.text) is not None,
         _FRAMES.search(code.text) is not None,
         len(code.text),
+        places.pieces,
+        unread,
     )
 
 
 def trees(code: Code) -> list[Read]:
     """Returns the tree of a file or of a page's fragments: one or none. Raises `Missing` if the grammar is not installed."""
-    return executed(file_syntax(code), code.fragments, code.language in CPP)
+    syntax = file_syntax(code)
+    return located(executed(syntax, code.fragments, code.language in CPP), Places(syntax.pieces), syntax.unread)
+
+
+def located(reads: Sequence[Read], places: Places, unread: Sequence[Unread] = ()) -> list[Read]:
+    """Returns what was read from preprocessed text with its places in the files, and what else exceeds a limit."""
+    moved = [
+        read._replace(
+            tree=places.moved(read.tree),
+            assumed=tuple((what, places.original(at), value) for what, at, value in read.assumed),
+            unread=tuple(item._replace(at=places.original(item.at)) for item in read.unread),
+        )
+        for read in reads
+    ]
+    return [*moved, Read(mapping([], Span(0, 0)), unread=tuple(unread))] if unread else moved
 
 
 def executed(syntax: FileSyntax, fragments: bool, is_cpp: bool) -> list[Read]:

@@ -36,14 +36,14 @@ def arithmetic(operator: str, left: int, right: int) -> int | None:
     return {"&": left & right, "|": left | right, "^": left ^ right, "+": left + right, "-": left - right, "*": left * right}.get(operator)
 
 
-_TOKENS = re.compile(r"\s*(\d\w*|&&|\|\||[<>=!]=|<<|>>|[-+*/%<>!()&|^])")
+_TOKENS = re.compile(r"\s*(\d\w*|\?|&&|\|\||[<>=!]=|<<|>>|[-+*/%<>!()&|^])")
 _LEVELS = (("||",), ("&&",), ("|",), ("^",), ("&",), ("==", "!="), ("<", ">", "<=", ">="), ("<<", ">>"), ("+", "-"), ("*", "/"))
 MAX_TOKENS = 60
 """The maximum number of tokens in a preprocessor condition."""
 
 
 def condition_holds(text: str) -> bool | None:
-    """Returns whether a condition of integers holds; None if it is not one."""
+    """Returns whether a condition of integers holds; None if it is not one, or if it depends on an unknown one, written `?`."""
     tokens: list[str] = []
     at = 0
     text = text.rstrip()
@@ -61,11 +61,21 @@ def _level(tokens: list[str], at: int, level: int) -> tuple[int | None, int]:
     if level == len(_LEVELS):
         return _primary(tokens, at)
     value, at = _level(tokens, at, level + 1)
-    while value is not None and at < len(tokens) and tokens[at] in _LEVELS[level]:
+    while at < len(tokens) and tokens[at] in _LEVELS[level]:
         operator = tokens[at]
         other, at = _level(tokens, at + 1, level + 1)
-        value = arithmetic(operator, value, other) if other is not None else None
+        value = _combined(operator, value, other)
     return value, at
+
+
+def _combined(operator: str, left: int | None, right: int | None) -> int | None:
+    """Returns the result of an operator; of a logical one, also if it depends on one side alone."""
+    if left is not None and right is not None:
+        return arithmetic(operator, left, right)
+    known = right if left is None else left
+    if operator == "&&" and known == 0:
+        return 0
+    return 1 if operator == "||" and known else None
 
 
 def _primary(tokens: list[str], at: int) -> tuple[int | None, int]:
