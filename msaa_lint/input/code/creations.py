@@ -4,6 +4,7 @@ import re
 from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
+from .c.preprocessor import without_dead_code
 from .parsing import Code
 
 COUNTS = ("2", "4", "8", "16", "32", "64")
@@ -70,7 +71,7 @@ def creations(codes: Iterable[Code]) -> Iterator[Creation]:
     Declarations of members, tables of enumerants, and comparisons create nothing.
     """
     for code in codes:
-        text = _BLANKED.sub(lambda match: _VISIBLE.sub(" ", match[0]), code.text)
+        text = _BLANKED.sub(lambda match: _VISIBLE.sub(" ", match[0]), without_dead_code(code).text)
         yield from _of_language(code.language, text)
 
 

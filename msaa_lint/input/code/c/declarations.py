@@ -7,6 +7,7 @@ import re
 from msaa_lint.input.code.core.terms import BRACES, CALL, DECLARE, LITERAL, NAME, Parameter, Term
 from msaa_lint.input.code.parsing import SyntaxNode, fields, span, without_comments
 
+from . import shapes
 from .expressions import Expressions
 from .kinds import BLANKS, MAX_DEPTH, NAMES, NUMBER, number
 
@@ -128,4 +129,4 @@ class Declarations(Expressions):
         if node.type == "argument_list":
             return (CALL, (NAME, kind, at), tuple(self.expression(c, depth + 1) for c in without_comments(node)), at)
         term = self.expression(node, depth)
-        return (BRACES, kind, *term[2:]) if term[0] == BRACES and not term[1] else term
+        return (BRACES, kind, *term[2:]) if term[0] == BRACES and not term[1] else shapes.zeroed(kind, term) or term

@@ -28,12 +28,20 @@ from msaa_lint.input.code.core.terms import (
 )
 from msaa_lint.input.code.parsing import SyntaxNode, SyntaxReader, fields, span, without_comments
 
+from . import shapes
 from .directives import Sections
 from .kinds import BLANKS, CLASSES, MAX_DEPTH, MAX_NAME, NAMES, WORD, number
 
 WRAPPERS = frozenset({"parenthesized_expression", "cast_expression", "condition_clause", "co_await_expression"})
 
 CASTS = frozenset({"static_cast", "reinterpret_cast", "const_cast", "bit_cast"})
+
+
+def unwrapped(node: SyntaxNode | None) -> SyntaxNode | None:
+    """Returns an expression without the parentheses around it."""
+    while node is not None and node.type == "parenthesized_expression" and node.named_child_count == 1:
+        node = node.named_children[0]
+    return node
 
 
 class Expressions(SyntaxReader, ABC):
@@ -103,6 +111,8 @@ class Expressions(SyntaxReader, ABC):
         sign = node.child_by_field_name("operator")
         operator = self.text_of(sign)
         if kind == "binary_expression":
+            if operator == "/" and (counted := self.counted(node)) is not None:
+                return (CALL, (NAME, shapes.COUNT, at), (self.expression(counted, deeper),), at)
             return (BINARY, operator, *self.parts(node, deeper, "left", "right"), at)
         if kind == "assignment_expression":
             return (ASSIGN, operator or "=", *self.parts(node, deeper, "left", "right"), at)
@@ -149,11 +159,32 @@ class Expressions(SyntaxReader, ABC):
             return self.expression(argument_nodes[0], depth)
         arguments = tuple(self.ordered_arguments(argument_nodes, (self.expression(child, depth) for child in argument_nodes)))
         term = self.expression(function, depth)
+        if term[0] == CALL and len(term[2]) == 1 and term[2][0][0] == NAME and term[1][0] == NAME and term[1][1].isupper():
+            # `VK_CALL(vkCreateImage)(device)`
+            term = term[2][0]
+        standard = shapes.called(term, arguments)
+        if standard:
+            term = (NAME, standard, term[-1])
         named = term[1] if term[0] == NAME else term[2] if term[0] == FIELD else ""
         short = str(named).rpartition("::")[2].partition("<")[0]
         if short != self.current:
             self.called_names.add(short)
         return (CALL, term, arguments, at)
+
+    def counted(self, node: SyntaxNode) -> SyntaxNode | None:
+        """Returns the array of `sizeof(array) / sizeof(array[0])`, or None."""
+        sizes = [unwrapped(child) for child in fields(node, "left", "right")]
+        if any(size is None or size.type != "sizeof_expression" for size in sizes):
+            return None
+        array = unwrapped(sizes[0].child_by_field_name("value")) if sizes[0] is not None else None
+        if array is None or array.type not in ("identifier", "field_expression"):
+            return None
+        element = unwrapped(sizes[1].child_by_field_name("value")) if sizes[1] is not None else None
+        if element is not None and element.type in ("subscript_expression", "pointer_expression"):
+            element = element.child_by_field_name("argument")
+            return array if self.text_of(unwrapped(element)) == self.text_of(array) else None
+        # Parentheses around a type look like those around a name.
+        return array if element is None or element.type == "identifier" else None
 
     def items(self, node: SyntaxNode, depth: int) -> Iterator[tuple[tuple[str | int, ...] | None, Term]]:
         """Yields the items in braces: the designated members or None, and the term."""

@@ -42,7 +42,9 @@ _LEAVES = re.compile(r"\b(?:return|abort|exit|_exit|throw|goto|break|continue|te
 _SAYS = re.compile(r"[sS]ample|SAMPLE|[aA]ttachment|ATTACHMENT|[rR]esolve|RESOLVE|_OP_|Create[A-Z]|Info\b|Description")
 """What a macro says of a frame."""
 
-_KEPT = re.compile(r"vk[A-Z]|Vk[A-Z]|(?:MIN|MAX|min|max|VK_NULL_HANDLE|NULL|TRUE|FALSE|true|false|nullptr|bool|assert)$")
+_KEPT = re.compile(
+    r"vk[A-Z]|Vk[A-Z]|VK_\w+_(?:KHR|EXT|NV|AMD|ARM|QCOM|BIT|ENUM)$|(?:MIN|MAX|min|max|VK_NULL_HANDLE|NULL|TRUE|FALSE|true|false|nullptr|bool|assert)$"
+)
 """Names that mean the same wherever they are defined."""
 
 
@@ -80,9 +82,6 @@ Macros = Mapping[str, Definitions]
 """Macros by name. Of other names nothing is known."""
 
 NO_MACROS: Macros = {}
-
-
-
 
 
 def parsed(rest: str, at: int, certain: bool, default: str) -> tuple[str, Macro] | None:

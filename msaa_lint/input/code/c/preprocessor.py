@@ -8,6 +8,7 @@ from __future__ import annotations
 import re
 from bisect import bisect_right
 
+from msaa_lint.core.quote import shortened
 from msaa_lint.core.text.span import Span
 from msaa_lint.input.code.core.conditions import condition_key
 from msaa_lint.input.code.parsing import Code, Unread
@@ -239,7 +240,10 @@ class Preprocessed:
         if tokens is not None:
             self._budget -= sum(len(token.text) for token in tokens)
         if self._budget < 0 and not self.unread:
-            message = f"the macros of the file expand to more than {BASE_LENGTH} characters and its own length; from `{match[0]}` on, they are not replaced"
+            message = (
+                f"the macros of the file expand to more than its own length and {BASE_LENGTH} characters; "
+                f"from `{shortened(match[0])}` on, they are not expanded"
+            )
             self.unread.append(Unread(message, Span(match.start(), match.end())))
         if tokens is None or self._budget < 0:
             return match.end()

@@ -6,6 +6,7 @@ from msaa_lint.core.text.span import Span
 from msaa_lint.input.code.core.terms import BLOCK, BREAK, DECLARE, DO, IF, LEAVE, LOOP, RETURN, SOME, SWITCH, UNPARSED, Term
 from msaa_lint.input.code.parsing import SyntaxNode, fields, span, without_comments
 
+from . import shapes
 from .declarations import Declarations
 from .kinds import BLOCKS, CHAIN_TESTS, MAX_DEPTH
 
@@ -17,7 +18,11 @@ class Statements(Declarations):
         terms: list[Term] = []
         if depth < MAX_DEPTH:
             for child in node.named_children:
-                terms += self.statement(child, depth + 1)
+                fresh = self.statement(child, depth + 1)
+                loop = shapes.loop_variable(terms[-1][1]) if child.type == "compound_statement" and terms and terms[-1][0] == DO else None
+                if loop is not None:
+                    fresh = [(LOOP, (loop[0],), loop[1], tuple(fresh), terms.pop()[-1])]
+                terms += fresh
         return terms
 
     def statement(self, node: SyntaxNode, depth: int) -> list[Term]:
@@ -25,7 +30,10 @@ class Statements(Declarations):
         at = span(node)
         if kind == "expression_statement":
             child = node.named_children[0] if node.named_child_count else None
-            return [(DO, self.expression(child, depth), at)] if child is not None else []
+            if child is None:
+                return []
+            term = self.expression(child, depth)
+            return [shapes.declared(term) or (DO, shapes.cleared(term), at)]
         if kind == "declaration":
             return self.declared(node, depth)
         if kind == "return_statement" or kind == "co_return_statement":
