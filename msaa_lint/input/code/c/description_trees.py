@@ -18,8 +18,8 @@ from msaa_lint.input.code.vulkan.creation import VulkanInterpreter
 from msaa_lint.input.code.vulkan.tree_writer import DescriptionWriter
 
 from .directives import clear_list_directives
-from .modules import without_modules
 from .macros import NO_MACROS, Macros
+from .modules import without_modules
 from .places import Piece, Places
 from .preprocessor import preprocessed
 from .syntax import unit

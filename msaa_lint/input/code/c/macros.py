@@ -27,7 +27,6 @@ _TOKEN = re.compile(
 )
 _DEFINE = re.compile(r"\s*([A-Za-z_]\w*)(?:\(([^()]*)\))?")
 _DIRECTIVE_BLANKS = re.compile(r"(?:\s|\\\r?\n|//[^\n]*|/\*.*?\*/)+", re.DOTALL)
-_WORD = re.compile(r"[A-Za-z_]\w*")
 
 _ANNOTATION = re.compile(
     r"(?:\s|__declspec\s*\([^()]*(?:\([^()]*\))?\s*\)|__attribute__\s*\(\([^()]*(?:\([^()]*\)[^()]*)*\)\)|\[\[[^\[\]]*\]\]|_Pragma\s*\([^()]*\)"
@@ -68,6 +67,11 @@ class Macro(NamedTuple):
     def is_annotation(self) -> bool:
         """Whether the macro can be left out of code without a change of what it does."""
         return _ANNOTATION.fullmatch(_DIRECTIVE_BLANKS.sub(" ", self.replacement)) is not None
+
+    @property
+    def is_number(self) -> bool:
+        """Whether it is a number, which stays as its name unless other macros use it."""
+        return self.is_constant and self.replacement.strip(" \t()")[:1].isdigit()
 
     @property
     def is_constant(self) -> bool:
@@ -118,17 +122,6 @@ def merged(files: Iterable[Macros]) -> dict[str, Definitions]:
     return every
 
 
-def needed(text: str, macros: Macros) -> dict[str, Definitions]:
-    """Returns the macros that a text uses, and those that their replacements use."""
-    used: dict[str, Definitions] = {}
-    fresh = set(_WORD.findall(text)) & macros.keys()
-    while fresh:
-        used |= {name: macros[name] for name in fresh}
-        words = {word for name in fresh for macro in macros[name] for word in _WORD.findall(macro.replacement)}
-        fresh = words & (macros.keys() - used.keys())
-    return used
-
-
 def expandable(name: str, definitions: Definitions) -> Macro | None:
     """Returns the definition by which a name is replaced, or None if it stays."""
     if not definitions or _KEPT.match(name):
@@ -138,7 +131,7 @@ def expandable(name: str, definitions: Definitions) -> Macro | None:
         return macro._replace(replacement="")
     if len(definitions) > 1 or "__VA_OPT__" in macro.replacement or (macro.default and macro.parameters is None):
         return None
-    if macro.is_constant and (name.startswith("VK_") or macro.replacement.strip(" \t()")[:1].isdigit()):
+    if macro.is_constant and name.startswith("VK_"):
         return None
     # Checks of a result wrap a call, and leave what follows as it is.
     return None if _LEAVES.search(macro.replacement) and not _SAYS.search(macro.replacement) else macro

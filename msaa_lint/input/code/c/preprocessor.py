@@ -58,7 +58,10 @@ class Preprocessed:
         """Ranges of the text that are blanked, or replaced by a text of the same length."""
         self.expansions: list[tuple[Span, list[Token]]] = []
         self.unread: list[Unread] = []
-        self._active = {name: macro for name, found in self.macros.items() if (macro := expandable(name, found)) is not None}
+        self._known = {name: macro for name, found in self.macros.items() if (macro := expandable(name, found)) is not None}
+        """The macros that are replaced."""
+        self._active = {name for name, macro in self._known.items() if not macro.is_number}
+        """Those of them that are replaced outside of others."""
         self._chosen: dict[str, bool] = {}
         """The values of conditions that are assumed because the grammar cannot read both ways."""
         self._budget = BASE_LENGTH + len(text)
@@ -177,10 +180,13 @@ class Preprocessed:
     def _define(self, name: str, found: Definitions) -> None:
         self.macros[name] = found
         macro = expandable(name, found)
-        if macro is not None:
-            self._active[name] = macro
-        else:
-            self._active.pop(name, None)
+        self._active.discard(name)
+        if macro is None:
+            self._known.pop(name, None)
+            return
+        self._known[name] = macro
+        if not macro.is_number:
+            self._active.add(name)
 
     def _value(self, line: Line) -> bool | None:
         """Returns whether a condition certainly holds, or does not; None if it is open."""
@@ -228,8 +234,8 @@ class Preprocessed:
 
     def _expand(self, match: re.Match[str], stop: int) -> int:
         """Notes the expansion of a macro, and returns the end of its use."""
-        expansion = Expansion(self._active, self.text, match.start(), stop)
-        macro = self._active[match[0]]
+        expansion = Expansion(self._known, self.text, match.start(), stop)
+        macro = self._known[match[0]]
         try:
             if self._budget < 0 or (macro.parameters is not None and self.text[match.end() : match.end() + 100].lstrip()[:1] != "("):
                 return match.end()
@@ -287,7 +293,7 @@ class Preprocessed:
                 # It is dead.
                 continue
             if use.start > last or not pieces:
-                pieces.append(Piece(length, Span(last, use.start)))
+                pieces.append(Piece(length, last, use.start))
             parts.append(text[last : use.start])
             length += use.start - last
             for part, piece in _placed(tokens, use, length, parts[-1][-1:]):
@@ -298,7 +304,7 @@ class Preprocessed:
             last = use.end
         if not pieces:
             return text, Places()
-        pieces.append(Piece(length, Span(last, len(text))))
+        pieces.append(Piece(length, last, len(text)))
         return "".join((*parts, text[last:])), Places(tuple(pieces))
 
 
@@ -314,7 +320,7 @@ def _placed(tokens: list[Token], use: Span, at: int, before: str) -> list[tuple[
         if token.kind == "blank" and parts:
             parts.append((token.text, None))
         else:
-            parts.append((token.text, Piece(at, place if place is not None else use, use, exact)))
+            parts.append((token.text, Piece(at, *(place or use), *use, exact)))
         at += len(token.text)
         before = token.text[-1:]
     return parts
@@ -327,18 +333,18 @@ def preprocessed(code: Code, macros: Macros = NO_MACROS) -> tuple[Code, Places, 
     """
     if "#" not in code.text and not macros:
         return code, Places(), ()
-    reading = Preprocessed(code.text, code.language == "cpp", macros)
+    reading = Preprocessed(code.text, code.language.endswith("cpp"), macros)
     text, places = reading.expanded()
     return code._replace(text=text), places, tuple(reading.unread)
 
 
 def definitions(code: Code) -> dict[str, Definitions]:
     """Returns the macros that code leaves defined."""
-    return Preprocessed(code.text, code.language == "cpp", {}, structural=False).macros if "define" in code.text else {}
+    return Preprocessed(code.text, code.language.endswith("cpp"), {}, structural=False).macros if "define" in code.text else {}
 
 
 def without_dead_code(code: Code) -> Code:
     """Returns code with what is certainly dead blanked; offsets stay."""
-    if code.language not in ("c", "cpp") or "#" not in code.text:
+    if code.language not in ("c", "cpp", "objc", "objcpp") or "#" not in code.text:
         return code
-    return code._replace(text=Preprocessed(code.text, code.language == "cpp", {}, structural=False).blanked())
+    return code._replace(text=Preprocessed(code.text, code.language.endswith("cpp"), {}, structural=False).blanked())

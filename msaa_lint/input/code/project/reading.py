@@ -8,10 +8,13 @@ from typing import NamedTuple
 from msaa_lint.core.text.node_builder import mapping
 from msaa_lint.core.text.source import Source, Unreadable
 from msaa_lint.core.text.span import Span
-from msaa_lint.input.code.c.description_trees import CPP, FileSyntax, executed, file_syntax
+from msaa_lint.input.code.c.description_trees import CPP, FileSyntax, executed, file_syntax, located
+from msaa_lint.input.code.c.places import Piece, Places
+from msaa_lint.input.code.c.preprocessor import definitions
 from msaa_lint.input.code.parsing import Code, Missing, Read, Unread, ascii_only
 
-from .merge import File, merged
+from .macros import SharedMacros
+from .merge import MAX_REACH, File, merged
 from .serialized import dumps, loads
 
 
@@ -45,22 +48,44 @@ def read(files: Sequence[ProgramFile], headers: Sequence[bool]) -> list[Read]:
 
     If following the program takes too long, its files are read one by one. Raises `Missing` if the grammar is not installed.
     """
-    offsets = starts(files)
     syntaxes: list[FileSyntax | None] = []
     unread: list[Read] = []
-    for file, offset in zip(files, offsets, strict=True):
+    pieces: list[Piece] = []
+    length = 0
+    macros = SharedMacros([definitions(file.code) for file in files])
+    for number, (file, offset) in enumerate(zip(files, starts(files), strict=True)):
         try:
-            syntaxes.append(loads(dumps(file_syntax(file.code)), offset))
+            code = file.code
+            syntax = loads(dumps(file_syntax(code, macros.visible(number, code.text, reach(files, number)))), length)
         except Missing:
             raise
         except (Unreadable, RecursionError) as error:
             syntaxes.append(None)
             unread.append(_unread(error, offset))
+            continue
+        syntaxes.append(syntax)
+        pieces += [piece.moved(length, offset) for piece in syntax.pieces or (Piece(0, 0, syntax.length),)]
+        length += syntax.length + 1
+        shift = offset - (length - syntax.length - 1)
+        limits = tuple(item._replace(at=Span(item.at.start + shift, item.at.end + shift)) for item in syntax.unread)
+        unread += [Read(mapping([], Span(0, 0)), unread=limits)] if limits else []
     reads = _read(files, syntaxes, headers)
     if any(entry.unread for entry in reads):
         alone = (entry for syntax, file in zip(syntaxes, files, strict=True) if syntax is not None for entry in _alone(syntax, file))
         reads = [*alone, *(entry._replace(tree=mapping([], Span(0, 0))) for entry in reads if entry.unread)]
-    return [*reads, *unread]
+    return [*located(reads, Places(pieces)), *unread]
+
+
+def reach(files: Sequence[ProgramFile], number: int) -> set[int]:
+    """Returns the files that a file includes, and that they include."""
+    found: set[int] = set()
+    waiting = list(files[number].includes)
+    while waiting and len(found) < MAX_REACH:
+        other = waiting.pop()
+        if other not in found:
+            found.add(other)
+            waiting += files[other].includes
+    return found
 
 
 def _read(files: Sequence[ProgramFile], syntaxes: Sequence[FileSyntax | None], headers: Sequence[bool]) -> list[Read]:

@@ -12,9 +12,11 @@ from typing import Any
 from msaa_lint.core.text.node import Node
 from msaa_lint.core.text.span import Span
 from msaa_lint.input.code.c.description_trees import FileSyntax
+from msaa_lint.input.code.c.places import Piece
 from msaa_lint.input.code.core.terms import Function, Parameter, Unit
+from msaa_lint.input.code.parsing import Unread
 
-_TYPES = {(kind.__module__, kind.__name__): kind for kind in (FileSyntax, Function, Node, Parameter, Unit)}
+_TYPES = {(kind.__module__, kind.__name__): kind for kind in (FileSyntax, Function, Node, Parameter, Piece, Unit, Unread)}
 
 
 def dumps(syntax: FileSyntax) -> bytes:
