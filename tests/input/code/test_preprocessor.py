@@ -112,7 +112,7 @@ def test_expansions_are_bounded() -> None:
     assert code.text.split()[0] == "M59"
     assert len(code.text) < 2 * len(text)
     many = "#define M0 " + "x" * 100 + "\n#define M1 " + "M0 " * 100 + "\n" + "M1\n" * 100
-    code, places, unread = preprocessed(Code(many, "c"))
+    code, _places, unread = preprocessed(Code(many, "c"))
     assert len(code.text) < 2 * len(many) + 200_000
     assert re.match(r"the macros of the file expand to more than its own length and 100000 characters; from `M1` on", unread[0].message)
     assert many[unread[0].at.start : unread[0].at.end] == "M1"

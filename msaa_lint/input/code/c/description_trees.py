@@ -22,6 +22,7 @@ from .macros import NO_MACROS, Macros
 from .modules import without_modules
 from .places import Piece, Places
 from .preprocessor import preprocessed
+from .relevance import without_irrelevant_bodies
 from .syntax import unit
 
 _VULKAN = re.compile(r"\b(?:Vk|vk)[A-Z]|\bvk\w*\s*::|=\s*vk\b|VULKAN_HPP")
@@ -61,7 +62,8 @@ def file_syntax(code: Code, macros: Macros = NO_MACROS) -> FileSyntax:
 
     Raises `Missing` if the grammar is not installed.
     """
-    code, places, unread = preprocessed(code._replace(text=without_modules(code.text)), macros)
+    whole = without_modules(code.text)
+    code, places, unread = preprocessed(code._replace(text=whole if code.fragments else without_irrelevant_bodies(whole, macros)), macros)
     root = tree(code).root_node
     text, sections = clear_list_directives(code.text, root)
     if sections:
@@ -71,9 +73,9 @@ def file_syntax(code: Code, macros: Macros = NO_MACROS) -> FileSyntax:
         unit(code, root, sections),
         # Sample count masks have this in their name, whatever their source.
         choices(root, code) if "ampleCounts" in code.text else (),
-        _VULKAN.search(code.text) is not None,
-        _WAITS.search(code.text) is not None,
-        _FRAMES.search(code.text) is not None,
+        _VULKAN.search(whole) is not None,
+        _WAITS.search(whole) is not None,
+        _FRAMES.search(whole) is not None,
         len(code.text),
         places.pieces,
         unread,

@@ -14,12 +14,8 @@ from msaa_lint.input.code.parsing import Code, SyntaxNode, fields, function_decl
 
 from .directives import Section, Sections
 from .kinds import CLASSES, MAX_DEPTH
+from .relevance import relevant
 from .statements import Statements
-
-RELEVANT = re.compile(
-    r"[sS]ample|SAMPLE|[aA]ttachment|ATTACHMENT|[mM]saa|MSAA|[rR]esolve|RESOLVE|[fF]ramebuffer|[rR]enderPass|CreateImage|createImage|ImageCreateInfo|TRANSIENT|ImageView"
-)
-"""Functions without any of these are irrelevant unless they call one that is relevant."""
 
 VIRTUAL = re.compile(r"\b(?:virtual|override)\b")
 
@@ -122,17 +118,9 @@ class _Reader(Statements):
 
     def relevant_functions(self) -> list[tuple[str, str, SyntaxNode]]:
         """Returns the relevant functions: those that mention multisampling, and their callers, transitively."""
-        texts = [self.text_of(node) for _, _, node in self.found]
-        relevant = [RELEVANT.search(text) is not None for text in texts]
-        fresh = relevant
-        for _ in range(4):
-            names = {self.function_name(self.found[n][2]) for n, new in enumerate(fresh) if new} - {""}
-            if not names or all(relevant):
-                break
-            calls = re.compile(r"\b(?:" + "|".join(map(re.escape, sorted(names))) + r")\s*\(")
-            fresh = [not old and calls.search(text) is not None for old, text in zip(relevant, texts, strict=True)]
-            relevant = [old or new for old, new in zip(relevant, fresh, strict=True)]
-        return [item for item, matters in zip(self.found, relevant, strict=True) if matters]
+        names = [(self.function_name(node),) for _, _, node in self.found]
+        matters = relevant([self.text_of(node) for _, _, node in self.found], names)
+        return [item for item, kept in zip(self.found, matters, strict=True) if kept]
 
     def note_public_members(self, node: SyntaxNode) -> None:
         """Records which members of a class are public."""

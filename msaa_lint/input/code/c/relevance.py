@@ -1,0 +1,154 @@
+"""Which functions of a file matter: the bodies of the others are blanked before the text is preprocessed and parsed."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Sequence, Set
+from typing import NamedTuple
+
+from .macros import Macros
+
+RELEVANT = re.compile(
+    r"[sS]ample|SAMPLE|[aA]ttachment|ATTACHMENT|[mM]saa|MSAA|[rR]esolve|RESOLVE|[fF]ramebuffer|[rR]enderPass|CreateImage|createImage|ImageCreateInfo|TRANSIENT|ImageView"
+)
+"""Functions without any of these are irrelevant unless they call one that is relevant."""
+
+MAX_ROUNDS = 4
+"""The maximum length of a chain of calls that ends in a relevant function and whose functions are all relevant."""
+
+MAX_HEADER = 1000
+"""The maximum number of characters of what precedes the body of a function."""
+
+_SCAN = re.compile(
+    r"[{}]|#[ \t]*(?P<word>[a-z]+)(?P<rest>(?:[^\n\\]|\\\r?\n|\\.)*)|//(?:[^\n\\]|\\\r?\n|\\)*|/\*.*?(?:\*/|\Z)"
+    r"|R\"(?P<mark>[^()\\\s\"]{0,16})\(.*?(?:\)(?P=mark)\"|\Z)|\"(?:[^\"\\\n]|\\.)*\"?|'(?:[^'\\\n]|\\.){1,8}'",
+    re.DOTALL,
+)
+_CONTAINER = re.compile(r"\b(?:namespace|class|struct|union|enum|extern\s*\"C(?:\+\+)?\")(?![\w])")
+_TAIL = re.compile(r"\)([^(){};]*)$")
+_UNNAMED = re.compile(r"\s*(?:(?:typedef|static|const)\s+)*(?:struct|union|enum|class)\s+\w+\s*\([^{}]*\)\s*$")
+"""`struct ALIGNED(16)`"""
+
+_QUALIFIERS = frozenset({"const", "noexcept", "override", "final", "volatile", "mutable", "try", "&", "&&"})
+_TOKEN = re.compile(r"\w+|&+|\S")
+_COMMENT = re.compile(r"//[^\n]*|/\*.*?(?:\*/|\Z)|^[ \t]*#[^\n]*", re.DOTALL | re.MULTILINE)
+_CALLED = re.compile(r"([A-Za-z_]\w*)\s*\(")
+_WORD = re.compile(r"[A-Za-z_]\w*")
+_DEFINITION = re.compile(r"#[ \t]*define[ \t]+(\w+)((?:[^\n\\]|\\\r?\n|\\.)*)")
+_VISIBLE = re.compile(r"[^\r\n]")
+
+
+class Body(NamedTuple):
+    """A function in a text: where its header starts, and the range of what is between its braces."""
+
+    header: int
+    start: int
+    end: int
+
+
+class _Brace:
+    """An open brace: what precedes it starts at `header`. `group` is the number of conditions around it."""
+
+    __slots__ = ("group", "header", "is_container", "is_function", "start")
+
+    def __init__(self, start: int, header: int, group: int, is_container: bool, is_function: bool) -> None:
+        self.start = start
+        self.header = header
+        self.group = group
+        self.is_container = is_container
+        self.is_function = is_function
+
+
+def bodies(text: str) -> list[Body]:
+    """Returns the functions of a text that lie in no other function, in order; not those of which a condition cuts the body."""
+    found: list[Body] = []
+    braces: list[_Brace] = []
+    groups: list[list[_Brace]] = []
+    last = 0
+    for match in _SCAN.finditer(text):
+        sign, at = match[0], match.start()
+        if sign == "{":
+            if not braces or braces[-1].is_container:
+                start = max(last, at - MAX_HEADER)
+                before = _COMMENT.sub(" ", text[start:at])
+                before = before[before.rfind(";") + 1 :]
+                function = _is_header(before)
+                header = max(start, text.rfind(";", start, at) + 1)
+                braces.append(_Brace(at, header, len(groups), not function and _CONTAINER.search(before) is not None, function))
+            else:
+                braces.append(_Brace(at, last, len(groups), False, False))
+            last = at + 1
+        elif sign == "}":
+            brace = braces.pop() if braces else None
+            if brace is not None and brace.is_function and brace.group == len(groups):
+                found.append(Body(brace.header, brace.start + 1, at))
+            last = at + 1
+        elif sign[0] == "#" and not text[text.rfind("\n", 0, at) + 1 : at].strip():
+            word = match["word"]
+            if word in ("if", "ifdef", "ifndef"):
+                groups.append(braces.copy())
+            elif groups and word in ("else", "elif", "elifdef", "elifndef"):
+                for brace in braces:
+                    # The condition cuts what is open around it.
+                    brace.group = brace.group if brace.group < len(groups) else -1
+                braces = groups[-1].copy()
+            elif groups and word == "endif":
+                groups.pop()
+                for brace in braces:
+                    brace.group = brace.group if brace.group <= len(groups) else -1
+            if not braces or braces[-1].is_container:
+                last = match.end()
+    return found
+
+
+def _is_header(before: str) -> bool:
+    """Returns whether a text that precedes a brace, without comments, is the header of a function."""
+    tail = _TAIL.search(before.rstrip())
+    if tail is None or _UNNAMED.match(before) is not None:
+        return False
+    return "->" in tail[1] or all(token in _QUALIFIERS or token.isupper() for token in _TOKEN.findall(tail[1]))
+
+
+def without_irrelevant_bodies(text: str, macros: Macros) -> str:
+    """Returns a text in which the bodies of irrelevant functions are blank; offsets stay. `macros` are defined elsewhere."""
+    found = bodies(text)
+    texts = [text[body.header : body.end] for body in found]
+    kept = relevant(texts, [_CALLED.findall(text, body.header, body.start) for body in found], _relevant_macros(text, macros))
+    parts: list[str] = []
+    last = 0
+    for body, matters in zip(found, kept, strict=True):
+        if not matters:
+            parts += (text[last : body.start], _VISIBLE.sub(" ", text[body.start : body.end]))
+            last = body.end
+    return "".join((*parts, text[last:]))
+
+
+def _relevant_macros(text: str, macros: Macros) -> set[str]:
+    """Returns the names of macros whose replacement mentions multisampling, or uses one that does."""
+    texts = [*_DEFINITION.findall(text), *((name, macro.replacement) for name, found in macros.items() for macro in found)]
+    known = {name for name, replacement in texts if RELEVANT.search(replacement) is not None or RELEVANT.search(name) is not None}
+    for _ in range(MAX_ROUNDS if known else 0):
+        more = {name for name, replacement in texts if name not in known and not known.isdisjoint(_WORD.findall(replacement))}
+        known |= more
+        if not more:
+            break
+    return known
+
+
+def relevant(texts: Sequence[str], names: Sequence[Iterable[str]], words: Set[str] = frozenset()) -> list[bool]:
+    """Returns whether functions are relevant: those that mention multisampling or one of some words, and their callers, transitively.
+
+    `names` are what each function may be called by.
+    """
+    kept = [RELEVANT.search(text) is not None or (bool(words) and not words.isdisjoint(_WORD.findall(text))) for text in texts]
+    fresh = {name for n, matters in enumerate(kept) if matters for name in names[n]}
+    called = {n: set(_CALLED.findall(texts[n])) for n, matters in enumerate(kept) if not matters}
+    for _ in range(MAX_ROUNDS):
+        callers = [n for n, those in called.items() if not those.isdisjoint(fresh)]
+        if not callers:
+            break
+        fresh = {name for n in callers for name in names[n]}
+        for n in callers:
+            kept[n] = True
+            del called[n]
+    return kept
