@@ -214,7 +214,7 @@ class Expressions(SyntaxReader, ABC):
     def structure(self, node: SyntaxNode, depth: int) -> Term:
         """Returns a structure with designated members; the base after `..` comes first."""
         name, body = fields(node, "name", "body")
-        items: list[tuple[tuple[str, ...] | None, Term]] = []
+        items: Items = []
         for child in body.named_children if body is not None else ():
             if child.type == "field_initializer":
                 member, value = fields(child, "field", "value")
@@ -226,7 +226,10 @@ class Expressions(SyntaxReader, ABC):
                 base = self.expression(child.named_children[0], depth)
                 if not is_default(base):
                     items.insert(0, (("..",), base))
-        return (BRACES, self.path(name), tuple(items), span(node))
+        kind = self.path(name)
+        if self.imports.is_vulkano and kind == "vk::AttachmentDescription":
+            items += stencil_operations(items)
+        return (BRACES, kind, tuple(items), span(node))
 
     def closure(self, node: SyntaxNode, depth: int) -> Term:
         list_node, body = fields(node, "parameters", "body")
@@ -380,6 +383,16 @@ class Expressions(SyntaxReader, ABC):
             else:
                 return self.path(node) if node.type in ("type_identifier", "scoped_type_identifier") else self.text_of(node)
         return ""
+
+
+Items = list[tuple[tuple[str, ...] | None, Term]]
+"""The members that a structure states, and their values."""
+
+
+def stencil_operations(items: Items) -> Items:
+    """Returns the stencil operations of an attachment of vulkano, which are those of color and depth where it states none."""
+    stated = {path[0]: term for path, term in items if path is not None}
+    return [((f"stencil_{name}",), stated[name]) for name in ("load_op", "store_op") if name in stated and f"stencil_{name}" not in stated]
 
 
 def is_default(term: Term) -> bool:

@@ -20,6 +20,8 @@ class Imports:
         self.paths: dict[str, list[str]] = {}
         self.wildcards = False
         """Whether all names of a Vulkan crate's module are imported."""
+        self.is_vulkano = False
+        """Whether names of vulkano are imported, whose structures have defaults of their own."""
         self.declared: set[str] = set()
         """The types that the file declares."""
 
@@ -28,6 +30,9 @@ class Imports:
         stack: list[tuple[SyntaxNode | None, list[str], int]] = [(node.child_by_field_name("argument"), [], 0)]
         while stack and len(self.paths) < MAX_IMPORTS:
             at, prefix, depth = stack.pop()
+            self.is_vulkano = (
+                self.is_vulkano or "vulkano" in prefix[:1] or text.startswith("vulkano::", at.start_byte if at is not None else 0)
+            )
             if at is None or depth > MAX_DEPTH:
                 continue
             kind = at.type

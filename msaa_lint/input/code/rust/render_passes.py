@@ -11,6 +11,7 @@ from msaa_lint.core.text.span import Span
 from msaa_lint.input.code.core.terms import BRACES, CALL, LITERAL, NAME, UNPARSED, Term
 from msaa_lint.input.code.parsing import SyntaxNode, span
 
+from .expressions import Items, stencil_operations
 from .statements import Statements
 
 MACROS = frozenset({"single_pass_renderpass", "ordered_passes_renderpass"})
@@ -76,12 +77,15 @@ class RenderPassMacros(Statements):
         tokens = _braced(nodes)
         if tokens is None:
             return (UNPARSED, "", Span(0, 0))
-        items = []
+        items: Items = []
         for name, value in self.members_of(tokens).items():
             member = _MEMBERS.get(name)
             if member is not None:
                 items.append(((member,), self.value(member, value)))
-        return (BRACES, "vk::AttachmentDescription", tuple(items), span(tokens))
+        stated = {path[0] for path, _ in items if path is not None}
+        # The macro derives layouts from the passes that use the attachment.
+        items += [((name,), (UNPARSED, "", span(tokens))) for name in ("initial_layout", "final_layout") if name not in stated]
+        return (BRACES, "vk::AttachmentDescription", (*items, *stencil_operations(items)), span(tokens))
 
     def value(self, member: str, nodes: list[SyntaxNode]) -> Term:
         """Returns the value of a member, which is an expression or, for an operation, a variant without its enum."""

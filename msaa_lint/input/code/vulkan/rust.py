@@ -58,7 +58,9 @@ class RustLibrary(VulkanLibrary):
         ):
             table = _TABLES.get(table, table)
             if table in VALUES:
-                return _squashed(table).get(value.removeprefix("TYPE_").removeprefix("Dim").replace("_", "").lower())
+                values = _squashed(table)
+                short = value.removeprefix("TYPE_").removeprefix("Dim")
+                return next((values[name] for name in map(_squeezed, (short, _SUFFIX.sub("", short))) if name in values), None)
         return None
 
     def construction(self, type_text: str) -> Construction:
@@ -86,10 +88,14 @@ _TABLES = {
 }
 
 
+def _squeezed(name: str) -> str:
+    return name.replace("_", "").lower()
+
+
 @cache
 def _squashed(enum: str) -> dict[str, str]:
     """Returns the values of an enum by their spelling without underscores, in lower case."""
-    return {value.replace("_", "").lower(): value for value in VALUES[enum]}
+    return {_squeezed(value): value for value in VALUES[enum]}
 
 
 class RustInterpreter(VulkanInterpreter):

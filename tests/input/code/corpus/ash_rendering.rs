@@ -21,7 +21,7 @@ impl Frame<'_> {
             .store_op(AttachmentStoreOp::STORE); // expect: MSAA201
         if let Some(target) = self.color.resolve {
             color = color
-                .resolve_mode(vk::ResolveModeFlags::AVERAGE)
+                .resolve_mode(vk::ResolveModeFlags::AVERAGE_KHR)
                 .resolve_image_view(target)
                 .resolve_image_layout(vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL);
         }
