@@ -269,6 +269,7 @@ def input_options(arguments: Arguments) -> dict[str, Any]:
         "stdin_filename": arguments.get("stdin_filename"),
         "log": log(arguments),
         "traceback": bool(arguments.get("traceback")),
+        "cache": not arguments.get("no_cache"),
     }
 
 

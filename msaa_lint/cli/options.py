@@ -105,6 +105,7 @@ _CONFIGURATION = (
     Option("config", "text", "Use this configuration file.", "FILE"),
     Option("isolated", "flag", "Ignore configuration files."),
     Option("no_respect_gitignore", "flag", "In folders, also lint files that .gitignore ignores."),
+    Option("no_cache", "flag", "Neither use nor keep what was read of source code in the user's cache folder."),
 )
 
 

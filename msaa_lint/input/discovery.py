@@ -58,6 +58,7 @@ def discover(
     sources: bool = False,
     log: Callable[[str], None] | None = None,
     inputs_among: InputsAmong | None = None,
+    speaks: Callable[[str], bool] | None = None,
 ) -> Discovered:
     """The files to lint.
 
@@ -68,10 +69,12 @@ def discover(
     itself wrote are skipped. Links to folders are not followed; links to files are if they stay in the project. A missing path and a
     folder without inputs are findings (MSAA921).
 
-    `inputs_among` says which of the other source files of folders are inputs because of the programs that they belong to.
+    `speaks` says whether a source file mentions multisampling. `inputs_among` says which of the other source files of folders are inputs
+    because of the programs that they belong to.
     `settings_for` gives the settings of a file or folder. `-` stays as it is. `log` is called with a line for each path that is skipped.
     """
     walk = _Walk(settings_for, sources, log)
+    walk.speaks = speaks or _speaks
     for path in paths:
         if path == STDIN:
             walk.files[STDIN] = None
@@ -138,6 +141,12 @@ def _excluded(path: str, glob: Glob) -> str:
     return f"{shown(path)} is excluded by {quoted(glob.pattern)}"
 
 
+def _speaks(path: str) -> bool:
+    from .code.mentions import file_speaks
+
+    return file_speaks(path)
+
+
 class _Folder(NamedTuple):
     """A folder to search, how deep it is in the named one, and the ignore files of the folders above it."""
 
@@ -169,6 +178,7 @@ class _Walk:
         self.settings_for = settings_for
         self.sources = sources
         self.log = log
+        self.speaks: Callable[[str], bool] = _speaks
         self.unreadable_sources = 0
         self.files: dict[str, str | None] = {}
         self.related: dict[str, _Search] = {}
@@ -290,9 +300,7 @@ class _Walk:
         if not is_regular:
             return OTHER
         if name.endswith(SOURCES):
-            from .code.mentions import file_speaks
-
-            return INPUT if file_speaks(path) else OTHER
+            return INPUT if self.speaks(path) else OTHER
         from .content import kind_of
 
         return kind_of(path)

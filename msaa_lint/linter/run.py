@@ -106,6 +106,7 @@ class _Run:
             if gc.get_count()[0] > MAX_GARBAGE and number + 1 < len(discovered.files):
                 # Not the oldest generation: the results so far are no garbage, and are not gone through again after each input.
                 gc.collect(1)
+        self.workspace.close()
         files = [self.request.input_name(path) for path in discovered.files]
         notes = [*discovered.notes, *self.notes, *self._stale_entries(files)]
         # A broken rule page comes first: other findings of the configuration may be due to it.

@@ -10,6 +10,7 @@ from msaa_lint.core.text.files import open_file
 from msaa_lint.input.file_types import HEAD_BYTES, LANGUAGES
 
 if TYPE_CHECKING:
+    from msaa_lint.input.code.project.index import Index
     from msaa_lint.input.code.project.nearby import Nearby
     from msaa_lint.input.code.project.programs import Entry, Program, Project
     from msaa_lint.input.source_file import SourceText
@@ -42,13 +43,15 @@ def is_read_together(path: str) -> bool:
     return path.lower().endswith(_ENDINGS)
 
 
-def programs(inputs: Iterable[str], related: Mapping[str, str], projects: Mapping[str, str]) -> list[ProgramInput]:
-    """The programs of source files, by their first file. `related` are the other source files of folders, with their projects; `projects`
-    has those of inputs that are not named. What the inputs include elsewhere in their projects is read, too. A file that cannot be read is
-    in no program."""
+def programs(inputs: Iterable[str], related: Mapping[str, str], projects: Mapping[str, str], index: Index) -> list[ProgramInput]:
+    """The programs of source files, by their first file.
+
+    `related` are the other source files of folders, with their projects; `projects` has those of inputs that are not named; `index` has the
+    words of files. What the inputs include elsewhere in their projects is read, too. A file that cannot be read is in no program.
+    """
     from msaa_lint.input.code.project.programs import Project
 
-    search = _Search({path for path in inputs if is_read_together(path)}, {**projects, **related})
+    search = _Search({path for path in inputs if is_read_together(path)}, {**projects, **related}, index)
     search.add(sorted({*search.inputs, *filter(is_read_together, related)}), related)
     project = Project([search.entries[path] for path in sorted(search.entries)])
     return [_input(project, program, search.roots) for program in project.programs()]
@@ -57,7 +60,8 @@ def programs(inputs: Iterable[str], related: Mapping[str, str], projects: Mappin
 class _Search:
     """The files of programs. `roots` has the projects that files must be in; a named file may be anywhere."""
 
-    def __init__(self, inputs: set[str], roots: dict[str, str]) -> None:
+    def __init__(self, inputs: set[str], roots: dict[str, str], index: Index) -> None:
+        self.index = index
         self.inputs = inputs
         self.roots = roots
         self.entries: dict[str, Entry] = {}
@@ -65,7 +69,6 @@ class _Search:
 
     def add(self, paths: Sequence[str], candidates: Container[str]) -> None:
         """Reads files, and searches the files that inputs include, and that these include."""
-        from msaa_lint.input.code.project.index import words
         from msaa_lint.input.code.project.programs import Entry
 
         waiting = list(paths)
@@ -73,10 +76,10 @@ class _Search:
         names = {path.rpartition("/")[2] for path in paths}
         elsewhere: set[str] = set()
         for path in waiting:
-            data = _data(path, self.roots.get(path))
-            if data is None:
+            found = self.index.of(path, self.roots.get(path))
+            if found is None:
                 continue
-            entry = self.entries[path] = Entry(path, len(data), words(path, data), path in self.inputs, path in candidates)
+            entry = self.entries[path] = Entry(path, found, path in self.inputs, path in candidates)
             if path not in self.inputs and path not in elsewhere:
                 continue
             near = self.near(path)
@@ -100,7 +103,7 @@ class _Search:
 def _input(project: Project, program: Program, roots: Mapping[str, str]) -> ProgramInput:
     """The files of a program that are read: headers before sources."""
     inputs = set(program.inputs)
-    own = [number for number in program.files if number in inputs or project.entries[number].words.is_related]
+    own = [number for number in program.files if number in inputs or project.entries[number].is_related]
     numbers = sorted((*own, *program.seen), key=lambda number: (not project.headers[number], number))
     position = {number: at for at, number in enumerate(numbers)}
     return ProgramInput(
@@ -112,23 +115,18 @@ def _input(project: Project, program: Program, roots: Mapping[str, str]) -> Prog
     )
 
 
-def _data(path: str, project: str | None) -> bytes | None:
-    """The beginning of a file; None if it cannot be read. A pipe is not read twice."""
-    try:
-        file, size = open_file(path, project)
-        with file:
-            return file.read(min(size, MAX_BYTES)) if size is not None else None
-    except OSError:
-        return None
-
-
 def related_text(path: str, project: str | None) -> SourceText | None:
     """The text of a file that is only read for what it defines; None if it cannot be read."""
     from msaa_lint.input.code import language_of
     from msaa_lint.input.source_file import source_text
 
-    data = _data(path, project)
-    if data is None or len(data) >= MAX_BYTES:
+    try:
+        file, size = open_file(path, project)
+        with file:
+            data = file.read(MAX_BYTES) if size is not None and size < MAX_BYTES else None
+    except OSError:
+        return None
+    if data is None:
         return None
     language = language_of(path, data[:HEAD_BYTES].decode("latin-1"))
     return source_text(data, path, language)._replace(is_input=False) if language in TOGETHER else None

@@ -3,6 +3,7 @@
 import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from msaa_lint.core.allowance import Allowance
@@ -31,7 +32,9 @@ from .settings.settings import COMMAND_LINE, Settings, override
 from .source_programs import ProgramInput, is_read_together, programs, related_text
 
 if TYPE_CHECKING:
+    from msaa_lint.core.cache import Cache
     from msaa_lint.input.capture_input import CaptureInput
+    from msaa_lint.input.code.project.index import Index
     from msaa_lint.input.source_file import SourceFile, SourceText
 
 
@@ -46,7 +49,7 @@ class Request(NamedTuple):
     never written. `keys` is the number of undecided rules for which a key is looked up
     that they lack (None: of all), and `all_keys` finds all keys that undecided rules lack, and not only the next one. `log` is called with
     a line for each configuration and each input that is used. `traceback` raises an exception that linting an input causes, instead of
-    reporting it.
+    reporting it. `cache` uses and keeps results in the user's cache folder.
     """
 
     paths: Sequence[str]
@@ -69,6 +72,7 @@ class Request(NamedTuple):
     all_keys: bool = False
     log: Callable[[str], None] | None = None
     traceback: bool = False
+    cache: bool = False
 
     def input_name(self, path: str) -> str:
         """The name of an input in findings."""
@@ -215,7 +219,8 @@ class Workspace:
 
     def discover(self, sources: bool = False) -> Discovered:
         """The inputs that the request names; `sources` includes the source code in folders."""
-        found = discover(self.request.paths, self.settings, sources, self.request.log, self._inputs_among if sources else None)
+        inputs_among = self._inputs_among if sources else None
+        found = discover(self.request.paths, self.settings, sources, self.request.log, inputs_among, self._speaks)
         self.findings.extend(found.findings)
         self._projects = found.projects
         return found
@@ -249,6 +254,34 @@ class Workspace:
         options = LintOptions(severity, resolved.limits, request.format, device, request.ignores, False, self._keys, request.all_keys)
         return InputFile(path, name, data, resolved, options, self.current.settings.min_severity, request.log)
 
+    @cached_property
+    def _index(self) -> "Index":
+        """The words of source files."""
+        from msaa_lint.input.code.project.index import Index
+
+        index = Index(self._cache)
+        index.open(os.getcwd())
+        return index
+
+    @cached_property
+    def _cache(self) -> "Cache | None":
+        """What is kept between runs, if the request permits."""
+        if not self.request.cache:
+            return None
+        from msaa_lint.core.cache import user_cache
+        from msaa_lint.input.code.project.version import version
+
+        return user_cache(version())
+
+    def close(self) -> None:
+        """Keeps what the cache is for."""
+        if "_index" in self.__dict__ and self._cache is not None:
+            self._index.close(os.getcwd())
+            self._cache.close()
+
+    def _speaks(self, path: str) -> bool:
+        return self._index.of_entry(path).speaks
+
     def _inputs_among(self, files: Mapping[str, str | None], related: Mapping[str, str]) -> list[str]:
         """The inputs among source files of folders: those of the programs that use multisampling."""
         if self.request.format is None and installed():
@@ -272,7 +305,7 @@ class Workspace:
                 else:
                     others[path] = related[path]
         projects = {path: project for path, project in files.items() if project is not None}
-        return [program for inputs, others in by_settings.values() for program in programs(inputs, others, projects)]
+        return [program for inputs, others in by_settings.values() for program in programs(inputs, others, projects, self._index)]
 
     def open_program(self, program: ProgramInput) -> InputFile | None:
         """Reads the files of a program, with a finding for each input that cannot be read; None if they cannot be read together."""

@@ -6,12 +6,19 @@ Files are searched by words, without being parsed, so that the files of a large 
 from __future__ import annotations
 
 import re
-from typing import NamedTuple
+from contextlib import suppress
+from typing import Any, NamedTuple
 
+from msaa_lint.core.cache import Cache, digest
+from msaa_lint.core.project import shown
+from msaa_lint.core.text.files import open_entry, open_file
 from msaa_lint.input.code import mentions
 
-MAX_BYTES = 4 << 20
-"""The number of bytes of a file that are searched, which is the maximum length of a source file."""
+MAX_BYTES = (4 << 20) + 1
+"""The number of bytes of a file that are searched; a source file of that length is too long to be read."""
+
+MIN_KEPT = 50
+"""The number of files from which on a cache keeps their words."""
 
 HEADERS = (".h", ".hpp", ".hh", ".hxx", ".h++", ".inl", ".ipp", ".tpp", ".inc")
 """The endings of files that sources include."""
@@ -46,34 +53,97 @@ _RELATED = re.compile(rb"VK_|\bVk[A-Z]|\bvk::|MTL|[sS]ampl|SAMPL|[mM]saa|MSAA|[m
 
 
 class Words(NamedTuple):
-    """The words of a file. `names` are the classes and functions that it declares or defines; `is_related` says whether it can matter to
-    files that use multisampling, `has_api` and `has_multisampling` what it mentions itself."""
+    """The words of a file, and its length in bytes.
 
+    `names` are the classes and functions that it declares or defines; `is_related` says whether it can matter to files that use
+    multisampling, `has_api`, `has_multisampling`, and `speaks` what it mentions itself.
+    """
+
+    length: int
     includes: tuple[str, ...]
     names: frozenset[str]
     has_main: bool
     is_related: bool
     has_api: bool
     has_multisampling: bool
+    speaks: bool
 
 
-def words(name: str, data: bytes) -> Words:
+def words(data: bytes) -> Words:
     """Returns the words of a file, in time linear in its length."""
-    data = data[:MAX_BYTES]
+    length = len(data)
     if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
         data = data.decode("utf-16", "replace").encode()
     includes = dict.fromkeys(name.decode("utf-8", "replace").replace("\\", "/") for name in _INCLUDE.findall(data))
+    has_main = _MAIN.search(data) is not None
+    if _RELATED.search(data) is None:
+        return Words(length, tuple(includes), frozenset(), has_main, False, False, False, False)
     names = {name.decode() for pattern in (_CLASS, _FUNCTION) for name in pattern.findall(data)}
-    related = _API.fullmatch(name.rpartition("/")[2]) is None and _RELATED.search(data) is not None
-    text = data[: mentions.MAX_BYTES].decode("latin-1") if related else ""
-    return Words(
-        tuple(includes),
-        frozenset(names),
-        _MAIN.search(data) is not None,
-        related,
-        related and mentions.mentions_api(text),
-        related and mentions.mentions_multisampling(text),
-    )
+    text = data[: mentions.MAX_BYTES].decode("latin-1")
+    has_api = mentions.mentions_api(text)
+    speaks = has_api and mentions.speaks(text)
+    multisampled = speaks or mentions.mentions_multisampling(text)
+    return Words(length, tuple(includes), frozenset(names), has_main, True, has_api, multisampled, speaks)
+
+
+class Index:
+    """The words of the files of a run. With a cache, files that are as they were in an earlier run are not searched again."""
+
+    def __init__(self, cache: Cache | None = None) -> None:
+        self.cache = cache
+        self.by_path: dict[str, Words] = {}
+        self._known: dict[str, list[Any]] = {}
+        self._used: dict[str, list[Any]] = {}
+
+    def open(self, folder: str) -> None:
+        """Reads the words of the files of an earlier run in a folder."""
+        data = self.cache.read("words", folder) if self.cache is not None else None
+        if data is not None:
+            import orjson
+
+            with suppress(ValueError):
+                self._known = orjson.loads(data)
+
+    def close(self, folder: str) -> None:
+        """Keeps the words of the files of this run."""
+        if self.cache is not None and len(self._used) >= MIN_KEPT and self._used.keys() != self._known.keys():
+            import orjson
+
+            self.cache.write("words", folder, orjson.dumps(self._used))
+
+    def of_entry(self, path: str) -> Words:
+        """The words of a regular file, according to the listing of its folder. Raises OSError if it cannot be read."""
+        with open_entry(path) as file:
+            return self.add(shown(path), file.read(MAX_BYTES))
+
+    def of(self, path: str, project: str | None) -> Words | None:
+        """The words of a file; None if it cannot be read. A pipe is not read twice."""
+        if path not in self.by_path:
+            try:
+                file, size = open_file(path, project)
+                with file:
+                    if size is not None:
+                        self.add(path, file.read(min(size, MAX_BYTES)))
+            except OSError:
+                return None
+        return self.by_path.get(path)
+
+    def add(self, path: str, data: bytes) -> Words:
+        key = digest(data) if self.cache is not None else ""
+        members = self._known.get(key) if key else None
+        try:
+            found = Words(members[0], tuple(members[1]), frozenset(members[2]), *members[3:]) if members is not None else words(data)
+        except (TypeError, IndexError):
+            found = words(data)
+        if key:
+            self._used[key] = members if members is not None else [found.length, found.includes, sorted(found.names), *found[3:]]
+        self.by_path[path] = found
+        return found
+
+
+def is_api(path: str) -> bool:
+    """Returns whether a file is one of Vulkan itself or of its allocator, by its name."""
+    return _API.fullmatch(path.rpartition("/")[2]) is not None
 
 
 def is_header(name: str) -> bool:

@@ -12,7 +12,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import NamedTuple
 
 from .includes import Includes
-from .index import Words, is_header
+from .index import Words, is_api, is_header
 
 MAX_VISIBLE = 600_000
 """The number of characters of the files of other programs that a program sees, in addition to `VISIBLE_SHARE` of its own length."""
@@ -21,17 +21,21 @@ VISIBLE_SHARE = 4
 
 
 class Entry(NamedTuple):
-    """A file of a project: its path with `/`, its length, and its words.
+    """A file of a project: its path with `/`, and its words.
 
     Findings in an input are reported. A candidate becomes an input if it can matter to a program that uses the API and mentions
     multisampling.
     """
 
     path: str
-    length: int
     words: Words
     is_input: bool
     is_candidate: bool = False
+
+    @property
+    def is_related(self) -> bool:
+        """Whether it can matter to files that use multisampling."""
+        return self.words.is_related and not is_api(self.path)
 
 
 class Program(NamedTuple):
@@ -124,15 +128,15 @@ class Project:
         """Returns the files of other programs that a program sees, the nearest first, as far as there is room."""
         seen = set(numbers)
         waiting = list(numbers)
-        room = MAX_VISIBLE + VISIBLE_SHARE * sum(self.entries[number].length for number in numbers)
+        room = MAX_VISIBLE + VISIBLE_SHARE * sum(self.entries[number].words.length for number in numbers)
         found: list[int] = []
         for number in waiting:
             for other in (*self.includes[number], *self.implementations[number]):
                 if other in seen:
                     continue
                 seen.add(other)
-                if self.entries[other].words.is_related:
-                    room -= self.entries[other].length
+                if self.entries[other].is_related:
+                    room -= self.entries[other].words.length
                     if room < 0:
                         return tuple(sorted(found))
                     found.append(other)
