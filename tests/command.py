@@ -22,7 +22,7 @@ Done = subprocess.CompletedProcess[str]
 def environment_of(stated: dict[str, str]) -> dict[str, str]:
     """An environment without what a developer's own may hold."""
     kept = {name: os.environ[name] for name in ("PATH", "HOME", "SYSTEMROOT") if name in os.environ}
-    return {**kept, "PYTHONPATH": str(ROOT), **stated}
+    return {**kept, "PYTHONPATH": str(ROOT), "XDG_CACHE_HOME": os.devnull, **stated}
 
 
 def run(folder: Path, *arguments: str, stdin: bytes = b"", **environment: str) -> Done:

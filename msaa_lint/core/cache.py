@@ -1,7 +1,7 @@
 """Results that are kept between runs, in the cache folder of the user. Deleting it loses nothing but time.
 
-An entry is named by what it was made from. It is written under another name first, so that processes can use the folder at the same time, and
-an entry that is incomplete or damaged is like none. Nothing is read that another user could have written.
+An entry is named by what it was made from. It is written under another name first, so that processes can use the folder at the same time,
+and an entry that is incomplete or damaged is like none. Nothing is read that another user could have written.
 """
 
 from __future__ import annotations

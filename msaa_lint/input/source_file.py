@@ -2,7 +2,7 @@
 
 from bisect import bisect_right
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from msaa_lint.core.text.emitter import emit
 from msaa_lint.core.text.source import Source, Unreadable, decode
@@ -10,6 +10,9 @@ from msaa_lint.core.text.span import Span
 
 from . import code
 from .code.parsing import Code
+
+if TYPE_CHECKING:
+    from msaa_lint.core.cache import Cache
 
 
 class SourceText(NamedTuple):
@@ -96,9 +99,12 @@ def read_source_text(text: SourceText) -> SourceFile:
     return SourceFile(text.data, text.source, text.language, program, (CodeFile(text.source, program.codes, text.language),))
 
 
-def read_program(texts: Sequence[SourceText], includes: Sequence[Sequence[int]], headers: Sequence[bool]) -> SourceFile:
+def read_program(
+    texts: Sequence[SourceText], includes: Sequence[Sequence[int]], headers: Sequence[bool], cache: "Cache | None" = None
+) -> SourceFile:
     """Reads the files of a program together; `includes` has the numbers of the files that each file includes, and `headers` says which are
-    headers. With the errors of `read_source_file`."""
+    headers. `cache` keeps what was read. With the errors of `read_source_file`."""
+    from .code.project.kept import kept_reads
     from .code.project.reading import ProgramFile, joined, read, starts
 
     files = [ProgramFile(text.source, text.language, included) for text, included in zip(texts, includes, strict=True)]
@@ -114,4 +120,5 @@ def read_program(texts: Sequence[SourceText], includes: Sequence[Sequence[int]],
         file, place = whole.place(at)
         return f"{file.source.name}:{file.source.position(place.start).line}"
 
-    return whole._replace(program=code.program_of(whole.source, codes, read(files, headers), line))
+    reads = kept_reads(cache, files, headers, lambda: read(files, headers))
+    return whole._replace(program=code.program_of(whole.source, codes, reads, line))

@@ -325,7 +325,7 @@ class Workspace:
                 data = read_source_text(first)
             else:
                 includes = [[position[other] for other in program.includes[number] if other in position] for number in kept]
-                data = read_program(read, includes, [program.headers[number] for number in kept])
+                data = read_program(read, includes, [program.headers[number] for number in kept], self._cache)
         except Unreadable:
             return None
         resolved = self.resolve(name)

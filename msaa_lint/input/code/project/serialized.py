@@ -11,32 +11,48 @@ from typing import Any
 
 from msaa_lint.core.text.node import Node
 from msaa_lint.core.text.span import Span
+from msaa_lint.frame.description.document import Basis
 from msaa_lint.input.code.c.description_trees import FileSyntax
 from msaa_lint.input.code.c.places import Piece
 from msaa_lint.input.code.core.terms import Function, Parameter, Unit
-from msaa_lint.input.code.parsing import Unread
+from msaa_lint.input.code.parsing import Read, Unread
 
-_TYPES = {(kind.__module__, kind.__name__): kind for kind in (FileSyntax, Function, Node, Parameter, Piece, Unit, Unread)}
+PROTOCOL = 5
+"""The version of the format, so that it does not depend on that of Python."""
+
+_TYPES = {(kind.__module__, kind.__name__): kind for kind in (Basis, FileSyntax, Function, Node, Parameter, Piece, Read, Unit, Unread)}
 
 
-def dumps(syntax: FileSyntax) -> bytes:
-    """Returns the syntax of a file as bytes. Raises RecursionError if it nests too deeply."""
-    return pickle.dumps(syntax, pickle.HIGHEST_PROTOCOL)
+def dumps(content: FileSyntax | list[Read]) -> bytes:
+    """Returns the syntax of a file, or what a program creates, as bytes. Raises RecursionError if it nests too deeply."""
+    return pickle.dumps(content, PROTOCOL)
 
 
 def loads(data: bytes, offset: int) -> FileSyntax:
-    """Returns the syntax that bytes hold, with an offset added to each place. Raises ValueError for other bytes."""
-    try:
-        syntax = _Reader(data, offset).load()
-    except RecursionError:
-        raise
-    except Exception as error:
-        raise ValueError(f"not the syntax of a file: {error}") from None
+    """Returns the syntax of a file that bytes hold, with an offset added to each place. Raises ValueError for other bytes."""
+    syntax = _load(data, offset)
     if not isinstance(syntax, FileSyntax):
         raise ValueError("not the syntax of a file")
     for _, _, node in syntax.choices if offset else ():
         move(node, offset)
     return syntax
+
+
+def loads_reads(data: bytes) -> list[Read]:
+    """Returns what a program creates that bytes hold. Raises ValueError for other bytes."""
+    reads = _load(data, 0)
+    if not isinstance(reads, list) or not all(isinstance(read, Read) for read in reads):
+        raise ValueError("not what a program creates")
+    return reads
+
+
+def _load(data: bytes, offset: int) -> object:
+    try:
+        return _Reader(data, offset).load()
+    except RecursionError:
+        raise
+    except Exception as error:
+        raise ValueError(str(error)) from None
 
 
 class _Reader(pickle.Unpickler):
