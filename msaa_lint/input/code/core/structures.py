@@ -21,6 +21,7 @@ from .values import (
     ApiObject,
     Array,
     Cell,
+    Ref,
     Struct,
     Value,
     pointee,
@@ -146,12 +147,29 @@ class Structures(Evaluator):
             if not items or not self.library.is_scalar(kind) or self.class_of(kind, scope.namespace) is not None:
                 return self.class_value(kind, items, place, scope)
         made_list = self.list_value(inner or "", items, place, scope)
-        if inner is not None:
+        if inner is not None and isinstance(made_list[0].value, Array):
             self.fill_array(made_list[0].value, kind, scope)
         return made_list
 
+    def counted_pointer(self, items: Items, place: Span, scope: Scope) -> Value | None:
+        """Returns the list of a count and a pointer to its elements, as vulkan.hpp takes it: `{1, &subpass}`."""
+        if len(items) != 2 or any(path for path, _ in items) or items[1][1][0] not in (ADDRESS, CALL, NAME, FIELD):
+            return None
+        count = self.sole(items[0][1], scope)
+        target = sole_value(self.value(items[1][1], scope))
+        if type(count) is not int or not isinstance(target, Ref):
+            return None
+        content = pointee(target)
+        array = Array("", place)
+        array.items = content.items[:count] if isinstance(content, Array) else [target.cell]
+        array.complete = len(array.items) == count
+        return (Alternative(array, place),)
+
     def list_value(self, kind: str, items: Items, place: Span, scope: Scope) -> Value:
         array = Array(kind, place)
+        counted = self.counted_pointer(items, place, scope)
+        if counted is not None:
+            return counted
         if len(items) == 1 and items[0][0] is None and items[0][1][0] == BRACES and not items[0][1][1]:
             inner = items[0][1][2]
             # A std::array may have a second pair of braces; an element may have braces too.

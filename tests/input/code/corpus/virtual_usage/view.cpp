@@ -55,11 +55,10 @@ void View::createPass(vk::Device device) {
     }
     const auto subpass = vk::SubpassDescription()
                              .setPipelineBindPoint(vk::PipelineBindPoint::eGraphics)
-                             .setColorAttachmentCount(1)
-                             .setPColorAttachments(&references[0])
+                             .setColorAttachments({1, &references[0]})
                              .setPDepthStencilAttachment(&references[1])
                              .setPResolveAttachments(resolves.data());
-    _pass = device.createRenderPass(vk::RenderPassCreateInfo().setAttachments(descriptions).setSubpasses(subpass));
+    _pass = device.createRenderPass(vk::RenderPassCreateInfo().setAttachments(descriptions).setSubpasses({1, &subpass}));
 }
 
 void View::createFramebuffer(vk::Device device, vk::ImageView window) {
