@@ -20,7 +20,7 @@ private:
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
 };
 
-VkSampleCountFlagBits PhysicalDevice::maxSamples() const {  // expect-later: MSAA851
+VkSampleCountFlagBits PhysicalDevice::maxSamples() const {  // expect: MSAA851
     VkPhysicalDeviceProperties properties;
     vkGetPhysicalDeviceProperties(device, &properties);
     auto counts = std::min(properties.limits.framebufferColorSampleCounts, properties.limits.framebufferDepthSampleCounts);  // expect: MSAA852

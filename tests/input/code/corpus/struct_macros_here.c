@@ -64,7 +64,7 @@ void _app_draw(VkCommandBuffer cmd, VkImageView window) {
     color.resolveImageView = window;
     color.resolveImageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
     color.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
-    color.storeOp = VK_ATTACHMENT_STORE_OP_STORE;  // expect-later: MSAA201  // may: MSAA403
+    color.storeOp = VK_ATTACHMENT_STORE_OP_STORE;  // expect: MSAA201  // may: MSAA403
     VkRenderingInfo info;
     _APP_CLEAR(VkRenderingInfo, info);
     info.sType = VK_STRUCTURE_TYPE_RENDERING_INFO;

@@ -10,7 +10,7 @@ R_API void R_InitRenderPass(VkFormat format) {
 #if R_LEGACY_PATH
     ATTACHMENT(0, 8, STORE);
 #else
-    ATTACHMENT(0, 4, STORE); /* expect-later: MSAA201 */
+    ATTACHMENT(0, 4, STORE); /* expect: MSAA201 */
 #endif
     ATTACHMENT(1, 1, STORE);
 

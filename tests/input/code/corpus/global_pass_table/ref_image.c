@@ -33,13 +33,13 @@ static VkResult CreateView(VkImage *image, VkImageAspectFlags aspect, VkImageVie
 void Ref_CreateColorBuffer(VkSampleCountFlagBits sampleCount, refTexture_t *texture, int extraFlags) {
     texture->format = ref_format;
     texture->sampleCount = sampleCount;
-    CreateImage(texture->format, extraFlags | VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, texture);  // expect-later: MSAA401#color
+    CreateImage(texture->format, extraFlags | VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, texture);  // expect: MSAA401#color
     CreateView(&texture->image, VK_IMAGE_ASPECT_COLOR_BIT, &texture->view, texture->format);
 }
 
 void Ref_CreateDepthBuffer(VkSampleCountFlagBits sampleCount, refTexture_t *texture) {
     texture->format = VK_FORMAT_D32_SFLOAT;
     texture->sampleCount = sampleCount;
-    CreateImage(texture->format, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, texture);  // expect-later: MSAA401#depth
+    CreateImage(texture->format, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, texture);  // expect: MSAA401#depth
     CreateView(&texture->image, VK_IMAGE_ASPECT_DEPTH_BIT, &texture->view, texture->format);
 }

@@ -55,7 +55,7 @@ void Vid_CreateScenePass(void) {
         attachments[scene].format = video.color_format;
         attachments[scene].samples = video.sample_count;
         attachments[scene].loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
-        attachments[scene].storeOp = VK_ATTACHMENT_STORE_OP_STORE;  // expect-later: MSAA201
+        attachments[scene].storeOp = VK_ATTACHMENT_STORE_OP_STORE;  // expect: MSAA201
         attachments[scene].stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
         attachments[scene].stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
     }
