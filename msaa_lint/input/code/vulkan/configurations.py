@@ -13,6 +13,7 @@ from msaa_lint.input.code.core.values import UNKNOWN, ApiObject, Array, Cell, Re
 
 from .creation import VulkanInterpreter
 from .names import first_version
+from .reads import Reads
 
 NEEDS = {
     "AttachmentDescription": ("format", "samples"),
@@ -43,6 +44,7 @@ class VulkanConfiguration(Configuration):
         self.barriers = barriers
         """Whether the file records barriers, which can replace subpass dependencies."""
         self.resolves = program.resolves
+        self.reads = Reads(program)
         self.has_dynamic_samples = program.names.has_dynamic_samples
         self.multisampled_structs: set[int] = set()
         """The structures, by identity, whose unknown count is above 1."""

@@ -18,6 +18,7 @@ from msaa_lint.input.code.core.guards import brief
 from msaa_lint.input.code.core.interpreter import Interpreter
 from msaa_lint.input.code.core.limits import Work
 from msaa_lint.input.code.core.scope import Scope, name_objects
+from msaa_lint.input.code.core.structures import Items
 from msaa_lint.input.code.core.terms import ADDRESS, CALL, FIELD, INDEX, NAME, Function, Parameter, Term, Unit
 from msaa_lint.input.code.core.values import (
     UNKNOWN,
@@ -34,6 +35,7 @@ from msaa_lint.input.code.core.values import (
     Value,
     pointee,
     sole_value,
+    structures_in,
 )
 
 from .library import VulkanLibrary
@@ -66,6 +68,9 @@ _HARMLESS = re.compile(
 )
 """Functions that do not use the objects passed to them."""
 
+_COPIES = re.compile(r"^(?:vkCmd(?:Copy|Blit)Image|(?:copy|blit)Image)")
+"""Commands that read an image; resolves are recorded with their targets."""
+
 _MEMORY = re.compile(r"mem.*(?:type|index)", re.IGNORECASE)
 
 _VIEW = re.compile(r"view", re.IGNORECASE)
@@ -95,10 +100,37 @@ class VulkanInterpreter(Interpreter):
         super().__init__(unit, self.names, fragments, is_cpp, work)
         self.resolves: dict[Span, tuple[Value, Value]] = {}
         """The source and the target of each resolve command."""
+        self.copied: list[Value] = []
+        """The sources of copies and blits."""
+        self.descriptors: list[Struct] = []
+        """The VkDescriptorImageInfo of the program."""
 
     def begin(self) -> None:
         super().begin()
         self.resolves.clear()
+        self.copied.clear()
+        self.descriptors.clear()
+
+    def construct(self, kind: str, items: Items, place: Span, scope: Scope) -> Value:
+        return self.noted(super().construct(kind, items, place, scope))
+
+    def default_value(self, kind: str, name: str, place: Span, scope: Scope, zeroed: bool = False) -> Value:
+        return self.noted(super().default_value(kind, name, place, scope, zeroed))
+
+    def unset_element(self, kind: str, place: Span, zeroed: bool) -> Cell:
+        cell = super().unset_element(kind, place, zeroed)
+        self.noted(cell.writes)
+        return cell
+
+    def stored_value(self, value: Any, kind: str, name: str) -> Any:
+        stored = super().stored_value(value, kind, name)
+        self.noted((Alternative(stored, Span(0, 0)),))
+        return stored
+
+    def noted(self, value: Value) -> Value:
+        """Returns a value; notes descriptors of images in it."""
+        self.descriptors += [struct for a in value for struct in structures_in(a.value) if struct.kind == "DescriptorImageInfo"]
+        return value
 
     def external_call(self, term: Term, name: str, owner: Term | None, values: Sequence[Value], scope: Scope) -> Value:
         """Returns the result of a function outside the file: the object that the structures among its arguments create."""
@@ -106,6 +138,10 @@ class VulkanInterpreter(Interpreter):
         if name in _RESOLVES:
             self.record_resolve(name, values, place)
             return UNKNOWN_VALUE
+        if _COPIES.search(name):
+            info = next((v for v in (pointee(sole_value(value)) for value in values) if isinstance(v, Struct)), None)
+            ends = values[1:] if name.startswith("vk") else values
+            self.copied.append(info.cell("srcImage").writes if info is not None else ends[0] if ends else UNKNOWN_VALUE)
         if "etRasterizationSamples" in name:
             self.names.has_dynamic_samples = True
         if name in ("vkBindImageMemory", "bindImageMemory", "bindMemory"):

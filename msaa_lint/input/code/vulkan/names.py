@@ -76,6 +76,7 @@ MEMBERS: dict[str, tuple[str, ...]] = {
     ),
     "PhysicalDeviceFeatures2": ("features",),
     "MemoryAllocateInfo": ("allocationSize", "memoryTypeIndex"),
+    "DescriptorImageInfo": ("sampler", "imageView", "imageLayout"),
     "Extent3D": ("width", "height", "depth"),
     "Extent2D": ("width", "height"),
 }  # fmt: skip
@@ -83,7 +84,7 @@ MEMBERS: dict[str, tuple[str, ...]] = {
 
 WITHOUT_TYPE = frozenset({
     "AttachmentDescription", "AttachmentReference", "SubpassDescription", "SubpassDependency", "PipelineColorBlendAttachmentState",
-    "PhysicalDeviceFeatures", "Extent3D", "Extent2D",
+    "DescriptorImageInfo", "PhysicalDeviceFeatures", "Extent3D", "Extent2D",
 })  # fmt: skip
 """Structures without sType and pNext."""
 

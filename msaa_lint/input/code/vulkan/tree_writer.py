@@ -59,8 +59,8 @@ class DescriptionWriter(Passes, Commands):
         info = obj.info
         items: list[Item] = []
         for name in ("format", "imageType", "tiling", "sharingMode", "usage"):
-            if name == "usage" and obj.escaped and not self.is_transient(info):
-                # External code may use the image in any way.
+            if name == "usage" and not self.is_transient(info) and (obj.escaped or self.is_unread(obj)):
+                # External code may use the image in any way; what nothing reads is used in fewer ways than the usage allows.
                 continue
             if name == "imageType" and info.zeroed and name not in info.fields:
                 continue
@@ -77,6 +77,11 @@ class DescriptionWriter(Passes, Commands):
             items.append(("memory", memory.span, memory))
         head = head_of(info.at)
         return self.object_name(obj, "image"), head, mapping(items, head)
+
+    def is_unread(self, obj: ApiObject) -> bool:
+        """Returns whether the usage of an image allows reads that no code of the program does."""
+        usage = self.usage_text(obj.info)
+        return not self.fragments and ("TRANSFER_SRC" in usage or "SAMPLED" in usage) and self.reads.is_unread(obj, usage)
 
     def pipeline(self, obj: ApiObject, passes: dict[int, str]) -> Iterator[Item]:
         info = obj.info
