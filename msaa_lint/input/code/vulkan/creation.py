@@ -144,6 +144,11 @@ class VulkanInterpreter(Interpreter):
             self.copied.append(info.cell("srcImage").writes if info is not None else ends[0] if ends else UNKNOWN_VALUE)
         if "etRasterizationSamples" in name:
             self.names.has_dynamic_samples = True
+        if name in ("vkBindImageMemory2", "vkBindImageMemory2KHR", "bindImageMemory2"):
+            infos = (struct for value in values for struct in structures_in(pointee(sole_value(value))))
+            for info in infos:
+                self.bind_memory([info.cell("image").writes, info.cell("memory").writes], None, scope)
+            return UNKNOWN_VALUE
         if name in ("vkBindImageMemory", "bindImageMemory", "bindMemory"):
             self.bind_memory(values, owner, scope)
             return UNKNOWN_VALUE
