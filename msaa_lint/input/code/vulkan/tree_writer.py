@@ -79,9 +79,10 @@ class DescriptionWriter(Passes, Commands):
         return self.object_name(obj, "image"), head, mapping(items, head)
 
     def is_unread(self, obj: ApiObject) -> bool:
-        """Returns whether the usage of an image allows reads that no code of the program does."""
+        """Returns whether the usage of a color attachment allows reads that no code of the program does."""
         usage = self.usage_text(obj.info)
-        return not self.fragments and ("TRANSFER_SRC" in usage or "SAMPLED" in usage) and self.reads.is_unread(obj, usage)
+        may_be_read = "COLOR" in usage and ("TRANSFER_SRC" in usage or "SAMPLED" in usage)
+        return may_be_read and not self.fragments and self.reads.is_unread(obj, usage)
 
     def pipeline(self, obj: ApiObject, passes: dict[int, str]) -> Iterator[Item]:
         info = obj.info
