@@ -21,7 +21,8 @@ if TYPE_CHECKING:
     from .parsing import Code, Read, Unread
 
 MODULES = {
-    **dict.fromkeys(("c", "cpp", "objc", "objcpp"), "c.description_trees"),
+    **dict.fromkeys(("c", "cpp"), "c.description_trees"),
+    **dict.fromkeys(("objc", "objcpp"), "objc.description_trees"),
     "swift": "swift.description_trees",
     "rust": "rust.description_trees",
     "glsl": "glsl.description_trees",

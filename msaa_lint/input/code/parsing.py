@@ -24,8 +24,9 @@ else:
 _NOT_ASCII = re.compile(r"[^\x00-\x7f]")
 
 GRAMMARS = {
-    **dict.fromkeys(("c", "objc"), "tree_sitter_c"),
-    **dict.fromkeys(("cpp", "objcpp"), "tree_sitter_cpp"),
+    "c": "tree_sitter_c",
+    # Objective-C is rewritten as C++.
+    **dict.fromkeys(("cpp", "objc", "objcpp"), "tree_sitter_cpp"),
     "swift": "tree_sitter_swift",
     "rust": "tree_sitter_rust",
     "glsl": "tree_sitter_glsl",

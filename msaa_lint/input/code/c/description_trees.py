@@ -12,7 +12,8 @@ from msaa_lint.core.text.span import Span
 from msaa_lint.frame.description.document import Basis
 from msaa_lint.input.code.core.limits import Work
 from msaa_lint.input.code.core.terms import Unit
-from msaa_lint.input.code.parsing import Code, Read, Unread, tree
+from msaa_lint.input.code.metal.description_trees import metal_reads, platform_of
+from msaa_lint.input.code.parsing import Code, Read, SyntaxNode, Unread, tree
 from msaa_lint.input.code.sample_counts.choices import choices
 from msaa_lint.input.code.vulkan.creation import VulkanInterpreter
 from msaa_lint.input.code.vulkan.tree_writer import DescriptionWriter
@@ -44,7 +45,8 @@ class FileSyntax(NamedTuple):
 
     `choices` are sample count choices: name, place, and entry. `fills_structures` says that the code fills in Vulkan structures, `waits`
     that it synchronizes frames, `begins_frames` that it starts them. `length` is the number of characters after preprocessing, in which all
-    places are; `pieces` say where they come from. `unread` exceeds a limit; its places are those in the file.
+    places are; `pieces` say where they come from. `unread` exceeds a limit; its places are those in the file. `calls_metal` says that
+    the code calls Metal, `platform` where it states that it runs on Apple GPUs alone.
     """
 
     unit: Unit
@@ -55,6 +57,8 @@ class FileSyntax(NamedTuple):
     length: int
     pieces: Sequence[Piece] = ()
     unread: Sequence[Unread] = ()
+    calls_metal: bool = False
+    platform: Span | None = None
 
 
 def file_syntax(code: Code, macros: Macros = NO_MACROS) -> FileSyntax:
@@ -69,21 +73,28 @@ def file_syntax(code: Code, macros: Macros = NO_MACROS) -> FileSyntax:
     if sections:
         code = code._replace(text=text)
         root = tree(code).root_node
+    # metal-cpp's names have Metal's namespace.
+    syntax = syntax_of(code, whole, unit(code, root, sections), root, "MTL::" in whole)
+    return syntax._replace(pieces=places.pieces, unread=unread)
+
+
+def syntax_of(code: Code, whole: str, unit: Unit, root: SyntaxNode, calls_metal: bool) -> FileSyntax:
+    """Returns what is known of a file of any of the languages that C is a part of. `whole` is its text as written."""
     return FileSyntax(
-        unit(code, root, sections),
+        unit,
         # Sample count masks have this in their name, whatever their source.
         choices(root, code) if "ampleCounts" in code.text else (),
         _VULKAN.search(whole) is not None,
         _WAITS.search(whole) is not None,
         _FRAMES.search(whole) is not None,
         len(code.text),
-        places.pieces,
-        unread,
+        calls_metal=calls_metal,
+        platform=platform_of(code.text) if calls_metal else None,
     )
 
 
 def trees(code: Code) -> list[Read]:
-    """Returns the tree of a file or of a page's fragments: one or none. Raises `Missing` if the grammar is not installed."""
+    """Returns the trees of a file or of a page's fragments: at most one for each API. Raises `Missing` if the grammar is not installed."""
     syntax = file_syntax(code)
     return located(executed(syntax, code.fragments, code.language in CPP), Places(syntax.pieces), syntax.unread)
 
@@ -102,7 +113,13 @@ def located(reads: Sequence[Read], places: Places, unread: Sequence[Unread] = ()
 
 
 def executed(syntax: FileSyntax, fragments: bool, is_cpp: bool) -> list[Read]:
-    """Returns the tree of a file, of the files of a program, or of a page's fragments: one or none."""
+    """Returns the trees of a file, of the files of a program, or of a page's fragments: at most one for each API."""
+    length = Span(0, syntax.length)
+    metal = metal_reads(syntax.unit, fragments, is_cpp, length, syntax.platform) if syntax.calls_metal else []
+    return [*_vulkan_reads(syntax, fragments, is_cpp), *metal]
+
+
+def _vulkan_reads(syntax: FileSyntax, fragments: bool, is_cpp: bool) -> list[Read]:
     interpreter = VulkanInterpreter(syntax.unit, fragments, is_cpp, Work(syntax.length))
     if fragments or syntax.fills_structures:
         interpreter.run()

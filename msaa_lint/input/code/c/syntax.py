@@ -27,10 +27,10 @@ CONTAINERS = frozenset({
 
 def unit(code: Code, root: SyntaxNode, sections: tuple[Section, ...] = ()) -> Unit:
     """Returns the functions, class members, and global declarations of a file. `sections` are the conditional parts of lists."""
-    return _Reader(code.text, code.fragments, sections).unit(root)
+    return Reader(code.text, code.fragments, sections).unit(root)
 
 
-class _Reader(Statements):
+class Reader(Statements):
     """Reads one file."""
 
     def __init__(self, text: str, fragments: bool, sections: tuple[Section, ...]) -> None:

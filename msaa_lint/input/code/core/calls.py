@@ -14,9 +14,9 @@ from .guards import brief
 from .library import Library
 from .limits import Work
 from .lists import ListMethods
-from .overloads import Overloads
+from .overloads import Overloads, bound
 from .scope import MAX_CALLS, MAX_CLOSURES, MAX_WAYS, MEMBER, Scope, Scopes
-from .terms import BRACES, CALL, FIELD, INDEX, LAMBDA, NAME, Function, Parameter, Term, Unit
+from .terms import BRACES, CALL, FIELD, INDEX, LAMBDA, NAME, Function, Parameter, Term, Unit, labeled
 from .types import element_type
 from .values import (
     MAX_ALTERNATIVES,
@@ -61,6 +61,17 @@ class Calls(ListMethods):
     def result_of(self, function: Function, term: Term, value: Value, creates: bool, scope: Scope) -> Value:
         """Returns what the API knows of the result of a call that was executed; `creates` says whether that created anything."""
 
+    def get(self, term: Term, scope: Scope) -> Value | None:
+        """Returns the result of the getter that a name or member calls, or None."""
+        name, owner = _callee(term)
+        function = self.find_function(name, (), term, scope)
+        if function is None or not function.getter:
+            return None
+        this_object = self.receiver(function, owner, scope)
+        if this_object is OTHERS or not self.may_follow(function, term[-1], scope):
+            return None
+        return self.call_function(function, (CALL, term, (), term[-1]), scope, this_object)
+
     def call(self, term: Term, scope: Scope) -> Value:
         """Returns the value of a call."""
         function, arguments, place = term[1], term[2], term[3]
@@ -74,7 +85,7 @@ class Calls(ListMethods):
                 return UNKNOWN_VALUE
             body = Function("", "", "", closure.parameters, closure.body, place, scope.namespace)
             return self.execute(body, term, scope, scope.this_object, closure.scopes)
-        callee = self.find_function(name, len(arguments), function, scope)
+        callee = self.find_function(name, arguments, function, scope)
         if callee is not None and owner is not None and not callee.class_name and not self.fragments:
             # The method of an object that the program does not define, with the name of a function.
             callee = None
@@ -118,9 +129,11 @@ class Calls(ListMethods):
                 return value if isinstance(value, Closure) else None
         return None
 
-    def find_function(self, name: str, count: int, function: Term, scope: Scope) -> Function | None:
+    def find_function(self, name: str, arguments: Sequence[Term], function: Term, scope: Scope) -> Function | None:
         """Returns the only function of the file that a call can refer to; among several, the one in the same class."""
-        group = self.functions.of_count(name, count)
+        count = len(arguments)
+        self.work.spend(1 + len(self.functions.of_count(name, count).every) // 16)
+        group = self.functions.of_count(name, count).of_labels([labeled(argument)[0] for argument in arguments])
         if self.fragments:
             return group.fixed[-1] if group.fixed else None
         if len(group.every) > 1:
@@ -132,6 +145,7 @@ class Calls(ListMethods):
                 named = [f for f in group.fixed if _qualified_owner(f).endswith(qualifier)]
                 return named[0] if len(named) == 1 else None
             group = self.functions.of_scope(name, count, scope.class_name, scope.namespace)
+            group = group.of_labels([labeled(argument)[0] for argument in arguments])
         return group.sole()
 
     def receiver(self, function: Function, owner: Term | None, scope: Scope) -> Cell | None:
@@ -197,9 +211,9 @@ class Calls(ListMethods):
     def execute(self, function: Function, term: Term, scope: Scope, this_object: Cell | None, scopes: Scopes = ()) -> Value:
         """Executes a function with the arguments of a call. `scopes` are the enclosing variables of a lambda."""
         cells: dict[str, Cell] = {}
-        for n, parameter in enumerate(function.parameters):
-            if n < len(term[2]):
-                cells[parameter.name] = self.bind_parameter(parameter, term[2][n], scope)
+        for parameter, argument in bound(function.parameters, term[2]):
+            if argument is not None:
+                cells[parameter.name] = self.bind_parameter(parameter, argument, scope)
             elif parameter.default is not None:
                 value = self.value(parameter.default, scope, parameter.type)
                 cells[parameter.name] = Cell(parameter.type, parameter.name, value, f"default({parameter.name})")
@@ -224,6 +238,11 @@ class Calls(ListMethods):
             if cell is not None and not isinstance(sole_value(cell.writes), Ref):
                 return cell
         value = self.value(term, scope, parameter.type)
+        value = (
+            value
+            if any(not isinstance(a.value, Symbol) for a in value)
+            else self.typed_value(parameter.type, parameter.name, term[-1]) or value
+        )
         writes = value if parameter.by_reference else self.copies.alternatives(value)
         return Cell(parameter.type, parameter.name, writes or (Alternative(UNKNOWN, term[-1]),), f"argument({parameter.name})")
 

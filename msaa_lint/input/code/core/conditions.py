@@ -10,8 +10,8 @@ from msaa_lint.core.text.span import Span
 from .guards import Guards, brief, either, negated
 from .operators import COMPARISONS
 from .scope import Scope
-from .terms import ADDRESS, BINARY, CALL, FIELD, INDEX, LITERAL, NAME, TARGET, UNARY, Term
-from .values import MAX_ALTERNATIVES, ApiObject, Symbol, sole_value
+from .terms import ADDRESS, BINARY, CALL, FIELD, INDEX, LABEL, LITERAL, NAME, TARGET, UNARY, Term
+from .values import MAX_ALTERNATIVES, ApiObject, Instance, Symbol, sole_value
 from .variables import Variables
 
 _DEFINED = re.compile(r"(!?)\s*defined\s*(?:\(\s*(\w+)\s*\)|(\w+))")
@@ -41,8 +41,8 @@ def canonical_text(term: Term, names: dict[str, str] = NO_NAMES) -> str:
         return f"{canonical_text(term[1], names)}({','.join(canonical_text(item, names) for item in term[2])})"
     if tag == BINARY:
         return f"({canonical_text(term[2], names)}{term[1]}{canonical_text(term[3], names)})"
-    if tag in (ADDRESS, TARGET):
-        return canonical_text(term[1], names)
+    if tag in (ADDRESS, TARGET, LABEL):
+        return canonical_text(term[2 if tag == LABEL else 1], names)
     return f"?{term[-1][0]}"
 
 
@@ -89,8 +89,12 @@ class ConditionEvaluator(Variables):
                 return way
         if constant is None and value:
             return False
-        if isinstance(constant, ApiObject):
+        if isinstance(constant, (ApiObject, Instance)):
             return True
+        present = [a for a in value if isinstance(a.value, (ApiObject, Instance))]
+        if present and all(a.value is None for a in value if a not in present) and len({a.guards for a in present}) == 1:
+            # An object, or null where the conditions of the object do not hold.
+            return (present[0].guards - scope.guards) or True
         return frozenset({(symbol_key(constant) or self.canonical_condition(term, scope), True)})
 
     def canonical_condition(self, term: Term, scope: Scope) -> str:

@@ -11,7 +11,7 @@ from msaa_lint.core.text.span import Span
 from .conditions import ConditionEvaluator
 from .guards import contradicts, negated
 from .scope import MEMBER, Scope, name_objects
-from .terms import ADDRESS, ASSIGN, BINARY, BRACES, CALL, CHOICE, FIELD, INDEX, LAMBDA, LITERAL, NAME, TARGET, UNARY, Term, at
+from .terms import ADDRESS, ASSIGN, BINARY, BRACES, CALL, CHOICE, FIELD, INDEX, LABEL, LAMBDA, LITERAL, NAME, TARGET, UNARY, Term, at
 from .values import (
     MAX_ALTERNATIVES,
     UNKNOWN,
@@ -68,6 +68,8 @@ class Evaluator(ConditionEvaluator):
             return _targets(result, scope) if is_element_access(term) else result
         if tag == BRACES:
             return self.braced_value(term, scope, kind)
+        if tag == LABEL:
+            return self.value(term[2], scope, kind)
         if tag == LAMBDA:
             return (Alternative(Closure(term[1], term[2], scope.scopes), place),)
         return UNKNOWN_VALUE
@@ -81,6 +83,10 @@ class Evaluator(ConditionEvaluator):
         """Returns an object of a class in the file, built by its constructor; None for other types and if several constructors match."""
 
     @abstractmethod
+    def get(self, term: Term, scope: Scope) -> Value | None:
+        """Returns the result of the getter that a name or member calls, or None."""
+
+    @abstractmethod
     def forget_target(self, target: Term, scope: Scope) -> None:
         """Handles a write to an unknown target."""
 
@@ -89,6 +95,9 @@ class Evaluator(ConditionEvaluator):
         """Executes statements."""
 
     def read(self, term: Term, scope: Scope) -> Value:
+        name = term[1] if term[0] == NAME else term[2] if term[0] == FIELD else ""
+        if name in self.getters and (value := self.get(term, scope)) is not None:
+            return value
         cell = self.cell_of(term, scope)
         if cell is None:
             return UNKNOWN_VALUE
@@ -139,6 +148,9 @@ class Evaluator(ConditionEvaluator):
         if sign in ("&&", "||", "==", "!=", "<", ">", "<=", ">="):
             return self.truth(term, scope)
         left, right = self.value(term[2], scope), self.value(term[3], scope)
+        if sign == "??":
+            present = tuple(a for a in left if a.value is not None)
+            return left if len(present) == len(left) else (*right, *present) if len(present) + len(right) <= MAX_ALTERNATIVES else ()
         if sign == "+" and (pointer := self.offset_pointer(left, right, term[-1])) is not None:
             return pointer
         return _combined(sign, left, right, term[-1])
@@ -199,7 +211,7 @@ class Evaluator(ConditionEvaluator):
     def assign(self, term: Term, scope: Scope) -> Value:
         _, sign, target, source, place = term
         cell = self.cell_of(target, scope)
-        kind = cell.kind if cell is not None else ""
+        kind = self.type_of(cell) if cell is not None else ""
         if source[0] == CALL and source[1][:2] == (NAME, "") and cell is not None:
             # A member initialized by a constructor before its body.
             instance = self.construct_class(self.type_of(cell), source, scope)

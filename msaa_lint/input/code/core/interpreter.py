@@ -101,17 +101,28 @@ class Interpreter(Calls):
         entry_points = [f for f in self.unit.functions if f.name not in self.unit.called and f.name not in constructors]
         return [*entry_points, Function("", "", "", (), tuple(self.unit.outside), Span(0, 0))] if self.fragments else entry_points
 
-    def run_entry_point(self, function: Function) -> None:
+    def entry_scope(self, function: Function) -> Scope:
+        """Returns the scope of an entry point, with what is known of its parameters."""
         scope = Scope(function.class_name, function.namespace)
         scope.active_functions = (function.at,)
+        scope.this_object = self.own_object(function)
         for parameter in function.parameters:
             if parameter.name:
-                scope.scopes[-1][parameter.name] = Cell(parameter.type, parameter.name, (), f"{function.name}({parameter.name})")
+                known = self.typed_value(parameter.type, parameter.name, function.at)
+                scope.scopes[-1][parameter.name] = Cell(parameter.type, parameter.name, known, f"{function.name}({parameter.name})")
+        return scope
+
+    def run_entry_point(self, function: Function) -> None:
+        scope = self.entry_scope(function)
         self.block(function.body, scope)
         if not function.class_name or self.class_of(function.return_type, function.namespace) != function.class_name:
             # A function that creates an object of its own class is a constructor.
             mark_escaped(tuple(scope.return_values), self.work)
         self.create_unused(scope)
+
+    def own_object(self, function: Function) -> Cell | None:
+        """Returns the object of the API whose method an entry point is, or None."""
+        return None
 
     def block(self, statements: Iterable[Term], scope: Scope) -> None:
         for statement in statements:
@@ -272,9 +283,11 @@ class Interpreter(Calls):
                 return
         cell = self.other_branch_variable(name, kind, scope) or Cell(kind, name)
         if initializer is None:
-            value = UNKNOWN_VALUE if indirect else self.default_value(kind, name, place, scope)
+            value = self.typed_value(kind, name, place)
+            value = value or (UNKNOWN_VALUE if indirect else self.default_value(kind, name, place, scope))
         else:
             value = self.value(initializer, scope, kind)
+            value = value if any(not isinstance(a.value, Symbol) for a in value) else self.typed_value(kind, name, place) or value
             value = tuple(Alternative(self.stored_value(a.value, kind, name), a.at, a.guards) for a in value)
         # An initializer can refer to a variable of the same name that this one shadows.
         scope.scopes[-1][name] = cell

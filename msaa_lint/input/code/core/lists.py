@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 from msaa_lint.core.text.span import Span
 
@@ -43,6 +44,9 @@ class ListMethods(Structures):
         value = pointee(sole_value(content))
         if len(content) > 1 and any(isinstance(pointee(item.value), Array) for item in content):
             return self.on_alternatives(content, name, place)
+        result = self.object_method(owner, value, name, arguments, place, scope)
+        if result is not None:
+            return result
         setter = self.library.setter(name)
         if isinstance(value, Struct) and value.kind and setter is not None:
             if len(arguments) != 1 or not self.library.has_member(value.kind, setter):
@@ -69,6 +73,10 @@ class ListMethods(Structures):
             # The list was declared elsewhere, or its type is unknown.
             self.value(arguments[0], scope)
             return UNKNOWN_VALUE
+        return None
+
+    def object_method(self, owner: Term, value: Any, name: str, arguments: Sequence[Term], place: Span, scope: Scope) -> Value | None:
+        """Returns the result of a method of an object of the API, or None for other methods. `value` is that of the owner."""
         return None
 
     def on_alternatives(self, value: Value, name: str, place: Span) -> Value:

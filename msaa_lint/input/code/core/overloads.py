@@ -2,24 +2,37 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Sequence
 
-from .terms import Function
+from .terms import Function, Parameter, Term, labeled
 
 
 class Group:
     """Functions that a call may refer to, in order; `fixed` are those that no derived class may override."""
 
-    __slots__ = ("every", "fixed")
+    __slots__ = ("every", "fixed", "labels")
 
     def __init__(self) -> None:
         self.every: list[Function] = []
         self.fixed: list[Function] = []
+        self.labels = False
+        """Whether a parameter has a label."""
 
     def add(self, function: Function) -> None:
         self.every.append(function)
+        self.labels = self.labels or any(parameter.label for parameter in function.parameters)
         if not function.open:
             self.fixed.append(function)
+
+    def of_labels(self, labels: Sequence[str]) -> Group:
+        """Returns the functions whose parameters have the labels of a call's arguments."""
+        if not self.labels and not any(labels):
+            return self
+        group = Group()
+        for function in self.every:
+            if _matches(function.parameters, labels):
+                group.add(function)
+        return group
 
     def sole(self) -> Function | None:
         """Returns the only one that can be followed, or None."""
@@ -27,6 +40,32 @@ class Group:
 
 
 _NONE = Group()
+
+
+def _matches(parameters: Sequence[Parameter], labels: Sequence[str]) -> bool:
+    """Returns whether arguments have the labels of parameters in order. Those with a default may be left out; a last argument without a
+    label may be a closure after the call."""
+    n = 0
+    for parameter in parameters:
+        if n < len(labels) and (labels[n] == parameter.label or (not labels[n] and n == len(labels) - 1 and "->" in parameter.type)):
+            n += 1
+        elif parameter.default is None:
+            return False
+    return n == len(labels)
+
+
+def bound(parameters: Sequence[Parameter], arguments: Sequence[Term]) -> Iterator[tuple[Parameter, Term | None]]:
+    """Yields parameters with their arguments: by label where parameters have labels, otherwise by position."""
+    names = any(parameter.label for parameter in parameters)
+    n = 0
+    for parameter in parameters:
+        argument = arguments[n] if n < len(arguments) else None
+        label, expression = labeled(argument) if argument is not None else ("", None)
+        if names and label != parameter.label and (label or "->" not in parameter.type):
+            yield parameter, None
+            continue
+        n += 1
+        yield parameter, expression
 
 
 class Overloads:

@@ -12,7 +12,7 @@ from .guards import ALWAYS, Guards
 from .library import Construction, Library
 from .limits import Work
 from .scope import Scope
-from .terms import ADDRESS, BRACES, CALL, FIELD, INDEX, LITERAL, NAME, SOME, UNPARSED, Term, Unit
+from .terms import ADDRESS, BRACES, CALL, FIELD, INDEX, LITERAL, NAME, SOME, TUPLE, UNPARSED, Term, Unit
 from .types import element_type
 from .values import (
     UNKNOWN,
@@ -128,6 +128,8 @@ class Structures(Evaluator):
     def braced_value(self, term: Term, scope: Scope, kind: str) -> Value:
         """Returns the value of a braced list for a target type."""
         kind, items, place = term[1] or kind, term[2], term[3]
+        if kind == TUPLE:
+            return self.tuple_value(items, place, scope)
         if self.library.structure(kind):
             return self.construct(kind, items, place, scope)
         inner = element_type(kind)
@@ -164,6 +166,14 @@ class Structures(Evaluator):
         array.items = content.items[:count] if isinstance(content, Array) else [target.cell]
         array.complete = len(array.items) == count
         return (Alternative(array, place),)
+
+    def tuple_value(self, items: Items, place: Span, scope: Scope) -> Value:
+        """Returns a tuple, whose items have numbers and may have labels."""
+        struct = Struct("", place, True)
+        for n, (path, item) in enumerate(items):
+            self.initialize_designated(struct, path or (n,), item, scope)
+            struct.fields[str(n)] = struct.cell(self.library.member(str((path or (n,))[0])))
+        return (Alternative(struct, place),)
 
     def list_value(self, kind: str, items: Items, place: Span, scope: Scope) -> Value:
         array = Array(kind, place)

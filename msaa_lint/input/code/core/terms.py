@@ -13,6 +13,7 @@ A term is a tuple of its kind, its parts, and its location. Expressions:
     (BRACES, type or "", items, at)       items are (path of members or None, expression); the type is the one before the braces
     (LAMBDA, parameters, body, at)
     (SOME, text, way, expression, at)     an item in braces that exists only if a preprocessor condition has the value `way`
+    (LABEL, name, expression, at)         a labeled argument of a call
     (UNPARSED, text, at)
 
 Statements:
@@ -36,8 +37,11 @@ from msaa_lint.core.text.span import Span
 
 Term = tuple[Any, ...]
 
-NAME, LITERAL, FIELD, INDEX, ADDRESS, TARGET, UNARY, BINARY, ASSIGN, CHOICE, CALL, BRACES, LAMBDA, UNPARSED = range(14)
+NAME, LITERAL, FIELD, INDEX, ADDRESS, TARGET, UNARY, BINARY, ASSIGN, CHOICE, CALL, BRACES, LAMBDA, UNPARSED, LABEL = range(15)
 DECLARE, DO, RETURN, LEAVE, IF, LOOP, SOME, BLOCK, SWITCH, BREAK = range(20, 30)
+
+TUPLE = "()"
+"""The type before the braces of a tuple, whose items have their labels or numbers."""
 
 
 class Parameter(NamedTuple):
@@ -49,6 +53,8 @@ class Parameter(NamedTuple):
     default: Term | None
     fixed: bool = False
     """Whether it points or refers to const."""
+    label: str = ""
+    """What a call writes before the argument, in languages that label arguments."""
 
 
 class Function(NamedTuple):
@@ -64,6 +70,8 @@ class Function(NamedTuple):
     """The enclosing namespace, with a trailing `::`."""
     open: bool = False
     """Whether a derived class may override it."""
+    getter: bool = False
+    """Whether reading a member of its name calls it."""
 
 
 class Unit(NamedTuple):
@@ -76,9 +84,18 @@ class Unit(NamedTuple):
     prototypes: Mapping[str, tuple[Parameter, ...]]
     called: Set[str]
     virtual: Set[str] = frozenset()
+    bases: Mapping[str, Sequence[str]] = {}
+    """The classes that each class derives from, in languages whose library needs them."""
+    visible: Set[str] = frozenset()
+    """Members that other files can read and change, as `Class::member`, in languages that state it."""
 
 
 def at(term: Term) -> Span:
     """Returns the location of a term."""
     place: Span = term[-1]
     return place
+
+
+def labeled(argument: Term) -> tuple[str, Term]:
+    """Returns the label of an argument, or an empty string, and its expression."""
+    return (argument[1], argument[2]) if argument[0] == LABEL else ("", argument)

@@ -4,8 +4,10 @@ A value is a tuple of alternatives, empty if nothing is known. Each alternative 
 configuration, which decides conditions, a value may have a single alternative.
 """
 
-from collections.abc import Mapping
-from typing import Any, NamedTuple
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple, Protocol
 
 from msaa_lint.core.text.span import Span
 
@@ -139,6 +141,44 @@ class Struct:
         return self.fields[name]
 
 
+class Instance(Struct):
+    """An object that all variables refer to. Its members are those of a key in the current entry point, as those of classes are.
+
+    `complete` is set if the program creates it, so that members that it does not set have their defaults.
+    """
+
+    __slots__ = ("complete", "key", "members")
+
+    def __init__(self, kind: str, key: str, at: Span, members: Members, complete: bool) -> None:
+        self.members = members
+        super().__init__(kind, at)
+        self.key = key
+        """What the names of its members start with in the program: `@3.`, or `Renderer::` for any object of a class."""
+        self.complete = complete
+
+    @property
+    def fields(self) -> dict[str, Cell]:
+        """The members that are set."""
+        return {name: cell for name in self.members.names_of(self.key) if (cell := self.cell(name)).writes}
+
+    @fields.setter
+    def fields(self, _: dict[str, Cell]) -> None:
+        """Its members are in the entry point."""
+
+    def cell(self, name: str) -> Cell:
+        return self.members.member_cell(self.key + name)
+
+
+class Members(Protocol):
+    """The members of all objects in the current entry point."""
+
+    def names_of(self, key: str) -> Sequence[str]:
+        """Returns the names of the members that are used with a key."""
+
+    def member_cell(self, key: str) -> Cell:
+        """Returns the cell of a member of an object by its path."""
+
+
 class Array:
     """A list. `complete` means that all its elements are known; `zeroed` that further elements are zero."""
 
@@ -237,7 +277,7 @@ class Copier:
     def _copy(self, value: Any, depth: int, targets: dict[int, Cell] | None) -> Any:
         if depth > MAX_DEPTH:
             return UNKNOWN
-        if isinstance(value, Struct):
+        if isinstance(value, Struct) and not isinstance(value, Instance):
             struct = Struct(value.kind, value.at, value.zeroed, value.name)
             for name, cell in value.fields.items():
                 struct.fields[name] = self._cell(cell, Cell(cell.kind, cell.name), depth, targets)

@@ -12,7 +12,7 @@ from .limits import Work
 from .scope import MEMBER, Scope
 from .terms import CALL, DECLARE, FIELD, INDEX, NAME, TARGET, Term, Unit, at
 from .types import array_size, element_type
-from .values import UNKNOWN_VALUE, Alternative, Array, Cell, Copier, Flags, Ref, Struct, Value, pointee, sole_value
+from .values import UNKNOWN_VALUE, Alternative, Array, Cell, Copier, Flags, Instance, Ref, Struct, Value, pointee, sole_value
 
 MAX_KEY = 2000
 """The maximum length of the path of a member; those of longer ones are unknown."""
@@ -35,6 +35,7 @@ class Variables(ABC):
         """Whether the code consists of fragments of a page, not a whole program."""
         self.is_cpp = is_cpp
         """Whether the code is C++, where arguments may be passed by reference."""
+        self.getters = {function.name for function in unit.functions if function.getter}
         self.globals: dict[str, Term] = {}
         for term in unit.outside:
             if term[0] == DECLARE:
@@ -95,7 +96,9 @@ class Variables(ABC):
     def stored_value(self, value: Any, kind: str, name: str) -> Any:
         """Returns a value as a variable holds it: structures and lists are copied and take the variable's name."""
         value = self.copies.value(value)
-        if isinstance(value, Struct):
+        if isinstance(value, Instance):
+            value.name = value.name or name
+        elif isinstance(value, Struct):
             value.kind = value.kind or self.library.structure(kind)
             value.name = name or value.name
         if isinstance(value, Array):
@@ -181,6 +184,22 @@ class Variables(ABC):
             cell.writes = self.initial[key] = writes
         return cell
 
+    def names_of(self, key: str) -> tuple[str, ...]:
+        """Returns the names of the members that are used with a key."""
+        return tuple(self.parts.get(key.removesuffix("."), ()))
+
+    def member_of_object(self, value: Any, cell: Cell, name: str, place: Span, scope: Scope) -> Cell | None:
+        """Returns a member of an object of the API; None for other values. `cell` holds the value, or what is unknown."""
+        return value.cell(name) if isinstance(value, Instance) else None
+
+    def element_of_object(self, value: Any, index: Any, place: Span) -> Cell | None:
+        """Returns an element of an object of the API; None for other values."""
+        return None
+
+    def typed_value(self, kind: str, name: str, place: Span) -> Value:
+        """Returns what is known of a variable of unknown value by its type."""
+        return UNKNOWN_VALUE
+
     def gathered_struct(self, key: str, place: Span) -> Value:
         """Returns an undeclared structure built from the members that are written."""
         names = self.parts.get(key)
@@ -214,6 +233,8 @@ class Variables(ABC):
                 lasting = [a for a in lasting if self.lasts(a.value)]
                 self.changeable.add(key)
             self.declared_values[key] = tuple(Alternative(self.stored_value(a.value, kind, name), a.at, a.guards) for a in lasting)
+        elif value := self.typed_value(kind, name, place):
+            self.declared_values[key] = value
         elif not indirect and not class_name and (self.library.structure(kind) or self.library.structure(element_type(kind) or "")):
             # Global variables are zero-initialized.
             self.declared_values[key] = self.default_value(kind, name, place, Scope(), zeroed=True)
@@ -232,9 +253,15 @@ class Variables(ABC):
         else:
             content = self.sole(operand, scope)
             if not isinstance(content, Ref):
+                member = self.member_of_object(content, Cell(), name, at(operand), scope)
+                if member is not None:
+                    return member
                 return content.cell(name) if isinstance(content, Struct) else None
             cell = content.cell
         value = pointee(sole_value(cell.read(scope.guards)))
+        member = self.member_of_object(value, cell, name, at(operand), scope)
+        if member is not None:
+            return member
         if isinstance(value, Array) and value.items:
             # A pointer to the first element of a list.
             value = pointee(sole_value(value.items[0].writes))
@@ -276,6 +303,9 @@ class Variables(ABC):
         if cell is None:
             return None
         value = pointee(sole_value(cell.read(scope.guards)))
+        element = self.element_of_object(value, index, term[-1])
+        if element is not None:
+            return element
         if isinstance(value, Array):
             if type(index) is not int or not 0 <= index < 64:
                 value.complete = False

@@ -46,7 +46,12 @@ def merged(files: Sequence[File]) -> Unit:
             functions.setdefault((*_signature(function), shape(function.body)), _completed(function, prototypes, virtual))
     outside = _globals(term for unit in units for term in unit.outside)
     called = frozenset(name for unit in units for name in unit.called)
-    return Unit(list(functions.values()), members, outside, prototypes, called, virtual)
+    bases: dict[str, tuple[str, ...]] = {}
+    for unit in units:
+        for name, names in unit.bases.items():
+            bases[name] = (*bases.get(name, ()), *names)
+    visible = frozenset(name for unit in units for name in unit.visible)
+    return Unit(list(functions.values()), members, outside, prototypes, called, virtual, bases, visible)
 
 
 def _signature(function: Function) -> tuple[Hashable, ...]:

@@ -109,6 +109,8 @@ def _read(files: Sequence[ProgramFile], syntaxes: Sequence[FileSyntax | None], h
         any(syntax.waits for syntax in every),
         any(syntax.begins_frames for syntax in every),
         sum(syntax.length for syntax in every),
+        calls_metal=any(syntax.calls_metal for syntax in every),
+        platform=next((syntax.platform for syntax in every if syntax.platform is not None), None),
     )
     return executed(program, False, any(file.language in CPP for file in files))
 

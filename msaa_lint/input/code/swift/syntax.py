@@ -1,193 +1,140 @@
-"""Converts Swift statements and declarations to terms."""
+"""Converts a Swift file to terms."""
 
 from __future__ import annotations
 
-import re
+from msaa_lint.input.code.core.terms import DECLARE, LITERAL, Function, Term, Unit
+from msaa_lint.input.code.parsing import Code, SyntaxNode, span
 
-from msaa_lint.core.text.span import Span
-from msaa_lint.input.code.parsing import SyntaxNode, fields, span
-
-from .expressions import MAX_DEPTH, Expressions, block
-from .terms import BIND, BLOCK, CALL, CASES, DO, FUNC, GUARD, IF, LEAVE, LET, LOOP, NAME, OTHER, RETURN, SET, Function, Parameter, Term
-
-MAX_ARMS = 50
-"""The maximum number of branches in an `if` chain."""
-
-_LABELS = re.compile(r"[(,]\s*([A-Za-z_]\w*)\s*:")
-_LEAVING = frozenset({"fatalError", "preconditionFailure", "abort", "exit"})
-
-_Open = tuple[list[Term], Span, list[tuple[str, list[Term]]]]
-"""An open `#if`: the enclosing list, its location, and its branches with their conditions."""
+from .expressions import block, returning
+from .statements import Statements
 
 
-class Syntax(Expressions):
+def unit(code: Code, root: SyntaxNode) -> Unit:
+    """Returns the functions, type members, and global declarations and statements of a file."""
+    return _Reader(code.text, code.fragments).unit(root)
+
+
+class _Reader(Statements):
     """Reads one file."""
 
-    def statements(self, nodes: list[SyntaxNode], depth: int = 0) -> tuple[Term, ...]:
-        """Returns the terms of statements; `#if` blocks are assembled from their directives."""
-        if depth > MAX_DEPTH:
-            return ()
-        terms: list[Term] = []
-        open_: list[_Open] = []
-        for node in nodes:
-            if node.type == "directive":
-                terms = self.directive(node, terms, open_)
-                continue
-            self.statement(node, depth, terms)
-        while open_:
-            terms = _closed(terms, open_)
-        return tuple(terms)
+    def __init__(self, text: str, fragments: bool) -> None:
+        super().__init__(text)
+        self.fragments = fragments
+        self.functions: list[Function] = []
+        self.members: dict[str, list[Term]] = {}
+        self.constants: list[Term] = []
+        self.bases: dict[str, tuple[str, ...]] = {}
+        self.visible: set[str] = set()
+        self.hidden: set[str] = set()
+        """Variables that only this file can assign."""
+        self.overridden: set[str] = set()
 
-    def directive(self, node: SyntaxNode, terms: list[Term], open_: list[_Open]) -> list[Term]:
-        """Handles a directive; returns the list that the following statements belong to."""
-        written = self.text_of(node)
-        arm: list[Term] = []
-        if written.startswith("#if") and len(open_) < MAX_DEPTH:
-            open_.append((terms, span(node), [(written[3:].strip(), arm)]))
-            return arm
-        if written.startswith("#else") and open_ and len(open_[-1][2]) < MAX_ARMS:
-            open_[-1][2].append((written.removeprefix("#elseif").strip() if written.startswith("#elseif") else "", arm))
-            return arm
-        if written.startswith("#endif") and open_:
-            return _closed(terms, open_)
-        return terms
+    def unit(self, root: SyntaxNode) -> Unit:
+        outside: list[SyntaxNode] = []
+        stack: list[tuple[SyntaxNode, str]] = [(root, "")]
+        while stack:
+            node, class_name = stack.pop()
+            inner: list[tuple[SyntaxNode, str]] = []
+            for child in node.named_children:
+                if child.type == "class_declaration":
+                    name = self.type_declaration(child)
+                    body = child.child_by_field_name("body")
+                    if body is not None:
+                        inner.append((body, name))
+                elif child.type == "ERROR":
+                    inner.append((child, class_name))
+                elif child.type == "statements":
+                    outside.extend(child.named_children)
+                elif class_name or child.type in ("function_declaration", "init_declaration"):
+                    self.member_declaration(child, class_name)
+                else:
+                    outside.append(child)
+            stack.extend(reversed(inner))
+        outside.sort(key=lambda node: node.start_byte)
+        self.own_class = ""
+        statements = self.statements(outside)
+        functions = self.functions
+        if not self.fragments:
+            functions = [Function("", "", "", (), statements, span(root)), *functions]
+        functions = [f._replace(open=f.open or f"{f.class_name}::{f.name}" in self.overridden) for f in functions]
+        globals_ = [*self.constants, *(statements if self.fragments else [term for term in statements if term[0] == DECLARE])]
+        return Unit(functions, self.settled(), globals_, {}, self.called_names, bases=self.bases, visible=self.visible)
 
-    def statement(self, node: SyntaxNode, depth: int, terms: list[Term]) -> None:
+    def settled(self) -> dict[str, list[Term]]:
+        """Returns the members of each type; a variable that nothing assigns and no other file can is constant."""
+        return {
+            name: [(*t[:5], t[5] or (f"{name}::{t[2]}" in self.hidden and t[2] not in self.assigned), t[6]) for t in terms]
+            for name, terms in self.members.items()
+        }
+
+    def type_declaration(self, node: SyntaxNode) -> str:
+        """Returns the name of the type that a declaration or an extension belongs to."""
+        name = node.child_by_field_name("name")
+        written = self.text_of(name).partition("<")[0].rpartition(".")[2] if name is not None else "?"
+        bases = tuple(self.text_of(child)[:100] for child in node.named_children if child.type == "inheritance_specifier")
+        self.bases[written] = (*self.bases.get(written, ()), *bases)
+        self.members.setdefault(written, [])
+        return written
+
+    def member_declaration(self, node: SyntaxNode, class_name: str) -> None:
+        """Adds a declaration in the body of a type."""
         kind = node.type
-        if kind == "property_declaration":
-            self.declared(node, depth, terms)
-        elif kind == "assignment":
-            target = node.child_by_field_name("target")
-            inner = target.named_children[0] if target is not None and target.named_children else None
-            sign, value = fields(node, "operator", "result")
-            if inner is not None and sign is not None:
-                terms.append((SET, self.text_of(sign), self.expression(inner, depth), self.expression(value, depth), span(node)))
-        elif kind == "infix_expression" and node.child_count == 3 and self.text_of(node.children[1]).endswith("="):
-            # The grammar parses `+=` as an assignment, but `<<=` and similar as custom operators.
-            target, sign, value = node.children
-            terms.append((SET, self.text_of(sign), self.expression(target, depth), self.expression(value, depth), span(node)))
-        elif kind == "if_statement":
-            terms.append(self.branches(node, depth))
-        elif kind == "guard_statement":
-            conditions, bodies = self.conditions(node, depth)
-            terms.append((GUARD, conditions, bodies[0] if bodies else (), span(node)))
-        elif kind in ("for_statement", "while_statement", "repeat_while_statement"):
-            item = node.child_by_field_name("item")
-            terms.append((LOOP, self.names(item) if item is not None else (), self.statements(block(node), depth + 1), span(node)))
-        elif kind == "do_statement":
-            terms.append((BLOCK, self.statements(block(node), depth + 1), span(node)))
-        elif kind == "switch_statement":
-            entries = [child for child in node.named_children if child.type == "switch_entry"]
-            terms.append((CASES, tuple(self.statements(block(entry), depth + 1) for entry in entries), span(node)))
-        elif kind == "control_transfer_statement":
-            result = node.child_by_field_name("result")
-            leaving = not self.text.startswith("return", node.start_byte)
-            terms.append((LEAVE, span(node)) if leaving else (RETURN, self.expression(result, depth) if result else None, span(node)))
-        elif kind == "function_declaration":
-            terms.append((FUNC, self.function(node, ""), span(node)))
-        elif kind == "ERROR":
-            if depth < MAX_DEPTH:
-                terms.extend(self.statements(node.named_children, depth + 20))
-        elif not kind.endswith(("declaration", "comment")):
-            term = self.expression(node, depth)
-            leaves = term[0] == CALL and term[1][0] == NAME and term[1][1] in _LEAVING
-            terms.append((LEAVE, span(node)) if leaves else (DO, term, span(node)))
+        self.own_class = class_name
+        modifiers = self.modifiers(node)
+        if kind in ("function_declaration", "init_declaration"):
+            name = self.text_of(node.child_by_field_name("name")).strip("`") if kind == "function_declaration" else class_name
+            self.current = name
+            parameters, labels = self.parameters(node)
+            self.add(Function(name, class_name, "", parameters, self.body(node, labels), span(node)), modifiers)
+        elif kind == "property_declaration":
+            self.property_declaration(node, class_name, modifiers)
+        elif kind == "enum_entry":
+            self.enum_entry(node, class_name)
 
-    def branches(self, node: SyntaxNode, depth: int) -> Term:
-        """Returns an `if` chain."""
-        arms: list[tuple[tuple[Term, ...], tuple[Term, ...], Span]] = []
-        otherwise: tuple[Term, ...] = ()
-        while len(arms) < MAX_ARMS:
-            conditions, bodies = self.conditions(node, depth)
-            arms.append((conditions, bodies[0] if bodies else (), span(node)))
-            next_node = node.children[-1]
-            if next_node.type != "if_statement":
-                otherwise = bodies[1] if len(bodies) > 1 else ()
-                break
-            node = next_node
-        for conditions, body, place in reversed(arms):
-            otherwise = ((IF, conditions, body, otherwise, place),)
-        return otherwise[0]
+    def modifiers(self, node: SyntaxNode) -> frozenset[str]:
+        words = " ".join(self.text_of(child) for child in node.named_children if child.type == "modifiers")
+        return frozenset(words.split())
 
-    def conditions(self, node: SyntaxNode, depth: int) -> tuple[tuple[Term, ...], list[tuple[Term, ...]]]:
-        """Returns the conditions of an `if` or `guard`, and the statements in each of its blocks."""
-        terms: list[Term] = []
-        bodies: list[tuple[Term, ...]] = []
+    def add(self, function: Function, modifiers: frozenset[str]) -> None:
+        self.functions.append(function._replace(open="open" in modifiers))
+        if "override" in modifiers:
+            self.overridden.update(f"{base}::{function.name}" for base in self.bases.get(function.class_name, ()))
+
+    def property_declaration(self, node: SyntaxNode, class_name: str, modifiers: frozenset[str]) -> None:
+        computed = [child for child in node.named_children if child.type == "computed_property"]
+        terms = self.declared(node)
+        if not computed:
+            # Properties refer to objects.
+            self.members[class_name] += [(*term[:4], True, *term[5:]) for term in terms]
+        name = terms[0][2] if terms else ""
+        for term in terms:
+            if modifiers.isdisjoint({"private", "fileprivate"}):
+                self.visible.add(f"{class_name}::{term[2]}")
+            else:
+                self.hidden.add(f"{class_name}::{term[2]}")
+            if "private(set)" in modifiers or "lazy" in modifiers:
+                self.hidden.add(f"{class_name}::{term[2]}")
+        self.current = name
+        for child in computed:
+            getter = next((item for item in child.named_children if item.type == "computed_getter"), child)
+            body = returning(self.statements(block(getter)))
+            self.add(Function(name, class_name, "", (), body, span(node), getter=True), modifiers)
+        for child in node.named_children if not computed else ():
+            for clause in child.named_children if child.type == "willset_didset_block" else ():
+                body = self.statements(block(clause))
+                self.functions.append(Function(f"{name} {clause.type}", class_name, "", (), body, span(clause)))
+
+    def enum_entry(self, node: SyntaxNode, class_name: str) -> None:
+        """Adds the cases of an enumeration as constants."""
         name: SyntaxNode | None = None
         for index, child in enumerate(node.children):
-            kind = child.type
-            if name is not None and kind in ("{", ",", "else"):
-                terms.append(self.binding(name, None, depth))
-                name = None
-            if kind == "{":
-                bodies.append(())
-            elif kind == "statements" and bodies:
-                bodies[-1] = self.statements(child.named_children, depth + 1)
-            elif not bodies:
-                field = node.field_name_for_child(index)
-                if field == "bound_identifier":
-                    name = child
-                elif field == "condition" and child.is_named and kind != "value_binding_pattern":
-                    terms.append(self.binding(name, child, depth) if name is not None else self.expression(child, depth))
-                    name = None
-        return tuple(terms), bodies
-
-    def binding(self, name: SyntaxNode, value: SyntaxNode | None, depth: int) -> Term:
-        term = self.expression(value, depth) if value is not None else None
-        return BIND, self.text_of(name), term, Span(name.start_byte, (value or name).end_byte)
-
-    def declared(self, node: SyntaxNode, depth: int, terms: list[Term]) -> None:
-        """Adds the names declared by `let` or `var`."""
-        names: tuple[str, ...] = ()
-        kind = ""
-        value: Term | None = None
-        for index, child in enumerate(node.children):
             field = node.field_name_for_child(index)
-            if field == "name" and child.type == "pattern":
-                if names:
-                    terms.append((LET, names, kind, value, span(node)))
-                names, kind, value = self.names(child), "", None
-            elif child.type == "type_annotation":
-                kind = self.text_of(child).lstrip(": ").rstrip("?! ")
-            elif field == "value":
-                value = self.expression(child, depth)
-        if names:
-            terms.append((LET, names, kind, value, span(node)))
+            if field == "name":
+                name = child
+                self.constant(class_name, name, (LITERAL, self.text_of(name), span(name)))
+            elif field == "raw_value" and name is not None:
+                self.constants.pop()
+                self.constant(class_name, name, self.expression(child))
 
-    def names(self, node: SyntaxNode) -> tuple[str, ...]:
-        """Returns the names that a pattern binds; empty ones are ignored."""
-        bound = node.child_by_field_name("bound_identifier")
-        if bound is not None:
-            return (self.text_of(bound),)
-        return tuple(self.text_of(child) for child in node.named_children if child.type in ("pattern", "simple_identifier")) or ("",)
-
-    def function(self, node: SyntaxNode, type_name: str) -> Function:
-        """Returns a function or an initializer without parsing its body."""
-        name = node.child_by_field_name("name")
-        parameters: list[Parameter] = []
-        gives: tuple[str, ...] = ()
-        children = node.children
-        for index, child in enumerate(children):
-            if child.type == "parameter":
-                has_default = index + 2 < len(children) and node.field_name_for_child(index + 2) == "default_value"
-                parameters.append(self.parameter(child, children[index + 2] if has_default else None))
-            elif child.type == "tuple_type":
-                gives = tuple(_LABELS.findall(self.text_of(child)[:2000]))
-        return Function(self.text_of(name), type_name, tuple(parameters), gives, node.child_by_field_name("body"), span(node))
-
-    def parameter(self, node: SyntaxNode, default: SyntaxNode | None) -> Parameter:
-        label, name = fields(node, "external_name", "name")
-        written = self.text_of(name)
-        kind = self.text_of(node).partition(":")[2].strip().removeprefix("inout ").rstrip("?! ")
-        outer = self.text_of(label) if label is not None else written
-        return Parameter("" if outer == "_" else outer, written, kind, self.expression(default) if default is not None else None)
-
-
-def _closed(terms: list[Term], open_: list[_Open]) -> list[Term]:
-    """Closes the innermost `#if` and returns the enclosing list."""
-    enclosing, place, arms = open_.pop()
-    otherwise: tuple[Term, ...] = ()
-    for text, arm in reversed(arms):
-        otherwise = ((IF, ((OTHER, "#if " + text, place),), tuple(arm), otherwise, place),) if text else tuple(arm)
-    enclosing.extend(otherwise)
-    return enclosing
+    def constant(self, class_name: str, name: SyntaxNode, value: Term) -> None:
+        self.constants.append((DECLARE, "", f"{class_name}::{self.text_of(name)}", value, False, True, span(name)))

@@ -1,0 +1,1 @@
+"""What Metal's descriptors and calls mean, in Swift, Objective-C, and metal-cpp."""

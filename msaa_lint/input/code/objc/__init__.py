@@ -1,0 +1,1 @@
+"""Syntax of Objective-C and Objective-C++."""
