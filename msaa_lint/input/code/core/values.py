@@ -66,7 +66,9 @@ class Cell:
         self.writes = limited((*before, *fresh), at)
 
     def certainly_holds(self, write: Alternative) -> bool:
-        """Returns whether a conditional write changes nothing."""
+        """Returns whether a conditional write changes nothing. What a member holds comes from such writes, which are collected."""
+        if self.kind == "member":
+            return False
         current = self.read(write.guards)
         return not current[0].guards and all(are_equal(a.value, write.value) for a in current) if current else False
 

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 from msaa_lint.core.text.span import Span
 from msaa_lint.frame.metal.names import MULTISAMPLE_RESOLVES, MULTISAMPLE_TYPES
 from msaa_lint.input.code.core.configurations import ASSUMED, Configuration
-from msaa_lint.input.code.core.guards import Guards, covers
+from msaa_lint.input.code.core.guards import ALWAYS, Guards, covers
 from msaa_lint.input.code.core.values import UNKNOWN, ApiObject, Struct, Symbol, Value, sole_value
 
 from .creation import MetalInterpreter
@@ -17,6 +17,7 @@ from .objects import is_unknown
 
 _SWITCHED = re.compile(r"msaa|multisampl|antialias", re.IGNORECASE)
 _ABOUT_SAMPLES = re.compile(r"sample|msaa|antialias", re.IGNORECASE)
+_NUMBERED = re.compile(r"[^=]=\d+\Z")
 _ABOVE_ONE = re.compile(r"(.*)>1$")
 
 
@@ -40,6 +41,9 @@ class MetalConfiguration(Configuration):
     def choose_configuration(self) -> None:
         """Selects the conditions under which the program is multisampled."""
         writes = [(name, write, obj.guards) for obj in self.current_objects for name, value in members_of(obj.info) for write in value]
+        view = self.program.instances.get(("view",))
+        if view is not None:
+            writes += [("sampleCount", write, ALWAYS) for write in self.program.snapshot(view, ALWAYS).cell("sampleCount").writes]
         counts = [item for item in writes if item[0] in ("sampleCount", "rasterSampleCount") and type(item[1].value) is int]
         # Prefer the count that every device supports, then the lowest.
         for _, write, guards in sorted((c for c in counts if c[1].value > 1), key=lambda c: (c[1].value != ASSUMED, c[1].value)):
@@ -86,7 +90,7 @@ class MetalConfiguration(Configuration):
 def is_certain(guards: list[Guards]) -> bool:
     """Returns whether one of several sets of conditions certainly holds."""
     # What several functions assign is numbered; one of them is the value.
-    numbered = [{text.rpartition("=")[0] for text, way in one if way and text.rpartition("=")[2].isdecimal()} for one in guards]
+    numbered = [{text.rpartition("=")[0] for text, way in one if way and _NUMBERED.search(text)} for one in guards]
     keys = set.intersection(*numbered) if numbered else set()
     return covers(frozenset(guard for guard in one if guard[0].rpartition("=")[0] not in keys) for one in guards)
 

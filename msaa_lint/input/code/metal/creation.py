@@ -240,7 +240,7 @@ class MetalInterpreter(MetalObjects):
             for alternative in self.value(arguments[0], scope):
                 if isinstance(alternative.value, ApiObject) and alternative.value.kind == "pipeline":
                     drawn = alternative.value.info.cell("passes")
-                    drawn.writes = (*drawn.writes[:4], Alternative(owner, place))
+                    drawn.writes = (*drawn.writes[:4], Alternative(owner, place, alternative.guards | scope.guards))
             return UNKNOWN_VALUE
         if name in STORES and arguments and isinstance(owner, ApiObject) and owner.kind == "pass":
             self.set_store(owner, STORES[name], arguments, place, scope)

@@ -296,11 +296,11 @@ class MetalObjects(Interpreter):
             known.name, known.name_depth = name, -2
         return known
 
-    def view_setting(self, name: str) -> Any:
+    def view_setting(self, name: str) -> Value:
         """Returns what the program sets for its view, in any function."""
         view = self.instances.get(("view",))
         key = view.key + name if view is not None else ""
-        return sole_value(self.overlay[key].writes if key in self.overlay else self.summary.get(key, ()))
+        return self.overlay[key].writes if key in self.overlay else self.summary.get(key, ())
 
     def view_pass(self, place: Span, scope: Scope) -> Instance:
         """Returns the descriptor that MTKView creates for its drawable.
@@ -310,25 +310,28 @@ class MetalObjects(Interpreter):
         """
         descriptor = self.instance("pass", ("view pass", place, scope.calls), place, True)
         self.reset(descriptor)
-        count = self.view_setting("sampleCount")
-        descriptor.complete = type(count) is int and count > 1 and len(self.views) < 2
+        counts = self.view_setting("sampleCount")
+        several = [write for write in counts if type(write.value) is int and write.value > 1]
+        known = all(type(write.value) is int for write in counts) and len({write.guards for write in several}) == 1
+        descriptor.complete = known and len(self.views) < 2
         if not descriptor.complete:
             return descriptor
-        self.clear(descriptor, "color0", "multisampleColorTexture", "multisampleResolve", place)
-        pixels = self.view_setting("depthStencilPixelFormat")
+        guards = several[0].guards if len(several) < len(counts) else ALWAYS
+        self.clear(descriptor, "color0", "multisampleColorTexture", "multisampleResolve", place, guards)
+        pixels = sole_value(self.view_setting("depthStencilPixelFormat"))
         for aspect in ("depth", "stencil"):
             if isinstance(pixels, str) and aspect in pixels:
-                self.clear(descriptor, f"{aspect}Attachment", "depthStencilTexture", "dontCare", place)
+                self.clear(descriptor, f"{aspect}Attachment", "depthStencilTexture", "dontCare", place, guards)
         return descriptor
 
-    def clear(self, descriptor: Instance, slot: str, texture: str, store: str, place: Span) -> None:
+    def clear(self, descriptor: Instance, slot: str, texture: str, store: str, place: Span, guards: Guards) -> None:
         """Sets an attachment that is cleared."""
         attachment = sole_value(self.slot(descriptor, slot, place).writes)
         members: dict[str, Any] = {"texture": self.view_texture(texture, place), "loadAction": "clear", "storeAction": store}
         if store == "multisampleResolve":
             members["resolveTexture"] = self.drawable_texture(place)
         for name, value in members.items():
-            attachment.cell(name).writes = (Alternative(value, place),)
+            attachment.cell(name).writes = (Alternative(value, place, guards),)
 
 
 _OBJECT_KINDS = frozenset({*_DESCRIPTORS, *SHARED})

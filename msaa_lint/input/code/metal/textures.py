@@ -152,7 +152,8 @@ class Textures(MetalConfiguration):
 
     def stated_count(self, texture: ApiObject) -> int | None:
         """Returns the sample count that the program states."""
-        value = self.program.view_setting("sampleCount") if is_view_texture(texture) else constant_of(self.member(texture, "sampleCount"))
+        field = self.shared("view", "sampleCount") if is_view_texture(texture) else self.member(texture, "sampleCount")
+        value = constant_of(field)
         return value if type(value) is int and value in COUNTS else None
 
     def members(self, texture: ApiObject) -> list[Entry]:

@@ -7,7 +7,6 @@ from typing import Any
 from msaa_lint.core.text.node import Node
 from msaa_lint.core.text.node_builder import mapping, scalar, sequence
 from msaa_lint.core.text.span import Span
-from msaa_lint.frame.description.document import Basis
 from msaa_lint.frame.metal.names import ENUMS, MULTISAMPLE_RESOLVES
 from msaa_lint.input.code.core.values import UNKNOWN, ApiObject, Flags, Struct, Symbol, sole_value
 from msaa_lint.input.code.parsing import Read
@@ -67,8 +66,9 @@ class DescriptionWriter(Textures):
             return None
         place = sections[-1][1]
         tree = mapping([("metal", place, mapping([*self.device(), *sections], place))], whole)
-        basis = Basis(assumed={at: "" for _, at, _ in self.assumed.values()})
-        return Read(tree, tuple(self.assumed.values()), basis=basis)
+        for _, at, _ in self.assumed.values():
+            self.assumed_places.setdefault(at, "")
+        return Read(tree, tuple(self.assumed.values()), basis=self.basis)
 
     def known(self, item: Any) -> Any:
         """Returns what a step names: the texture of a value, or a pass."""
@@ -172,7 +172,8 @@ class DescriptionWriter(Textures):
     def pipeline(self, obj: ApiObject, passes: dict[int, str]) -> Node:
         info = obj.info
         entries: list[Entry] = []
-        drawn = next((write.value for write in self.alternatives(info, "passes") if id(write.value) in passes), None)
+        drawings = info.fields["passes"].writes if "passes" in info.fields else ()
+        drawn = next((write.value for write in drawings if id(write.value) in passes and self.settle((write,))), None)
         if drawn is not None:
             entries.append(("renderPass", obj.at, scalar(passes[id(drawn)], obj.at)))
         counted = False

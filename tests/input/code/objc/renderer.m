@@ -11,7 +11,7 @@
     id<MTLDevice> _device;
     id<MTLCommandQueue> _queue;
     id<MTLRenderPipelineState> _pipeline;
-    id<MTLTexture> _depthTexture;
+    id<MTLTexture> _depthTexture, _history;
 }
 
 - (instancetype)initWithDevice:(nonnull id<MTLDevice>)device {
@@ -21,7 +21,7 @@
         _queue = [_device newCommandQueue];
         MTLRenderPipelineDescriptor *descriptor = [[MTLRenderPipelineDescriptor alloc] init];
         descriptor.label = @"Opaque: [all]";
-        descriptor.rasterSampleCount = 2;  // expect: MSAA103
+        descriptor.rasterSampleCount = 2;  // expect: MSAA810
         descriptor.colorAttachments[0].pixelFormat = MTLPixelFormatBGRA8Unorm;
         descriptor.depthAttachmentPixelFormat = MTLPixelFormatDepth32Float;
         NSError *error = nil;
@@ -57,12 +57,15 @@
         pass.colorAttachments[0].storeAction = MTLStoreActionStoreAndMultisampleResolve;  // expect: MSAA801
         pass.depthAttachment.texture = _depthTexture;
         pass.depthAttachment.loadAction = MTLLoadActionClear;
-        [pass.depthAttachment setStoreAction:MTLStoreActionStore];  // expect: MSAA801
+        [pass.depthAttachment setStoreAction:MTLStoreActionStore];  // expect: MSAA802
         id<MTLRenderCommandEncoder> encoder = [commandBuffer renderCommandEncoderWithDescriptor:pass];
         [encoder setRenderPipelineState:_pipeline];
         [encoder drawPrimitives:MTLPrimitiveTypeTriangle vertexStart:0 vertexCount:3];
         [encoder endEncoding];
         [commandBuffer addCompletedHandler:^(id<MTLCommandBuffer> buffer) { NSLog(@"done"); }];
+        id<MTLBlitCommandEncoder> blit = [commandBuffer blitCommandEncoder];
+        [blit copyFromTexture:self.resolveTexture toTexture:_history];
+        [blit endEncoding];
         [commandBuffer presentDrawable:view.currentDrawable];
         [commandBuffer commit];
     }
