@@ -64,6 +64,8 @@ class MetalInterpreter(MetalObjects):
 
     def object_method(self, owner: Term, value: Any, name: str, arguments: Sequence[Term], place: Span, scope: Scope) -> Value | None:
         """Returns the result of a method of one of Metal's objects, or None for other methods."""
+        if owner[:2] == (NAME, "super") and name.startswith("init") and scope.class_name:
+            return self.of_class(scope.class_name, place)
         if name in DESCRIPTOR_METHODS:
             return self.texture_descriptor(name, arguments, place, scope)
         kind = kind_of(str(owner[1])) if owner[0] == NAME else ""

@@ -48,7 +48,9 @@ _BEFORE_VALUE = frozenset({"return", "case", "else", "do", "in", "throw", "goto"
 _ENUMS = frozenset({"NS_ENUM", "NS_OPTIONS", "NS_CLOSED_ENUM", "CF_ENUM", "CF_OPTIONS"})
 _PAIRS = {")": "(", "]": "[", "}": "{"}
 _BLOCK_TYPE = re.compile(r"\(\s*\^")
-_QUALIFIERS = re.compile(r"\b(?:nonnull|nullable|null_unspecified|_Nonnull|_Nullable|__kindof|oneway|inout|out|bycopy|byref|in|const)\b")
+_QUALIFIERS = re.compile(
+    r"\b(?:nonnull|nullable|null_unspecified|_Nonnull|_Nullable|__kindof|__autoreleasing|__strong|__weak|__unsafe_unretained|oneway|inout|out|bycopy|byref|in|const)\b"
+)
 _INTERFACE = re.compile(r"\s+([A-Za-z_]\w*)(?:\s*<[^>{}@;]*>)?(?:\s*\([^(){}]*\))?(?:\s*:\s*([A-Za-z_][\w.]*))?(?:\s*<[^{};@]*?>)?")
 _METHOD = re.compile(r"([-+])\s*(\((?:[^()]|\([^()]*(?:\([^()]*\)[^()]*)*\))*\))?\s*")
 _PART = re.compile(r"([A-Za-z_]\w*)?\s*:\s*(\((?:[^()]|\([^()]*(?:\([^()]*\)[^()]*)*\))*\))?\s*([A-Za-z_]\w*)\s*")
