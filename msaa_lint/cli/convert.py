@@ -15,6 +15,7 @@ from msaa_lint.input.source_file import SourceFile
 
 from .common import UsageError, internal_errors_of, note, refuse_inputs, run_command, warn, write_output, writes
 from .options import Arguments
+from .programs import are_programs, names, place, read_programs
 from .report.escape import escape
 from .report.words import plural
 
@@ -25,6 +26,10 @@ def convert(arguments: Arguments) -> int:
 
 
 def _convert(arguments: Arguments) -> int:
+    if are_programs(arguments):
+        return convert_programs(arguments, arguments.get("output"), bool(arguments.get("force")))
+    if len(arguments["paths"]) > 1:
+        raise UsageError("only source code is converted together; convert each of the other inputs by itself")
     (path,) = arguments["paths"]
     format, frame_end = arguments.get("input_format"), arguments.get("frame_end")
     return convert_input(path, arguments.get("output"), format, bool(arguments.get("force")), frame_end)
@@ -41,6 +46,30 @@ def convert_input(path: str, output: str | None, format: str | None, force: bool
         refuse_inputs([output], [path])
     with internal_errors_of(name):
         return _convert_file(name, path, output, format, force, frame_end)
+
+
+def convert_programs(arguments: Arguments, output: str | None, force: bool) -> int:
+    """Writes the descriptions of the programs in folders and source files, as `convert_input` does."""
+    programs = read_programs(arguments)
+    if output is not None:
+        refuse_inputs([output], [file.source.name for code in programs.files for file in code.files])
+    for line in programs.errors:
+        warn(line)
+    if programs.others:
+        note(f"{plural(len(programs.others), 'input')} that is not source code is left out, the first one {programs.others[0]}")
+    described = [code for code in programs.files if code.description]
+    try:
+        for code in described or programs.files[:1]:
+            _print_notes(code)
+        if described:
+            modules = {name: module for code in described for name, module in code.modules.items()}
+            _write("---\n".join(map(_description, described)), modules, output, force)
+        elif programs.files:
+            raise _ConvertError(f"{names(programs.files[0])}: found no attachment, image, pipeline, or sample count")
+    except _ConvertError as error:
+        for line in error.args:
+            warn(line)
+    return 2 if programs.errors or not described else 0
 
 
 def _convert_file(name: str, path: str, output: str | None, format: str | None, force: bool, frame_end: str | None) -> int:
@@ -91,18 +120,27 @@ def _convert_text(name: str, data: bytes, format: str | None) -> str:
 
 def _convert_source(code: SourceFile, output: str | None, force: bool) -> None:
     """Writes what source code states, a document for each part, and prints what had to be assumed."""
-    documents = code.program.documents
-    description = code.description
-    for part in code.program.unread:
-        note(f"{code.source.name}:{code.source.position(part.at.start).line}: {part.message}")
-    if not description:
+    if not code.description:
+        _print_notes(code)
         raise _ConvertError(f"{code.source.name}: found no attachment, image, pipeline, or sample count")
+    _print_notes(code)
+    _write(_description(code), code.modules, output, force)
+
+
+def _description(code: SourceFile) -> str:
+    """The description of a program, and where it is from."""
+    return f"# Read from {escape(names(code))}; what it does not state is left out.\n{code.description}"
+
+
+def _print_notes(code: SourceFile) -> None:
+    """Prints what of a program is not read, and what had to be assumed."""
+    for part in code.program.unread:
+        note(f"{place(code, part.at)}: {part.message}")
+    name = names(code)
     for number, assumptions in enumerate(code.program.assumed, 1):
-        where = f"{code.source.name}, document {number}" if len(documents) > 1 else code.source.name
+        where = f"{name}, document {number}" if len(code.program.documents) > 1 else name
         for text in assumptions:
             note(f"{where}: {text}")
-    head = f"# Read from {escape(code.source.name)}; what it does not state is left out.\n"
-    _write(head + description, code.modules, output, force)
 
 
 def _write(text: str, modules: Mapping[str, bytes], output: str | None, force: bool) -> None:

@@ -17,12 +17,14 @@ from msaa_lint.input.opening import load
 
 from .common import UsageError, internal_errors_of, run_command, warn
 from .options import Arguments
+from .programs import are_programs, names, place, read_programs
 from .report.data import dump_indented
 from .report.escape import escape
 
 if TYPE_CHECKING:
     from msaa_lint.frame.facts.subjects import FrameAnalysis
     from msaa_lint.input.shader_modules import ShaderAnalyses
+    from msaa_lint.input.source_file import SourceFile
 
 TYPES = {"BOOL": "bool", "INT": "int", "DOUBLE": "double", "STRING": "string", "LIST": "list(string)", "INTS": "list(int)"}
 
@@ -36,6 +38,10 @@ def _facts(arguments: Arguments) -> int:
     output = arguments.get("output", "text")
     if not arguments["paths"]:
         return print_reference(output)
+    if are_programs(arguments):
+        return print_program_facts(arguments, output, arguments.get("profile"))
+    if len(arguments["paths"]) > 1:
+        raise UsageError("only source code is read together; name each of the other inputs by itself")
     return print_facts(arguments["paths"][0], output, arguments.get("profile"), arguments.get("frame_end"))
 
 
@@ -130,12 +136,58 @@ def print_facts(path: str, output: str, profile: str | None, frame_end: str | No
         except UsageError as error:
             failed = True
             warn(str(error))
+    _print_rows(rows, output)
+    return 2 if failed else 0
+
+
+def _print_rows(rows: list[dict[str, object]], output: str) -> None:
     if output == "json":
         print(dump_indented(rows))
     else:
         for line in _lines(rows):
             print(line)
-    return 2 if failed else 0
+
+
+def print_program_facts(arguments: Arguments, output: str, profile: str | None) -> int:
+    """Prints the facts of every subject of the programs in folders and source files; returns 2 if a part of them cannot be read."""
+    from msaa_lint.frame.facts.program import subjects_of
+    from msaa_lint.input.shader_modules import ShaderAnalyses
+
+    programs = read_programs(arguments)
+    analyses = ShaderAnalyses()
+    rows: list[dict[str, object]] = []
+    problems = list(programs.errors)
+    for code in programs.files:
+        problems += [f"{place(code, part.at)}: {part.message}" for part in code.program.unread]
+        name = names(code)
+        try:
+            frames = [_analysis(document, code.source, name, profile, analyses) for document in code.program.documents]
+            with internal_errors_of(name):
+                for subjects in subjects_of(frames):
+                    rows += (_program_row(subject, code) for subject in subjects)
+        except UsageError as error:
+            problems += error.args
+    for line in problems:
+        warn(line)
+    _print_rows(rows, output)
+    return 2 if problems else 0
+
+
+def _program_row(subject: Subject, code: SourceFile) -> dict[str, object]:
+    """A row with the file of each place, if the program has several."""
+    file, head = code.place(subject.head)
+    at = file.source.position(head.start)
+    facts: dict[str, object] = {}
+    for fact in SUBJECTS[subject.kind]:
+        where = subject.facts.places.get(fact.name)
+        other, span = code.place(where) if where is not None else (file, None)
+        facts[fact.name] = {
+            "value": subject.facts.values.get(fact.name),
+            "line": other.source.position(span.start).line if span is not None else None,
+            **({"file": other.source.name} if other is not file else {}),
+        }
+    names = {"file": file.source.name} if len(code.files) > 1 else {}
+    return {"subject": subject.kind, "path": subject.path, **names, "line": at.line, "column": at.column, "facts": facts}
 
 
 def _analysis(document: Document, source: Source, path: str, profile: str | None, analyses: ShaderAnalyses) -> FrameAnalysis:
@@ -173,14 +225,19 @@ def _row(subject: Subject, source: Source) -> dict[str, object]:
 
 def _lines(rows: list[dict[str, object]]) -> Iterator[str]:
     for row in rows:
-        yield f"{row['subject']} {escape(str(row['path']))} (line {row['line']})"
+        yield f"{row['subject']} {escape(str(row['path']))} ({_where(row)})"
         facts = row["facts"]
         assert isinstance(facts, dict)
         for name, fact in facts.items():
             if name.partition(".")[0] in ("frame", "device", "enabled", "scene") and fact["value"] is None:
                 continue
             value = "unknown" if fact["value"] is None else escape(_text(fact["value"]))
-            yield f"  {name:42} {value}" + (f"  (line {fact['line']})" if fact["line"] is not None else "")
+            yield f"  {name:42} {value}" + (f"  ({_where(fact)})" if fact["line"] is not None else "")
+
+
+def _where(place: dict[str, object]) -> str:
+    """The line of a place, and its file if that is stated."""
+    return f"{escape(str(place['file']))}, line {place['line']}" if "file" in place else f"line {place['line']}"
 
 
 def _text(value: object) -> str:

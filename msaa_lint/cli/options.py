@@ -354,7 +354,7 @@ COMMANDS = {
                 *GLOBAL,
             ),
         },
-        Paths("PATH", "An input; none: all facts that a rule can use.", 0, 1),
+        Paths("PATH...", "An input, or folders and files of source code; none: all facts that a rule can use.", 0),
     ),
     "convert": Command(
         """Convert a capture or source code to a description.
@@ -372,7 +372,7 @@ COMMANDS = {
                 *GLOBAL,
             ),
         },
-        Paths("INPUT", "A capture, source code, or render targets; - is standard input.", 1, 1),
+        Paths("INPUT...", "A capture, render targets, or folders and files of source code; - is standard input."),
     ),
     "schema": Command(
         """Print a JSON Schema.""",

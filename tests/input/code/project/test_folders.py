@@ -173,3 +173,31 @@ def check_failed(folder: Path) -> dict[str, Any]:
     assert done.returncode == 2
     data: dict[str, Any] = json.loads(done.stdout)
     return data
+
+
+def test_convert_writes_what_the_files_of_a_folder_state(tmp_path: Path) -> None:
+    write(tmp_path, {"pass.cpp": PASS, "settings.h": settings(4)})
+    done = run(tmp_path, "convert", ".", "--output", "frame.msaa.yaml")
+    assert (done.returncode, done.stderr) == (0, "")
+    text = (tmp_path / "frame.msaa.yaml").read_text(encoding="utf-8")
+    assert text.startswith("# Read from settings.h, pass.cpp; what it does not state is left out.\nrenderPasses:\n")
+    assert "samples: 4" in text
+    assert run(tmp_path, "convert", "pass.cpp", "settings.h").stdout == text
+    alone = run(tmp_path, "convert", "pass.cpp").stdout
+    assert alone == text.replace("settings.h, pass.cpp;", "pass.cpp;")
+
+
+def test_facts_name_the_file_of_each_place(tmp_path: Path) -> None:
+    write(tmp_path, {"pass.cpp": PASS, "settings.h": settings(4)})
+    done = run(tmp_path, "facts", ".", "--output", "json")
+    assert done.returncode == 0, done.stderr
+    (color,) = (row for row in json.loads(done.stdout) if row["subject"] == "attachment" and row["path"].endswith(".color"))
+    assert (color["file"], color["line"]) == ("pass.cpp", 4)
+    assert color["facts"]["attachment.samples"] == {"value": 4, "line": 6}
+
+
+def test_convert_joins_source_code_only(tmp_path: Path) -> None:
+    write(tmp_path, {"a.yaml": "", "b.yaml": ""})
+    done = run(tmp_path, "convert", "a.yaml", "b.yaml")
+    assert done.returncode == 2
+    assert "only source code is converted together" in done.stderr
