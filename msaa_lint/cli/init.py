@@ -38,6 +38,9 @@ fail-on = "warning"
 # Whether an input that creates multisampled images but shows no pass to check makes the exit code 2.
 # strict-inputs = true
 
+# What source code does not state: the values of variables, members, functions, and macros.
+# source.assume = {{"settings.samples" = 4, ENGINE_MSAA = true}}
+
 # Pages with custom rules, or folders of pages.
 # rules = ["ci/msaa-rules"]
 

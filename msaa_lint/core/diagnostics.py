@@ -23,6 +23,8 @@ _TEXTS = {
         "note",
         "A character that cannot be seen, or that displays its line in another order than it is read.",
     ),
+    "MSAA915": ("unused-assumption", "warning", "An `assume` comment in source code that states nothing that is read."),
+    "MSAA916": ("invalid-assumption", "error", "An `assume` comment in source code that cannot be read."),
     "MSAA921": ("configuration", "error", "The configuration, a rule page, a baseline or a path cannot be used."),
     "MSAA931": ("unread-input", "error", "With `--strict-inputs`: the input creates something multisampled, but shows no pass to check."),
     "MSAA941": (

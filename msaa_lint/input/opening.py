@@ -6,6 +6,7 @@ import io
 import os
 import re
 import sys
+from collections.abc import Mapping
 from itertools import chain
 from typing import TYPE_CHECKING, BinaryIO
 
@@ -60,11 +61,13 @@ def load(
     data: bytes | None = None,
     project: str | None = None,
     frame_end: str | None = None,
+    assumed: Mapping[str, bool | int | str] = {},
 ) -> bytes | CaptureInput | SourceFile:
     """The bytes of a text, source code read as documents, or a capture read as far as possible.
 
     `path` is `-` for standard input, which `data` replaces. `name` is the input's name in findings; `format` forces a reader. `project` is
-    that of a file in a named folder, None for a named file. `frame_end` says where the frames of a capture end. Raises OSError if the file
+    that of a file in a named folder, None for a named file. `frame_end` says where the frames of a capture end, `assumed` which
+    values source code has. Raises OSError if the file
     cannot be read, and Unreadable if a text is larger than the limit, if the format is not supported, if the extra for source code is
     missing, or if a capture lacks the debug label that `frame_end` names.
     """
@@ -73,7 +76,7 @@ def load(
         return content
     from .source_file import SourceText
 
-    return read_code(content) if isinstance(content, SourceText) else content
+    return read_code(content._replace(assumed=assumed)) if isinstance(content, SourceText) else content
 
 
 def load_text(

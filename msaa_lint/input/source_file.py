@@ -1,7 +1,7 @@
 """Source code read as documents: a file, or the files of a program together."""
 
 from bisect import bisect_right
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from msaa_lint.core.text.emitter import emit
@@ -18,13 +18,15 @@ if TYPE_CHECKING:
 class SourceText(NamedTuple):
     """The text of a source file, before it is read. `data` are its bytes, `language` is one of `file_types.LANGUAGES`.
 
-    `is_input` is false for a file that is only read for what it defines; nothing is reported in it.
+    `is_input` is false for a file that is only read for what it defines; nothing is reported in it. `assumed` are
+    values that the configuration states, by name.
     """
 
     data: bytes
     source: Source
     language: str
     is_input: bool = True
+    assumed: Mapping[str, bool | int | str] = {}
 
 
 class CodeFile(NamedTuple):
@@ -95,7 +97,7 @@ def read_source_file(data: bytes, name: str, language: str) -> SourceFile:
 
 def read_source_text(text: SourceText) -> SourceFile:
     """Reads one file alone, with the errors of `read_source_file`."""
-    program = code.read(text.source, text.language)
+    program = code.read(text.source, text.language, text.assumed)
     return SourceFile(text.data, text.source, text.language, program, (CodeFile(text.source, program.codes, text.language),))
 
 
@@ -120,5 +122,9 @@ def read_program(
         file, place = whole.place(at)
         return f"{file.source.name}:{file.source.position(place.start).line}"
 
-    reads = kept_reads(cache, files, headers, lambda: read(files, headers))
-    return whole._replace(program=code.program_of(whole.source, codes, reads, line))
+    assumptions = code.assumptions_of([(part.codes[0], part.start) for part in parts], first.assumed)
+    if assumptions is not None:
+        # What of them is of use is only known of what is read now.
+        cache = None
+    reads = kept_reads(cache, files, headers, lambda: read(files, headers, assumptions))
+    return whole._replace(program=code.program_of(whole.source, codes, reads, line, assumptions))

@@ -181,6 +181,7 @@ class Engine:
             priced = iter(_with_fixes(results, own, options, editable=False))
             in_program = [(in_file(code, next(priced))[1], found) if found is not None else (each, None) for each, found in in_program]
         limits = [in_file(code, diagnostic("MSAA906", part.message, file, part.at))[1] for part in program.unread]
+        limits += [in_file(code, diagnostic(remark.code, remark.message, file, remark.at))[1] for remark in program.remarks]
         suppressed = [each._replace(finding=_of_code(each.finding)) for each in suppressed]
         findings = in_order(code, [*(_of_code(found) for found, _ in in_program), *limits])
         sources = {part.source.name: part.source for part in code.files}

@@ -240,7 +240,8 @@ class Workspace:
         request, name = self.request, self.request.input_name(path)
         resolved = self.resolve(request.stdin_filename or os.curdir if path == STDIN else path)
         try:
-            data = opening.load(path, resolved.limits, name, request.format, request.data, self._projects.get(path), request.frame_end)
+            project, assumed = self._projects.get(path), resolved.settings.source
+            data = opening.load(path, resolved.limits, name, request.format, request.data, project, request.frame_end, assumed)
         except (OSError, Unreadable) as error:
             self.findings.append(opening.unreadable(error, name))
             return None
@@ -354,6 +355,7 @@ class Workspace:
             if isinstance(content, bytes) or not isinstance(content, SourceText):
                 return None
             check_length(content.source)
+            content = content._replace(assumed=self.resolve(path).settings.source)
         except (OSError, Unreadable) as error:
             self.findings.append(opening.unreadable(error, path))
             self.failed.add(path)

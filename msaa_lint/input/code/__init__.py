@@ -4,7 +4,7 @@ Each language has a module with `trees(code)`, which returns the code's images, 
 imported only when code in that language is read. The grammars are in the extra `source`.
 """
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from importlib import import_module
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from msaa_lint.core.text.span import Span
     from msaa_lint.frame.description.document import Document
 
-    from .parsing import Code, Read, Unread
+    from .parsing import Assumptions, Code, Read, Remark, Unread
 
 MODULES = {
     **dict.fromkeys(("c", "cpp"), "c.description_trees"),
@@ -38,12 +38,13 @@ _DATA = (".yaml", ".yml", ".json", ".jsonl", ".xml", ".foz", ".rdc", ".toml")
 
 class Program(NamedTuple):
     """The documents of a source file, the assumptions made for each of them as lines for the user, the code that they were read from,
-    and what of it exceeds a limit."""
+    what of it exceeds a limit, and what is wrong with the assumptions that its comments state."""
 
     documents: "tuple[Document, ...]"
     assumed: tuple[tuple[str, ...], ...]
     codes: "tuple[Code, ...]"
     unread: "tuple[Unread, ...]"
+    remarks: "tuple[Remark, ...]" = ()
 
 
 NOTHING = Program((), (), (), ())
@@ -78,10 +79,11 @@ def installed() -> bool:
     return all(find_spec(name) is not None for name in ("tree_sitter", *GRAMMARS.values()))
 
 
-def read(source: "Source", language: str) -> Program:
+def read(source: "Source", language: str, assumed: "Mapping[str, bool | int | str] | None" = None) -> Program:
     """Returns the documents of source code in source order.
 
-    Code that is not understood is left out. Raises `Missing` if the extra is not installed, and `Unreadable` if the code is too long.
+    Code that is not understood is left out; `assumed` are values that the configuration states, by name.
+    Raises `Missing` if the extra is not installed, and `Unreadable` if the code is too long.
     """
     from .parsing import Code, Missing, ascii_only
 
@@ -94,13 +96,24 @@ def read(source: "Source", language: str) -> Program:
         codes_found = (Code(ascii_only(source.text), language),)
     if codes_found and not installed():
         raise Missing(missing_extra())
+    assumptions = assumptions_of([(code, 0) for code in codes_found], assumed or {})
+    codes_found = tuple(code._replace(assumptions=assumptions) for code in codes_found)
     by_code = [(code, list(_readings(code))) for code in codes_found]
     if len(by_code) > 1 and any(code.language == "glsl" for code, _ in by_code):
         from .glsl.description_trees import with_page_counts
 
         by_code = with_page_counts(by_code)
     every = [entry for _, item in by_code for entry in item]
-    return program_of(source, codes_found, every, lambda at: f"line {source.position(at.start).line}")
+    return program_of(source, codes_found, every, lambda at: f"line {source.position(at.start).line}", assumptions)
+
+
+def assumptions_of(codes: "Sequence[tuple[Code, int]]", assumed: "Mapping[str, bool | int | str]") -> "Assumptions | None":
+    """Returns what the comments of code, given with its offset in the program's text, and the configuration state; None if nothing."""
+    if not assumed and not any("assume" in code.text for code, _ in codes):
+        return None
+    from .assumptions import stated
+
+    return stated(codes, assumed)
 
 
 def check_length(source: "Source") -> None:
@@ -111,15 +124,33 @@ def check_length(source: "Source") -> None:
         raise Unreadable(f"source code is read up to {MAX_CHARACTERS} characters, and this file has {len(source.text)}")
 
 
-def program_of(source: "Source", codes: "Sequence[Code]", every: "Sequence[Read]", line: "Callable[[Span], str]") -> Program:
-    """Returns the documents of what was read, whose places are in `source`; `line` names the line of a place to the user."""
+def program_of(
+    source: "Source",
+    codes: "Sequence[Code]",
+    every: "Sequence[Read]",
+    line: "Callable[[Span], str]",
+    assumptions: "Assumptions | None" = None,
+) -> Program:
+    """Returns the documents of what was read, whose places are in `source`; `line` names the line of a place to the user. `assumptions` are
+    those that it was read with."""
     from .documents import bound
 
     reads = [entry for entry in every if entry.tree.value or not entry.unread]
     unread = tuple(part for entry in every for part in entry.unread)
     pieces = any(code.fragments for code in codes)
     documents = tuple(bound(source, read.tree, pieces)._replace(modules=read.modules, basis=read.basis) for read in reads)
-    return Program(documents, tuple(_assumption_lines(read.assumed, line) for read in reads), tuple(codes), unread)
+    return Program(
+        documents, tuple(_assumption_lines(read.assumed, line) for read in reads), tuple(codes), unread, _remarks(assumptions, bool(unread))
+    )
+
+
+def _remarks(assumptions: "Assumptions | None", is_unread: bool) -> "tuple[Remark, ...]":
+    """Returns what is wrong with assumptions. If something is not read, none is unused."""
+    if assumptions is None:
+        return ()
+    from .assumptions import unused
+
+    return (*assumptions.remarks, *(() if is_unread else unused(assumptions)))
 
 
 def _readings(code: "Code") -> "Iterator[Read]":

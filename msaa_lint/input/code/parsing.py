@@ -51,16 +51,43 @@ class Missing(Unreadable):
     """The extra `source` is not installed."""
 
 
+class Assumed(NamedTuple):
+    """The value that the user states for a name, or for the sample count on the line `about`. `at` is its place in a comment; None if the
+    configuration states it."""
+
+    name: str
+    value: bool | int | str
+    at: Span | None
+    about: Span
+
+
+class Remark(NamedTuple):
+    """What is wrong with a comment: the code of a 9xx finding, its message, and its place."""
+
+    code: str
+    message: str
+    at: Span
+
+
+class Assumptions(NamedTuple):
+    """What the user states about a program, the problems of the comments that state it, and what of it was of use."""
+
+    entries: tuple[Assumed, ...]
+    remarks: tuple[Remark, ...]
+    used: set[Assumed]
+
+
 class Code(NamedTuple):
     """Code in one language.
 
     Irrelevant text is blanked, and every non-ASCII character is replaced by `_`, so that the parser's byte offsets are code point offsets
-    in the input. `fragments` is set for pieces of a page rather than a whole program.
+    in the input. `fragments` is set for pieces of a page rather than a whole program, `assumptions` once they are read.
     """
 
     text: str
     language: str
     fragments: bool = False
+    assumptions: Assumptions | None = None
 
 
 class Unread(NamedTuple):

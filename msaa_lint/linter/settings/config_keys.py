@@ -247,6 +247,34 @@ class TableReader:
                     self.problem((*path, name), message, "a configuration file can only lower limits")
         return limits
 
+    def source(self, path: Path, value: Any) -> dict[str, bool | int | str] | None:
+        """The table `[source]`, whose only key is `assume`."""
+        assumptions: dict[str, bool | int | str] | None = None
+        for name, table in self.table(path, value, 'a table such as {assume = {"settings.samples" = 4}}').items():
+            if name == "assume":
+                assumptions = self.assumptions((*path, name), table)
+            else:
+                self.unknown_key(("source", name), ["assume"], f"`source` of {self.origin.source.name}")
+        return assumptions
+
+    def assumptions(self, path: Path, value: Any) -> dict[str, bool | int | str]:
+        from msaa_lint.input.code.assumptions import problem_of, value_of
+
+        assumptions: dict[str, bool | int | str] = {}
+        for name, entry in self.table(path, value, 'a table such as {"settings.samples" = 4}').items():
+            is_scalar = isinstance(entry, (bool, int, str))
+            text = str(entry).lower() if isinstance(entry, bool) else str(entry)[:200]
+            stated = value_of(text) if is_scalar else None
+            known = name.replace("->", ".").removeprefix("this.")
+            problem = problem_of(known, stated, text)
+            if problem or stated is None:
+                self.problem(
+                    (*path, name), problem, 'write a table such as {"settings.samples" = 4, ENGINE_MSAA = true}', "not a name" in problem
+                )
+            else:
+                assumptions[known] = stated
+        return assumptions
+
     def outputs(self, path: Path, value: Any) -> tuple[str, ...] | None:
         items = self.strings(path, value, "output")
         if items is None:
@@ -279,6 +307,7 @@ KEYS: dict[str, Callable[[TableReader, Path, Any], Any]] = {
     "strict-inputs": TableReader.flag,
     "baseline": TableReader.baseline,
     "limits": TableReader.limits,
+    "source": TableReader.source,
     "output": TableReader.outputs,
 }
 """The method that reads each key; None from it leaves the key unset."""

@@ -16,7 +16,7 @@ from msaa_lint.core.globs import matches
 from .selectors import EXACT, Named, Weighed, max_specificity, specificity
 from .settings import Settings
 
-ABOUT_TEXT = ("MSAA911", "MSAA912", "MSAA913", HIDDEN_CHARACTER)
+ABOUT_TEXT = ("MSAA911", "MSAA912", "MSAA913", "MSAA915", HIDDEN_CHARACTER)
 """Diagnostics of suppression comments and of characters: `select` leaves them enabled, everything else can disable them."""
 
 Severity = Callable[[Weighed, str, str | None], str | None]

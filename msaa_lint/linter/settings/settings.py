@@ -65,7 +65,7 @@ class Settings(NamedTuple):
     Inputs: files that match `exclude` are not linted. In folders, only files that match `include` are (empty: files with the usual
     endings and files that contain a frame), and with `respect_gitignore` none that .gitignore ignores. `strict_inputs` makes an input
     that creates something multisampled, but shows no pass to check, an error. `profile` names a device, a device class or a vendor.
-    `limits` overrides `Limits`.
+    `limits` overrides `Limits`. `source` are the values that source code is assumed to have, by name.
 
     `root` is the folder of the configuration file, or the current folder. `origin` maps the path of each key to its configuration file.
     """
@@ -87,6 +87,7 @@ class Settings(NamedTuple):
     respect_gitignore: bool = True
     baseline: str | None = None
     strict_inputs: bool = False
+    source: Mapping[str, bool | int | str] = {}
     limits: Mapping[str, int] = {}
     output: tuple[str, ...] = ()
     root: str = ""

@@ -17,6 +17,9 @@ if TYPE_CHECKING:
 
 WORDS = ("ignore", "ignore-file")
 
+ASSUME = "assume"
+"""The word of a comment in source code that states what the code does not."""
+
 _BEGINNING = re.compile(r"#\s*(msaa[-_ ]?lint)\b\s*(:)?\s*([A-Za-z_-]*)\s*", re.IGNORECASE)
 _BEFORE_REASON = " \t-–—:"
 
@@ -154,6 +157,9 @@ def _read(comment: Comment, match: re.Match[str], start: int, end: int, lines: _
     if match[1].lower() != "msaa-lint" or match[2] is None:
         if rest.startswith("[") and word.startswith("i"):
             report("MSAA913", f"invalid suppression; {lines.example()}", span)
+        return None
+    if word == ASSUME and lines.mark == "//":
+        # Read with the code.
         return None
     if word not in WORDS:
         _unknown_word(match, base, lines, report)

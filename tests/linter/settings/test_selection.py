@@ -28,7 +28,7 @@ RESOLVE = Rule("MSAA301", "resolve-outside-pass", "note")
 NEWER = Rule("MSAA218", "something-new", edition="2026.10")
 OWN = Rule("ACME1", "own-rule", "error", "")
 RULES = [STORED, LOADED, RESOLVE, NEWER, OWN]
-NOT_OF_FRAMES = {"unused-suppression", "unknown-rule-in-suppression", "blanket-suppression", "hidden-character"}
+NOT_OF_FRAMES = {"unused-suppression", "unknown-rule-in-suppression", "blanket-suppression", "unused-assumption", "hidden-character"}
 """What can be turned off that is no rule about a frame."""
 
 

@@ -10,6 +10,7 @@ from msaa_lint.core.text.node import Node
 from msaa_lint.core.text.node_builder import mapping
 from msaa_lint.core.text.span import Span
 from msaa_lint.frame.description.document import Basis
+from msaa_lint.input.code.core.assumed_values import Assume, assuming, nothing
 from msaa_lint.input.code.core.limits import Work
 from msaa_lint.input.code.core.terms import Unit
 from msaa_lint.input.code.metal.description_trees import metal_reads, platform_of
@@ -96,7 +97,10 @@ def syntax_of(code: Code, whole: str, unit: Unit, root: SyntaxNode, calls_metal:
 def trees(code: Code) -> list[Read]:
     """Returns the trees of a file or of a page's fragments: at most one for each API. Raises `Missing` if the grammar is not installed."""
     syntax = file_syntax(code)
-    return located(executed(syntax, code.fragments, code.language in CPP), Places(syntax.pieces), syntax.unread)
+    places = Places(syntax.pieces)
+    return located(
+        executed(syntax, code.fragments, code.language in CPP, assuming(code.assumptions, places.original)), places, syntax.unread
+    )
 
 
 def located(reads: Sequence[Read], places: Places, unread: Sequence[Unread] = ()) -> list[Read]:
@@ -106,21 +110,31 @@ def located(reads: Sequence[Read], places: Places, unread: Sequence[Unread] = ()
             tree=places.moved(read.tree),
             assumed=tuple((what, places.original(at), value) for what, at, value in read.assumed),
             unread=tuple(item._replace(at=places.original(item.at)) for item in read.unread),
+            basis=_moved(read.basis, places),
         )
         for read in reads
     ]
     return [*moved, Read(mapping([], Span(0, 0)), unread=tuple(unread))] if unread else moved
 
 
-def executed(syntax: FileSyntax, fragments: bool, is_cpp: bool) -> list[Read]:
-    """Returns the trees of a file, of the files of a program, or of a page's fragments: at most one for each API."""
+def _moved(basis: Basis, places: Places) -> Basis:
+    conditions: dict[Span, set[str]] = {}
+    for at, subjects in basis.conditions.items():
+        conditions.setdefault(places.original(at), set()).update(subjects)
+    return Basis(conditions, {places.original(at): words for at, words in basis.assumed.items()})
+
+
+def executed(syntax: FileSyntax, fragments: bool, is_cpp: bool, assume: Assume = nothing) -> list[Read]:
+    """Returns the trees of a file, of the files of a program, or of a page's fragments: at most one for each API. `assume` states what the
+    user assumes about it."""
     length = Span(0, syntax.length)
-    metal = metal_reads(syntax.unit, fragments, is_cpp, length, syntax.platform) if syntax.calls_metal else []
-    return [*_vulkan_reads(syntax, fragments, is_cpp), *metal]
+    metal = metal_reads(syntax.unit, fragments, is_cpp, length, syntax.platform, assume) if syntax.calls_metal else []
+    return [*_vulkan_reads(syntax, fragments, is_cpp, assume), *metal]
 
 
-def _vulkan_reads(syntax: FileSyntax, fragments: bool, is_cpp: bool) -> list[Read]:
+def _vulkan_reads(syntax: FileSyntax, fragments: bool, is_cpp: bool, assume: Assume) -> list[Read]:
     interpreter = VulkanInterpreter(syntax.unit, fragments, is_cpp, Work(syntax.length))
+    assume(interpreter)
     if fragments or syntax.fills_structures:
         interpreter.run()
     read = DescriptionWriter(interpreter, fragments, syntax.waits or not syntax.begins_frames).read()

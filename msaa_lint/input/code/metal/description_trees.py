@@ -6,6 +6,7 @@ import re
 
 from msaa_lint.core.text.node_builder import mapping
 from msaa_lint.core.text.span import Span
+from msaa_lint.input.code.core.assumed_values import Assume, nothing
 from msaa_lint.input.code.core.limits import Work
 from msaa_lint.input.code.core.terms import Unit
 from msaa_lint.input.code.parsing import Code, Read
@@ -30,9 +31,10 @@ def platform_of(text: str) -> Span | None:
     return Span(only.start(), only.end()) if only is not None and not _OTHERS_TOO.search(text) else None
 
 
-def metal_reads(unit: Unit, fragments: bool, is_cpp: bool, whole: Span, platform: Span | None) -> list[Read]:
-    """Returns what a program states in Metal's terms: one tree with the section `metal`, or none."""
+def metal_reads(unit: Unit, fragments: bool, is_cpp: bool, whole: Span, platform: Span | None, assume: Assume = nothing) -> list[Read]:
+    """Returns what a program states in Metal's terms: one tree with the section `metal`, or none. `assume` states what the user assumes."""
     interpreter = MetalInterpreter(unit, fragments, is_cpp, Work(whole.end))
+    assume(interpreter)
     interpreter.run()
     if interpreter.unread is not None:
         return [Read(mapping([], Span(0, 0)), unread=(interpreter.unread,))]

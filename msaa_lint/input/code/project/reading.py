@@ -11,7 +11,8 @@ from msaa_lint.core.text.span import Span
 from msaa_lint.input.code.c.description_trees import CPP, FileSyntax, executed, file_syntax, located
 from msaa_lint.input.code.c.places import Piece, Places
 from msaa_lint.input.code.c.preprocessor import definitions
-from msaa_lint.input.code.parsing import Code, Missing, Read, Unread, ascii_only
+from msaa_lint.input.code.core.assumed_values import Assume, assuming
+from msaa_lint.input.code.parsing import Assumptions, Code, Missing, Read, Unread, ascii_only
 
 from .macros import SharedMacros
 from .merge import MAX_REACH, File, merged
@@ -43,8 +44,9 @@ def joined(files: Sequence[ProgramFile]) -> Source:
     return files[0].source if len(files) == 1 else Source(files[0].source.name, "\n".join(file.source.text for file in files))
 
 
-def read(files: Sequence[ProgramFile], headers: Sequence[bool]) -> list[Read]:
-    """Returns what a program creates, with places in its text. `headers` says which of its files only declare.
+def read(files: Sequence[ProgramFile], headers: Sequence[bool], assumptions: Assumptions | None = None) -> list[Read]:
+    """Returns what a program creates, with places in its text. `headers` says which of its files only declare;
+    `assumptions` are stated about it.
 
     If following the program takes too long, its files are read one by one. Raises `Missing` if the grammar is not installed.
     """
@@ -69,11 +71,15 @@ def read(files: Sequence[ProgramFile], headers: Sequence[bool]) -> list[Read]:
         shift = offset - (length - syntax.length - 1)
         limits = tuple(item._replace(at=Span(item.at.start + shift, item.at.end + shift)) for item in syntax.unread)
         unread += [Read(mapping([], Span(0, 0)), unread=limits)] if limits else []
-    reads = _read(files, syntaxes, headers)
+    places = Places(pieces)
+    assume = assuming(assumptions, places.original)
+    reads = _read(files, syntaxes, headers, assume)
     if any(entry.unread for entry in reads):
-        alone = (entry for syntax, file in zip(syntaxes, files, strict=True) if syntax is not None for entry in _alone(syntax, file))
+        alone = (
+            entry for syntax, file in zip(syntaxes, files, strict=True) if syntax is not None for entry in _alone(syntax, file, assume)
+        )
         reads = [*alone, *(entry._replace(tree=mapping([], Span(0, 0))) for entry in reads if entry.unread)]
-    return [*located(reads, Places(pieces)), *unread]
+    return [*located(reads, places), *unread]
 
 
 def reach(files: Sequence[ProgramFile], number: int) -> set[int]:
@@ -88,7 +94,12 @@ def reach(files: Sequence[ProgramFile], number: int) -> set[int]:
     return found
 
 
-def _read(files: Sequence[ProgramFile], syntaxes: Sequence[FileSyntax | None], headers: Sequence[bool]) -> list[Read]:
+def _read(
+    files: Sequence[ProgramFile],
+    syntaxes: Sequence[FileSyntax | None],
+    headers: Sequence[bool],
+    assume: Assume,
+) -> list[Read]:
     """Returns what a program creates, from the syntax of its files, None for a file without."""
     numbers = [number for number, syntax in enumerate(syntaxes) if syntax is not None]
     position = {number: at for at, number in enumerate(numbers)}
@@ -112,7 +123,7 @@ def _read(files: Sequence[ProgramFile], syntaxes: Sequence[FileSyntax | None], h
         calls_metal=any(syntax.calls_metal for syntax in every),
         platform=next((syntax.platform for syntax in every if syntax.platform is not None), None),
     )
-    return executed(program, False, any(file.language in CPP for file in files))
+    return executed(program, False, any(file.language in CPP for file in files), assume)
 
 
 def _unique(name: str, names: dict[str, int]) -> str:
@@ -121,9 +132,9 @@ def _unique(name: str, names: dict[str, int]) -> str:
     return name if names[name] == 1 else _unique(f"{name} {names[name]}", names)
 
 
-def _alone(syntax: FileSyntax, file: ProgramFile) -> Iterator[Read]:
+def _alone(syntax: FileSyntax, file: ProgramFile, assume: Assume) -> Iterator[Read]:
     """Yields what a file creates by itself. What takes too long is left to the message about the program."""
-    for entry in executed(syntax, False, file.language in CPP):
+    for entry in executed(syntax, False, file.language in CPP, assume):
         if entry.tree.value:
             yield entry._replace(unread=())
 

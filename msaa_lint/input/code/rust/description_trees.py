@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 
+from msaa_lint.input.code.core.assumed_values import assuming
 from msaa_lint.input.code.core.limits import Work
 from msaa_lint.input.code.parsing import Code, Read, tree
 from msaa_lint.input.code.vulkan.rust import RustInterpreter
@@ -20,6 +21,7 @@ def trees(code: Code) -> list[Read]:
         return []
     code = prepared(code)
     interpreter = RustInterpreter(unit(code, tree(code).root_node), code.fragments, Work(len(code.text)))
+    assuming(code.assumptions)(interpreter)
     interpreter.run()
     read = DescriptionWriter(interpreter, code.fragments, True).read()
     return [read] if read is not None else []
