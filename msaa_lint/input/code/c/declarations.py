@@ -65,8 +65,8 @@ class Declarations(Expressions):
                 target = child.child_by_field_name("declarator")
                 list_node = child.child_by_field_name("parameters")
                 at = span(child)
-                names = [self.expression(c.named_children[0], depth) for c in (list_node.named_children if list_node is not None else ())]
-                value = (CALL, (NAME, text, at), tuple(names), at)
+                arguments = [self.argument(c, depth) for c in without_comments(list_node)]
+                value = (CALL, (NAME, text, at), tuple(arguments), at)
             if target is None or target.type == "structured_binding_declarator":
                 continue
             name, size, indirect = self.declarator(target)
@@ -81,14 +81,23 @@ class Declarations(Expressions):
 
     def is_construction(self, node: SyntaxNode) -> bool:
         """Returns whether an apparent function declaration constructs an object: `Image image(device, info);`"""
-        list_node = node.child_by_field_name("parameters")
-        children = list_node.named_children if list_node is not None else []
-        return bool(children) and all(
-            c.type == "parameter_declaration"
-            and c.named_child_count == 1
-            and c.named_children[0].type in ("type_identifier", "qualified_identifier")
-            for c in children
-        )
+        children = without_comments(node.child_by_field_name("parameters"))
+        return bool(children) and all(c.type == "parameter_declaration" and self.is_argument(*c.named_children) for c in children)
+
+    @staticmethod
+    def is_argument(kind: SyntaxNode, declarator: SyntaxNode | None = None, *more: SyntaxNode) -> bool:
+        """Returns whether an apparent parameter is a name, or a call `Type()`."""
+        if more or kind.type not in ("type_identifier", "qualified_identifier"):
+            return False
+        if declarator is None:
+            return True
+        empty = declarator.type == "abstract_function_declarator" and declarator.named_child_count == 1
+        return empty and not declarator.named_children[0].named_child_count
+
+    def argument(self, node: SyntaxNode, depth: int) -> Term:
+        """Returns the argument that an apparent parameter is."""
+        term = self.expression(node.named_children[0], depth)
+        return (CALL, term, (), span(node)) if node.named_child_count > 1 else term
 
     def macro_constant(self, node: SyntaxNode) -> list[Term]:
         """Returns a macro that stands for a value, as a constant."""

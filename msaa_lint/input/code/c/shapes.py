@@ -12,6 +12,8 @@ _MACRO = re.compile(r"_*[A-Z][A-Z0-9_]*")
 
 _STRUCTURE = re.compile(r"Vk[A-Z]\w*|vk::[A-Z]\w*|VULKAN_HPP_NAMESPACE::\w+")
 
+_TYPED = re.compile(r"VK_STRUCTURE_TYPE_|(?:vk::)?StructureType::e")
+
 _COUNT = re.compile(
     r"(?!.*BYTE)_*(?:[A-Z][A-Z0-9]*_)*[A-Z0-9]*(?:COUNT|COUNTOF|COUNT_OF|SIZE|LENGTH|LENGTHOF|LEN|ELEMENTS|ELEMS|NELEM|DIM)"
     r"|(?:\w+_)?(?:[aA]rray_?(?:[sS]ize|[cC]ount|[lL]ength|[lL]en)|_?[cC]ount_?[oO]f|[lL]ength_?[oO]f|[nN]elem(?:s|ents)?)"
@@ -72,13 +74,22 @@ def zeroed(kind: str, term: Term) -> Term | None:
 
 
 def cleared(term: Term) -> Term:
-    """Returns a statement that calls a function which clears its argument as a call of `memset`, and any other as it is."""
-    if term[0] != CALL or len(term[2]) not in (1, 2) or term[1][0] != NAME or not _CLEARS.search(_short(term[1])):
+    """Returns a statement that calls a function which clears its argument as a call of `memset`, and any other as it is.
+
+    That the second argument is the type of the structure says as much as the name of the function.
+    """
+    if term[0] != CALL or len(term[2]) not in (1, 2) or term[1][0] != NAME:
         return term
     target, *size = term[2]
-    if (size and not _is_size(size[0])) or target[0] not in (ADDRESS, NAME, FIELD, INDEX):
+    typed = bool(size) and size[0][0] == NAME and _TYPED.match(size[0][1]) is not None
+    if target[0] not in (ADDRESS, NAME, FIELD, INDEX) or not (typed or _CLEARS.search(_short(term[1]))):
+        return term
+    if size and not typed and not _is_size(size[0]):
+        return term
+    if typed and (target[0] == NAME and (target[1].isupper() or _STRUCTURE.fullmatch(target[1]))):
         return term
     at: Span = term[-1]
+    size = [] if typed else size
     target = target if target[0] == ADDRESS else (ADDRESS, target, target[-1])
     return (CALL, (NAME, "memset", at), (target, (LITERAL, 0, at), size[0] if size else (UNPARSED, "sizeof", at)), at)
 

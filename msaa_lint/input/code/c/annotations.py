@@ -1,0 +1,59 @@
+"""Blanks the macros around declarations that the grammar does not expect, where their definitions are unknown: `class API Name`,
+`API void f()`, `void CALL f()`, `f() ATTRIBUTE {`, `Q_OBJECT`."""
+
+from __future__ import annotations
+
+import re
+
+_MACRO = r"_{0,3}[A-Z][A-Z0-9_]{1,60}"
+_ARGUMENTS = r"\([^()\n]{0,200}\)"
+_DECLARED = r"(?:[A-Za-z_][\w:]{0,80}(?:<[^<>()\n]{0,100}>)?[ \t*&\n]{1,40}){1,5}~?[\w:]{1,100}[ \t]*\("
+_KEYWORD = r"(?:class|struct|union|enum|namespace|template|public|private|protected|typedef|using)\b"
+
+_CLASS = re.compile(
+    rf"\b(?:class|struct|union)[ \t]+(?P<blank>{_MACRO}(?:[ \t]*{_ARGUMENTS})?)(?=\s{{1,40}}[A-Za-z_][\w:]{{0,100}}\s{{0,40}}"
+    rf"(?:final\s{{0,40}})?(?::(?!:)|\{{))"
+)
+"""`class API Name : public Base {`"""
+
+_FUNCTION = re.compile(
+    rf"^[ \t]*(?:(?:static|inline|extern|virtual|constexpr|friend|explicit|template[ \t]*<[^<>\n]{{0,100}}>)[ \t]+){{0,4}}"
+    rf"(?P<blank>{_MACRO}(?:[ \t]*{_ARGUMENTS}(?=[ \t]))?)(?=\s{{1,40}}(?:{_KEYWORD}|{_DECLARED}))",
+    re.MULTILINE,
+)
+"""`API void f()`; also a macro on a line of its own before a function."""
+
+_CONVENTION = re.compile(
+    r"(?<=[\w*&>])[ \t]{1,40}(?P<blank>[A-Z0-9_]{0,60}(?:CALL|API|DECL|CONV|PTR|INLINE|ATTR|EXPORT)[A-Z0-9_]{0,60}|__\w{0,20}call|__cdecl)"
+    r"(?=[ \t]{1,40}[A-Za-z_][\w:~]{0,100}[ \t]?\()"
+)
+"""`void CALL f()`"""
+
+_AFTER = re.compile(
+    r"\)[ \t\n]{0,40}(?:const[ \t\n]{1,40})?(?P<blank>[A-Z0-9_]{0,60}(?:NOEXCEPT|OVERRIDE|FINAL|PRINTF|"
+    rf"FORMAT|VARARG|ATTR|NONNULL|PURE|NORETURN|ANNOT|REQUIRES"
+    rf"|EXCLUDES|ACQUIRE|RELEASE|GUARDED|NODISCARD|UNUSED)[A-Z0-9_]{{0,60}}(?:[ \t]?{_ARGUMENTS})?)(?=\s{{0,40}}[{{;])"
+)
+"""`void f() NOEXCEPT {`"""
+
+_STATEMENT = re.compile(
+    rf"^[ \t]*{_MACRO}[ \t]?{_ARGUMENTS}(?P<end>[ \t]*\n)(?=\s{{0,200}}(?:{_KEYWORD}|{_DECLARED}))",
+    re.MULTILINE,
+)
+"""`DECLARE_CLASS(Name, Base)`, without a semicolon"""
+
+
+def without_annotations(text: str) -> str:
+    """Returns the text without what only says how to link, call, or check a declaration; offsets stay."""
+    for pattern in (_CLASS, _CONVENTION, _AFTER, _FUNCTION):
+        text = pattern.sub(_blanked, text)
+    return _STATEMENT.sub(_ended, text)
+
+
+def _ended(match: re.Match[str]) -> str:
+    return match[0][: match.start("end") - match.start()] + ";" + " " * (len(match["end"]) - 2) + ("\n" if len(match["end"]) > 1 else "")
+
+
+def _blanked(match: re.Match[str]) -> str:
+    start, end = match.start("blank") - match.start(), match.end("blank") - match.start()
+    return match[0][:start] + " " * (end - start) + match[0][end:]
