@@ -88,6 +88,8 @@ class Unit(NamedTuple):
     """The classes that each class derives from, in languages whose library needs them."""
     visible: Set[str] = frozenset()
     """Members that other files can read and change, as `Class::member`, in languages that state it."""
+    extended: Set[str] = frozenset()
+    """Classes of which several files may declare members, in languages with extensions."""
 
 
 def at(term: Term) -> Span:

@@ -64,12 +64,14 @@ class Message(NamedTuple):
 
 
 class Rewritten(NamedTuple):
-    """C++ of the same length. Messages and methods are by the offset of their name; `classes` and `bases` of methods and interfaces."""
+    """C++ of the same length. Messages and methods are by the offset of their name; `classes` are those that
+    the text declares or implements, `bases` what they derive from."""
 
     text: str
     messages: dict[int, Message]
     methods: dict[int, tuple[str, Message]]
     bases: dict[str, tuple[str, ...]]
+    classes: set[str]
 
 
 def rewrite(text: str) -> Rewritten:
@@ -91,8 +93,7 @@ class _Rewriter:
         self.messages: dict[int, Message] = {}
         self.methods: dict[int, tuple[str, Message]] = {}
         self.bases: dict[str, tuple[str, ...]] = {}
-        self.skip = 0
-        """The token up to which everything is rewritten."""
+        self.classes: set[str] = set()
 
     def matches(self) -> list[int]:
         """Returns the closing bracket of each opening one, as indices of tokens; -1 for others."""
@@ -130,7 +131,7 @@ class _Rewriter:
             else:
                 n = self.word(n)
             n += 1
-        return Rewritten("".join(self.out), self.messages, self.methods, self.bases)
+        return Rewritten("".join(self.out), self.messages, self.methods, self.bases, self.classes)
 
     def is_token(self, n: int, token: str) -> bool:
         return n < len(self.tokens) and self.tokens[n] == token
@@ -304,6 +305,7 @@ class _Rewriter:
             last = bisect_right(self.starts, stop) - 1 if forward else end if end is not None else n
             self.blank(self.starts[n], self.ends[last])
             return last + 1
+        self.classes.add(header[1])
         if header[2]:
             self.bases[header[1]] = (*self.bases.get(header[1], ()), header[2])
         self.put(self.starts[n], header.end(), f"struct {header[1]}{{")
@@ -331,6 +333,7 @@ class _Rewriter:
         header = _INTERFACE.match(self.text, self.ends[n])
         if header is None:
             return n + 1, ""
+        self.classes.add(header[1])
         self.blank(self.starts[n], header.end())
         after = bisect_right(self.starts, header.end() - 1)
         close = self.match[after] if self.is_token(after, "{") else -1

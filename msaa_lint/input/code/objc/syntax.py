@@ -15,7 +15,8 @@ _COMPARED = {"==": "!", "!=": ""}
 
 def unit(code: Code, root: SyntaxNode, rewritten: Rewritten) -> Unit:
     """Returns the functions, class members, and global declarations of a file."""
-    return _Reader(code, rewritten).unit(root)._replace(bases=rewritten.bases)
+    program = _Reader(code, rewritten).unit(root)
+    return program._replace(bases=rewritten.bases, extended=rewritten.classes)
 
 
 class _Reader(Reader):

@@ -39,7 +39,7 @@ def merged(files: Sequence[File]) -> Unit:
         for name, parameters in unit.prototypes.items():
             prototypes.setdefault(name, parameters)
         for name, terms in unit.members.items():
-            members.setdefault(name, terms)
+            members[name] = (*members.get(name, ()), *terms) if name in unit.extended else members.get(name, terms)
     functions: dict[Hashable, Function] = {}
     for unit in units:
         for function in unit.functions:
@@ -51,7 +51,8 @@ def merged(files: Sequence[File]) -> Unit:
         for name, names in unit.bases.items():
             bases[name] = (*bases.get(name, ()), *names)
     visible = frozenset(name for unit in units for name in unit.visible)
-    return Unit(list(functions.values()), members, outside, prototypes, called, virtual, bases, visible)
+    extended = frozenset(name for unit in units for name in unit.extended)
+    return Unit(list(functions.values()), members, outside, prototypes, called, virtual, bases, visible, extended)
 
 
 def _signature(function: Function) -> tuple[Hashable, ...]:
@@ -91,7 +92,8 @@ CLASS, FUNCTION, GLOBAL = "class", "function", "global"
 def _definitions(file: File) -> Iterator[tuple[Name, Any]]:
     """Yields the names that a file defines, and what they stand for."""
     for name, terms in file.unit.members.items():
-        yield (CLASS, name), tuple(terms)
+        if name not in file.unit.extended:
+            yield (CLASS, name), tuple(terms)
     for function in file.unit.functions:
         yield (FUNCTION, *_signature(function)), function.body
     for term in file.unit.outside:

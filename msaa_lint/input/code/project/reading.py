@@ -12,6 +12,7 @@ from msaa_lint.input.code.c.description_trees import CPP, FileSyntax, executed, 
 from msaa_lint.input.code.c.places import Piece, Places
 from msaa_lint.input.code.c.preprocessor import definitions
 from msaa_lint.input.code.core.assumed_values import Assume, assuming
+from msaa_lint.input.code.objc.description_trees import file_syntax as objc_syntax
 from msaa_lint.input.code.parsing import Assumptions, Code, Missing, Read, Unread, ascii_only
 
 from .macros import SharedMacros
@@ -58,7 +59,11 @@ def read(files: Sequence[ProgramFile], headers: Sequence[bool], assumptions: Ass
     for number, (file, offset) in enumerate(zip(files, starts(files), strict=True)):
         try:
             code = file.code
-            syntax = loads(dumps(file_syntax(code, macros.visible(number, code.text, reach(files, number)))), length)
+            if code.language in ("objc", "objcpp"):
+                known = objc_syntax(code)
+            else:
+                known = file_syntax(code, macros.visible(number, code.text, reach(files, number)))
+            syntax = loads(dumps(known), length)
         except Missing:
             raise
         except (Unreadable, RecursionError) as error:
