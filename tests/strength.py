@@ -8,7 +8,7 @@ from typing import Any
 from hypothesis import settings
 
 settings.register_profile("quick", deadline=None, max_examples=20)
-settings.register_profile("thorough", deadline=None, max_examples=100)
+settings.register_profile("thorough", deadline=None, max_examples=60)
 
 
 def load_profile() -> None:

@@ -32,7 +32,10 @@ def check(folder: Path, name: str, data: bytes, *arguments: str) -> list[dict[st
     (folder / name).write_bytes(data)
     found = findings(run(folder, "check", "--isolated", "--output", "json", *arguments, name))
     assert {finding["file"] for finding in found} <= {name}
-    return [{key: value for key, value in finding.items() if key != "file"} for finding in found]
+    for finding in found:
+        for each in (finding, *finding["labels"]):
+            del each["file"]
+    return found
 
 
 @pytest.mark.parametrize("ending", COMPRESS)

@@ -126,7 +126,7 @@ def test_law_on_examples(tmp_path: Path) -> None:
     assert sum(entry.safe.price is not None and any(entry.safe.price) for entry in savings.values()) >= 3
 
 
-@examples(0.2)
+@examples(0.1)
 @given(frames=st.lists(frames(), min_size=8, max_size=8))
 def test_law_on_generated_frames(frames: list[str], tmp_path_factory: pytest.TempPathFactory) -> None:
     assert_law(tmp_path_factory.mktemp("frames"), {f"{number}.msaa.json": text for number, text in enumerate(frames)})
