@@ -80,16 +80,13 @@ class Interpreter(Calls):
             self.unread = Unread(self.work.message(error), function.at if function is not None else Span(0, 0))
 
     def reached_functions(self) -> Iterator[Function]:
-        """Yields the entry points, and then those of several functions of one name that no call was followed to: calls may be of others."""
+        """Yields the entry points, and then the functions that no call was followed to: a lambda or an unknown object calls them."""
         entry_points = self.entry_points()
         yield from entry_points
         known = {function.at for function in entry_points}
-        owners: dict[str, set[str]] = {}
-        for function in self.unit.functions:
-            owners.setdefault(function.name, set()).add(function.class_name or function.namespace)
         for function in self.unit.functions:
             is_method = function.name != function.class_name.rpartition("::")[2]
-            if is_method and len(owners[function.name]) > 1 and function.at not in known and function.at not in self.followed:
+            if is_method and function.at not in known and function.at not in self.followed:
                 yield function
 
     def entry_points(self) -> list[Function]:
