@@ -50,6 +50,8 @@ class VulkanConfiguration(Configuration):
         """The structures, by identity, whose unknown count is above 1."""
         self.object_names: dict[int, str] = {}
         self.used_names: set[str] = set()
+        self.name_counts: dict[str, int] = {}
+        """The number that the next object of a name takes."""
         self.framebuffer_images: dict[int, list[ApiObject | None]] = {}
         self.duplicates: dict[tuple[Any, ...], ApiObject] = {}
         self.external_images: dict[str, tuple[str, Span, Node]] = {}

@@ -81,10 +81,11 @@ class Members(Multisampling):
         return self.object_names[id(obj)]
 
     def unique(self, base: str) -> str:
-        name, n = base, 2
+        name, n = base, self.name_counts.get(base, 2)
         while name in self.used_names:
             name, n = f"{base} ({n})", n + 1
         self.used_names.add(name)
+        self.name_counts[base] = n
         return name
 
 

@@ -67,10 +67,11 @@ class Passes(Subpasses):
         images = [*bound, *[None] * len(structs)][: len(structs)]
         names = self.attachment_names(info, structs)
         head = head_of(obj.at)
-        subpasses = [self.subpass(struct, names, head) for struct in self.structs(info, "subpasses") or ()] if ordered else []
+        described, is_complete = self.elements(info, "subpasses") if ordered else ([], True)
+        subpasses = [self.subpass(struct, names, head) for struct in described]
         sources = _resolved([subpass.node for subpass in subpasses])
         referred = {reference.text for subpass in subpasses for reference in _leaves(subpass.node)} & set(names)
-        is_complete = all(subpass.complete for subpass in subpasses)
+        is_complete = is_complete and all(subpass.complete for subpass in subpasses)
         nodes: list[Item] = []
         for name, struct, image in zip(names, structs, images, strict=True):
             at = head_of(self.place_of(struct, obj.at))

@@ -6,6 +6,7 @@ not known, it may be any image.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any
 
 from msaa_lint.input.code.core.values import UNKNOWN, ApiObject, Ref, Struct, Symbol, Value, inner_cells
@@ -19,17 +20,26 @@ class Reads:
     def __init__(self, program: VulkanInterpreter) -> None:
         self.program = program
         self.parameters = {f"{function.name}({parameter.name})" for function in program.unit.functions for parameter in function.parameters}
-        self.copied = [self.images_of(value) for value in program.copied]
-        views = [struct.fields["imageView"].writes for struct in program.descriptors if "imageView" in struct.fields]
-        self.bound = [self.images_of(value) for value in views]
+        self.copied = self.images_of_all(program.copied)
+        self.bound = self.images_of_all(struct.fields["imageView"].writes for struct in program.descriptors if "imageView" in struct.fields)
         self.visible = self.visible_objects()
 
     def is_unread(self, image: ApiObject, usage: str) -> bool:
         """Returns whether nothing can read an image, although its usage allows it."""
         if image.escaped or id(image) in self.visible or "STORAGE" in usage or "INPUT" in usage:
             return False
-        reads = [*(self.copied if "TRANSFER_SRC" in usage else ()), *(self.bound if "SAMPLED" in usage else ())]
+        reads = [*([self.copied] if "TRANSFER_SRC" in usage else ()), *([self.bound] if "SAMPLED" in usage else ())]
         return all(images is not None and id(image) not in images for images in reads)
+
+    def images_of_all(self, values: Iterable[Value]) -> set[int] | None:
+        """Returns the images that some values can be or be views of; None if one of them may be any."""
+        images: set[int] = set()
+        for value in values:
+            read = self.images_of(value)
+            if read is None:
+                return None
+            images |= read
+        return images
 
     def images_of(self, value: Value) -> set[int] | None:
         """Returns the images, by identity, that a value can be or be a view of; None if it may be any."""
