@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 class SourceText(NamedTuple):
     """The text of a source file, before it is read. `data` are its bytes, `language` is one of `file_types.LANGUAGES`.
 
-    `is_input` is false for a file that is only read for what it defines; nothing is reported in it. `assumed` are
-    values that the configuration states, by name.
+    `is_input` is false for a file that is only read for what it defines; nothing is reported in it. `assumed` are values that the
+    configuration states, by name, and `definitions` are directives that define the macros of its build.
     """
 
     data: bytes
@@ -27,6 +27,7 @@ class SourceText(NamedTuple):
     language: str
     is_input: bool = True
     assumed: Mapping[str, bool | int | str] = {}
+    definitions: str = ""
 
 
 class CodeFile(NamedTuple):
@@ -109,7 +110,7 @@ def read_program(
     from .code.project.kept import kept_reads
     from .code.project.reading import ProgramFile, joined, read, starts
 
-    files = [ProgramFile(text.source, text.language, included) for text, included in zip(texts, includes, strict=True)]
+    files = [ProgramFile(text.source, text.language, included, text.definitions) for text, included in zip(texts, includes, strict=True)]
     codes = [file.code for file in files]
     first = next(text for text in texts if text.is_input)
     parts = tuple(

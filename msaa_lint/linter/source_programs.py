@@ -10,6 +10,7 @@ from msaa_lint.core.text.files import open_file
 from msaa_lint.input.file_types import HEAD_BYTES, LANGUAGES
 
 if TYPE_CHECKING:
+    from msaa_lint.input.code.project.compile_commands import BuildEntry
     from msaa_lint.input.code.project.index import Index
     from msaa_lint.input.code.project.nearby import Nearby
     from msaa_lint.input.code.project.programs import Entry, Program, Project
@@ -29,13 +30,15 @@ _ENDINGS = tuple(ending for language in TOGETHER for ending in LANGUAGES[languag
 
 class ProgramInput(NamedTuple):
     """The source files of a program, by path, in the order of reading. Findings are reported in `inputs`; `includes` has the numbers of the
-    files that each file includes, `headers` says which are headers, and `roots` has the projects that they must be in."""
+    files that each file includes, `headers` says which are headers, and `roots` has the projects that they must be in,
+    and `definitions` has the directives that define the macros of their builds."""
 
     paths: tuple[str, ...]
     inputs: tuple[str, ...]
     includes: tuple[tuple[int, ...], ...]
     headers: tuple[bool, ...]
     roots: tuple[str | None, ...]
+    definitions: tuple[str, ...]
 
 
 def is_read_together(path: str) -> bool:
@@ -54,7 +57,7 @@ def programs(inputs: Iterable[str], related: Mapping[str, str], projects: Mappin
     search = _Search({path for path in inputs if is_read_together(path)}, {**projects, **related}, index)
     search.add(sorted({*search.inputs, *filter(is_read_together, related)}), related)
     project = Project([search.entries[path] for path in sorted(search.entries)])
-    return [_input(project, program, search.roots) for program in project.programs()]
+    return [_input(project, program, search) for program in project.programs()]
 
 
 class _Search:
@@ -66,6 +69,8 @@ class _Search:
         self.roots = roots
         self.entries: dict[str, Entry] = {}
         self.nearby: dict[str, Nearby] = {}
+        self.builds: dict[str, dict[str, BuildEntry]] = {}
+        self.projects: dict[str, str] = {}
 
     def add(self, paths: Sequence[str], candidates: Container[str]) -> None:
         """Reads files, and searches the files that inputs include, and that these include."""
@@ -79,7 +84,7 @@ class _Search:
             found = self.index.of(path, self.roots.get(path))
             if found is None:
                 continue
-            entry = self.entries[path] = Entry(path, found, path in self.inputs, path in candidates)
+            entry = self.entries[path] = Entry(path, found, path in self.inputs, path in candidates, self.build(path).target)
             if path not in self.inputs and path not in elsewhere:
                 continue
             near = self.near(path)
@@ -92,15 +97,27 @@ class _Search:
                         self.roots[other] = near.root
                         waiting.append(other)
 
+    def build(self, path: str) -> BuildEntry:
+        """How a file is compiled, as far as its project says."""
+        from msaa_lint.input.code.project.compile_commands import BuildEntry, build_entries
+
+        root = self.near(path).root
+        if root not in self.builds:
+            self.builds[root] = build_entries(root)
+        return self.builds[root].get(path, BuildEntry("", ""))
+
     def near(self, path: str) -> Nearby:
         """The search in the project of a file."""
         from msaa_lint.input.code.project.nearby import Nearby
 
-        root = self.roots.get(path) or project_root(folder_of(path))
+        folder = folder_of(path)
+        if folder not in self.projects:
+            self.projects[folder] = project_root(folder)
+        root = self.roots.get(path) or self.projects[folder]
         return self.nearby.setdefault(root, Nearby(root))
 
 
-def _input(project: Project, program: Program, roots: Mapping[str, str]) -> ProgramInput:
+def _input(project: Project, program: Program, search: _Search) -> ProgramInput:
     """The files of a program that are read: headers before sources."""
     inputs = set(program.inputs)
     own = [number for number in program.files if number in inputs or project.entries[number].is_related]
@@ -111,7 +128,8 @@ def _input(project: Project, program: Program, roots: Mapping[str, str]) -> Prog
         tuple(project.entries[number].path for number in program.inputs),
         tuple(tuple(position[other] for other in project.includes[number] if other in position) for number in numbers),
         tuple(project.headers[number] for number in numbers),
-        tuple(roots.get(project.entries[number].path) for number in numbers),
+        tuple(search.roots.get(project.entries[number].path) for number in numbers),
+        tuple(search.build(project.entries[number].path).definitions for number in numbers),
     )
 
 

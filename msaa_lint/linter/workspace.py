@@ -311,7 +311,10 @@ class Workspace:
     def open_program(self, program: ProgramInput) -> InputFile | None:
         """Reads the files of a program, with a finding for each input that cannot be read; None if they cannot be read together."""
         inputs = set(program.inputs)
-        texts = [self._text(path, path in inputs, root) for path, root in zip(program.paths, program.roots, strict=True)]
+        texts = [
+            text._replace(definitions=definitions) if (text := self._text(path, path in inputs, root)) is not None else None
+            for path, root, definitions in zip(program.paths, program.roots, program.definitions, strict=True)
+        ]
         kept = [number for number, text in enumerate(texts) if text is not None]
         position = {number: at for at, number in enumerate(kept)}
         read = [text for text in texts if text is not None]
@@ -322,7 +325,7 @@ class Workspace:
 
         name = first.source.name
         try:
-            if len(read) == 1:
+            if len(read) == 1 and not first.definitions:
                 data = read_source_text(first)
             else:
                 includes = [[position[other] for other in program.includes[number] if other in position] for number in kept]

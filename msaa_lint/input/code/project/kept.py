@@ -26,7 +26,10 @@ def kept_reads(cache: Cache | None, files: Sequence[ProgramFile], headers: Seque
         return read()
     parts = []
     for file, header in zip(files, headers, strict=True):
-        parts += [f"{file.language} {header} {list(file.includes)}".encode(), file.source.text.encode("utf-8", "surrogatepass")]
+        parts += [
+            f"{file.language} {header} {list(file.includes)} {file.definitions}".encode("utf-8", "surrogatepass"),
+            file.source.text.encode("utf-8", "surrogatepass"),
+        ]
     key = digest(*parts)
     data = cache.read("program", key)
     if data is not None:

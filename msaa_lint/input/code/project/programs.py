@@ -23,7 +23,7 @@ VISIBLE_SHARE = 4
 class Entry(NamedTuple):
     """A file of a project: its path with `/`, and its words.
 
-    Findings in an input are reported. A candidate becomes an input if it can matter to a program that uses the API and mentions
+    `target` is that of the build, if it is known. Findings in an input are reported. A candidate becomes an input if it can matter to a program that uses the API and mentions
     multisampling.
     """
 
@@ -31,6 +31,7 @@ class Entry(NamedTuple):
     words: Words
     is_input: bool
     is_candidate: bool = False
+    target: str = ""
 
     @property
     def is_related(self) -> bool:
@@ -56,6 +57,10 @@ class Project:
         self.folders = [posixpath.dirname(entry.path) for entry in entries]
         self.headers = [is_header(entry.path) for entry in entries]
         self.implementations = self._implementations()
+        self.targets: dict[str, list[int]] = {}
+        for number, entry in enumerate(entries):
+            if entry.target:
+                self.targets.setdefault(entry.target, []).append(number)
         self.mates: dict[str, int] = {}
         """For each folder, the first file without a `main`."""
         for number, entry in enumerate(entries):
@@ -113,6 +118,8 @@ class Project:
                 used.update(owner[source] for source in self.implementations[other])
             if self.entries[number].words.has_main and self.folders[number] in self.mates:
                 used.add(owner[self.mates[self.folders[number]]])
+            if self.entries[number].words.has_main:
+                used.update(owner[other] for other in self.targets.get(self.entries[number].target, ()))
         used.discard(owner[numbers[0]])
         return used
 

@@ -9,6 +9,7 @@ from msaa_lint.core.text.node_builder import mapping
 from msaa_lint.core.text.source import Source, Unreadable
 from msaa_lint.core.text.span import Span
 from msaa_lint.input.code.c.description_trees import CPP, FileSyntax, executed, file_syntax, located
+from msaa_lint.input.code.c.macros import Definitions
 from msaa_lint.input.code.c.places import Piece, Places
 from msaa_lint.input.code.c.preprocessor import definitions
 from msaa_lint.input.code.core.assumed_values import Assume, assuming
@@ -21,11 +22,13 @@ from .serialized import dumps, loads
 
 
 class ProgramFile(NamedTuple):
-    """A file of a program: its text, its language, and the numbers of the files that it includes."""
+    """A file of a program: its text, its language, the numbers of the files that it includes, and directives that define what its build
+    does."""
 
     source: Source
     language: str
     includes: Sequence[int] = ()
+    definitions: str = ""
 
     @property
     def code(self) -> Code:
@@ -62,7 +65,7 @@ def read(files: Sequence[ProgramFile], headers: Sequence[bool], assumptions: Ass
             if code.language in ("objc", "objcpp"):
                 known = objc_syntax(code)
             else:
-                known = file_syntax(code, macros.visible(number, code.text, reach(files, number)))
+                known = file_syntax(code, macros.visible(number, code.text, reach(files, number)) | _built(file))
             syntax = loads(dumps(known), length)
         except Missing:
             raise
@@ -85,6 +88,13 @@ def read(files: Sequence[ProgramFile], headers: Sequence[bool], assumptions: Ass
         )
         reads = [*alone, *(entry._replace(tree=mapping([], Span(0, 0))) for entry in reads if entry.unread)]
     return [*located(reads, places), *unread]
+
+
+def _built(file: ProgramFile) -> dict[str, Definitions]:
+    """Returns the macros that the build of a file defines."""
+    if not file.definitions:
+        return {}
+    return {name: found for name, found in definitions(Code(file.definitions, file.language)).items() if found}
 
 
 def reach(files: Sequence[ProgramFile], number: int) -> set[int]:

@@ -201,3 +201,39 @@ def test_convert_joins_source_code_only(tmp_path: Path) -> None:
     done = run(tmp_path, "convert", "a.yaml", "b.yaml")
     assert done.returncode == 2
     assert "only source code is converted together" in done.stderr
+
+
+def compiled(folder: Path, file: str, *words: str, target: str = "app") -> dict[str, Any]:
+    arguments = ["c++", *words, "-c", str(folder / file)]
+    return {"directory": str(folder), "file": file, "arguments": arguments, "output": f"CMakeFiles/{target}.dir/{file}.o"}
+
+
+def test_a_build_defines_macros(tmp_path: Path) -> None:
+    source = PASS.partition("\n")[2].replace("= SAMPLES", "= COUNT")
+    write(tmp_path, {"src/pass.cpp": source, "src/other.cpp": "// msaa\n", ".git/HEAD": ""})
+    assert confidences(check(tmp_path)) == [("src/pass.cpp", "MSAA201", "low")]
+    commands = [compiled(tmp_path, "src/pass.cpp", "-DCOUNT=VK_SAMPLE_COUNT_4_BIT"), compiled(tmp_path, "../outside.cpp", "-DA")]
+    write(tmp_path, {"build/compile_commands.json": json.dumps(commands)})
+    assert confidences(check(tmp_path)) == [("src/pass.cpp", "MSAA201", "medium")]
+    assert confidences(check(tmp_path, "src/pass.cpp")) == [("src/pass.cpp", "MSAA201", "medium")]
+
+
+@pytest.mark.parametrize("text", ["", "[", "{}", '[1, {}, {"file": 3}, {"file": "a", "command": "\'"}]'])
+def test_a_broken_compile_commands_is_passed_over(tmp_path: Path, text: str) -> None:
+    write(tmp_path, {"pass.cpp": PASS, "settings.h": settings(4), "compile_commands.json": text})
+    assert confidences(check(tmp_path)) == [("pass.cpp", "MSAA201", "medium")]
+
+
+def test_the_files_of_a_target_are_a_program(tmp_path: Path) -> None:
+    """The file with the constant is in another folder, which nothing includes."""
+    write(
+        tmp_path,
+        {
+            "app/main.cpp": "// msaa\n" + PASS.partition("\n")[2] + MAIN,
+            "config/values.cpp": "extern const VkSampleCountFlagBits SAMPLES = VK_SAMPLE_COUNT_4_BIT;\n",
+            ".git/HEAD": "",
+        },
+    )
+    assert confidences(check(tmp_path)) == [("app/main.cpp", "MSAA201", "low")]
+    write(tmp_path, {"compile_commands.json": json.dumps([compiled(tmp_path, file) for file in ("app/main.cpp", "config/values.cpp")])})
+    assert confidences(check(tmp_path)) == [("app/main.cpp", "MSAA201", "medium")]
