@@ -23,8 +23,8 @@ VISIBLE_SHARE = 4
 class Entry(NamedTuple):
     """A file of a project: its path with `/`, and its words.
 
-    `target` is that of the build, if it is known. Findings in an input are reported. A candidate becomes an input if it can matter to a program that uses the API and mentions
-    multisampling.
+    `target` is that of the build, if it is known. Findings in an input are reported. A `candidate` becomes an input if it can matter to a
+    program that uses the API and mentions multisampling.
     """
 
     path: str
