@@ -59,7 +59,7 @@ def test_uses_of_macros(macros: str, use: str, expected: str) -> None:
         ("#define N 3\n#if N > 2 && X\na\n#endif", "#define N 3 #if N > 2 && X a #endif"),
         ("#define N 3\n#if N < 2 && X\na\n#endif", "#define N 3"),
         ("#undef N\n#ifdef N\na\n#endif", ""),
-        ("#ifndef N\n#define N 3\n#endif\n#if N == 3\na\n#endif", "#ifndef N #define N 3 #endif #if N == 3 a #endif"),
+        ("#ifndef N\n#define N 3\n#endif\n#if N == 3\na\n#endif", "#ifndef N #endif #if N == 3 a #endif"),
         ("#ifdef X\n#define N 3\n#endif\n#ifdef N\na\n#endif", "#ifdef X #define N 3 #endif #ifdef N a #endif"),
         ("#ifndef GUARD_H\n#define GUARD_H\na\n#endif", "a"),
         ("/*\n#if 0\n*/ a\n#ifdef X\nb\n#endif", "/* #if 0 */ a #ifdef X b #endif"),
@@ -70,7 +70,12 @@ def test_uses_of_macros(macros: str, use: str, expected: str) -> None:
     ],
 )  # fmt: skip
 def test_conditions(text: str, expected: str) -> None:
-    assert read(text) == expected
+    assert read(f"{{\n{text}\n}}") == " ".join(f"{{ {expected} }}".split())
+
+
+def test_conditions_outside_of_functions_are_left_out() -> None:
+    """Their parts are read as if all of them existed."""
+    assert read("#ifdef X\nvoid f() {}\n#else\nvoid g() {}\n#endif\n#ifndef N\n#define N 3\n#endif") == "void f() {} void g() {}"
 
 
 def test_the_places_of_an_expansion() -> None:

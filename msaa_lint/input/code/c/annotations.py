@@ -42,12 +42,25 @@ _STATEMENT = re.compile(
 )
 """`DECLARE_CLASS(Name, Base)`, without a semicolon"""
 
+_INTERFACE = re.compile(r"^[ \t]*@(?:interface|implementation|protocol)\b", re.MULTILINE)
+_VISIBLE = re.compile(r"[^\r\n]")
+
 
 def without_annotations(text: str) -> str:
     """Returns the text without what only says how to link, call, or check a declaration; offsets stay."""
     for pattern in (_CLASS, _CONVENTION, _AFTER, _FUNCTION):
         text = pattern.sub(_blanked, text)
     return _STATEMENT.sub(_ended, text)
+
+
+def without_objective_c(text: str) -> str:
+    """Returns the text of C or C++ without the classes of Objective-C in it; offsets stay."""
+    parts: list[str] = []
+    last = 0
+    while (start := _INTERFACE.search(text, last)) is not None and (end := text.find("@end", start.end())) >= 0:
+        parts += (text[last : start.start()], _VISIBLE.sub(" ", text[start.start() : end + 4]))
+        last = end + 4
+    return "".join((*parts, text[last:]))
 
 
 def _ended(match: re.Match[str]) -> str:

@@ -19,7 +19,7 @@ from msaa_lint.input.code.sample_counts.choices import choices
 from msaa_lint.input.code.vulkan.creation import VulkanInterpreter
 from msaa_lint.input.code.vulkan.tree_writer import DescriptionWriter
 
-from .annotations import without_annotations
+from .annotations import without_annotations, without_objective_c
 from .directives import clear_list_directives
 from .macros import NO_MACROS, Macros
 from .modules import without_modules
@@ -69,6 +69,8 @@ def file_syntax(code: Code, macros: Macros = NO_MACROS) -> FileSyntax:
     Raises `Missing` if the grammar is not installed.
     """
     whole = without_modules(code.text)
+    if code.language in ("c", "cpp"):
+        whole = without_objective_c(whole)
     code, places, unread = preprocessed(code._replace(text=whole if code.fragments else without_irrelevant_bodies(whole, macros)), macros)
     code = code._replace(text=without_annotations(code.text))
     root = tree(code).root_node

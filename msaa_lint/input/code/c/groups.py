@@ -57,10 +57,11 @@ class Arm:
 
 
 class Group:
-    """A group while it is read. `outer` is whether the text around it exists."""
+    """A group while it is read. `outer` is whether the text around it exists, `depth` the number of brackets that are open before it."""
 
-    def __init__(self, outer: bool | None) -> None:
+    def __init__(self, outer: bool | None, depth: int = 0) -> None:
         self.outer = outer
+        self.depth = depth
         self.arms: list[Arm] = []
         self.taken = False
         """Whether an arm is certain to exist if those before it do not, so that those after it do not exist."""

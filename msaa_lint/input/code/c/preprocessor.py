@@ -46,7 +46,7 @@ class Preprocessed:
     `structural` also chooses among parts that the grammar cannot read together.
     """
 
-    def __init__(self, text: str, is_cpp: bool, macros: Macros, structural: bool = True) -> None:
+    def __init__(self, text: str, is_cpp: bool, macros: Macros, structural: bool = True, fragments: bool = False) -> None:
         self.text = text
         self.macros: dict[str, Definitions] = dict(macros)
         """The macros that are defined where the reading is. Without definitions, a name is certainly undefined."""
@@ -66,6 +66,8 @@ class Preprocessed:
         """The values of conditions that are assumed because the grammar cannot read both ways."""
         self._budget = BASE_LENGTH + len(text)
         self._groups: list[Group] = []
+        self._depth = 1 if fragments else 0
+        """The open braces and parentheses, at most; conditions on a page's statements stay."""
         self._read()
 
     def _read(self) -> None:
@@ -103,7 +105,7 @@ class Preprocessed:
         return self._groups[-1].state() if self._groups else True
 
     def _open(self, line: Line, after: Line | None) -> None:
-        group = Group(self._state())
+        group = Group(self._state(), self._depth)
         self._groups.append(group)
         name = line.rest.strip() if line.word == "ifndef" else ""
         guards = after is not None and after.word == "define" and name and line.condition == after.condition
@@ -119,6 +121,7 @@ class Preprocessed:
         arm = group.arms[-1]
         if arm.exists is False and group.outer is not False:
             self.edits.append((arm.line.end, line.start, None))
+        self._depth = group.depth
 
     def _close(self, line: Line) -> None:
         group = self._groups.pop()
@@ -134,12 +137,15 @@ class Preprocessed:
                 if other is not arm and other in remaining:
                     self.edits.append((other.line.end, next_line.start, None))
             undecided = False
-        if not undecided:
+        if not undecided or (self.structural and group.depth == 0):
+            # Outside of functions, what depends on a condition is known wherever the condition is.
             self.edits += [(item.start, item.end, None) for item in (*(other.line for other in group.arms), line)]
         else:
             self._shorten(group, remaining)
-        if self._groups and arm is not None:
-            self._groups[-1].arms[-1].count(arm.brackets)
+        if arm is not None:
+            self._depth += arm.brackets[0] + arm.brackets[1]
+            if self._groups:
+                self._groups[-1].arms[-1].count(arm.brackets)
 
     def _shorten(self, group: Group, remaining: list[Arm]) -> None:
         """Leaves out the directives of arms that do not exist."""
@@ -170,7 +176,7 @@ class Preprocessed:
                 return
             name, macro = found
             self._define(name, extended(self.macros.get(name, ()), macro))
-            if macro.is_constant:
+            if macro.is_constant and not macro.default:
                 return
         elif line.word == "undef" and self._state() is True:
             self._define(line.condition, ())
@@ -223,8 +229,11 @@ class Preprocessed:
         """Reads the text between two directives."""
         if self._state() is False or start >= end:
             return
-        if self._groups and self.structural:
-            self._groups[-1].arms[-1].count(balance(self._bare(start, end)))
+        if self.structural:
+            more = balance(self._bare(start, end))
+            self._depth += more[0] + more[1]
+            if self._groups:
+                self._groups[-1].arms[-1].count(more)
         if not self._active or not self.structural:
             return
         position = start
@@ -333,7 +342,7 @@ def preprocessed(code: Code, macros: Macros = NO_MACROS) -> tuple[Code, Places, 
     """
     if "#" not in code.text and not macros:
         return code, Places(), ()
-    reading = Preprocessed(code.text, code.language.endswith("cpp"), macros)
+    reading = Preprocessed(code.text, code.language.endswith("cpp"), macros, fragments=code.fragments)
     text, places = reading.expanded()
     return code._replace(text=text), places, tuple(reading.unread)
 

@@ -9,7 +9,7 @@ from typing import NamedTuple
 from .macros import Macros
 
 RELEVANT = re.compile(
-    r"[sS]ample|SAMPLE|[aA]ttachment|ATTACHMENT|[mM]saa|MSAA|[rR]esolve|RESOLVE|[fF]ramebuffer|[rR]enderPass|CreateImage|createImage|ImageCreateInfo|TRANSIENT|mageView|[dD]escriptor|AddTexture|(?:[cC]opy|[bB]lit)Image|VK_FORMAT_[DSX]|Format::e[DSX]\d"
+    r"[sS]ample(?!r)|SAMPLE(?!R)|[aA]ttachment|ATTACHMENT|[mM]saa|MSAA|[rR]esolve|RESOLVE|[fF]ramebuffer|[rR]enderPass|CreateImage|createImage|ImageCreateInfo|TRANSIENT|mageView|[dD]escriptor|AddTexture|(?:[cC]opy|[bB]lit)Image|VK_FORMAT_[DSX]|Format::e[DSX]\d"
 )
 """Functions without any of these are irrelevant unless they call one that is relevant."""
 
