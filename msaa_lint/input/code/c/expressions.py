@@ -88,6 +88,9 @@ class Expressions(SyntaxReader, ABC):
             member = node.child_by_field_name("field")
             if member is None:
                 return (UNPARSED, self.text_of(node), at)
+            if self.text.startswith("*", member.start_byte - 1):
+                # A pointer to a member.
+                return (INDEX, *self.parts(node, deeper, "argument"), (UNPARSED, "", span(member)), at)
             name = self.text_of(member)[:MAX_NAME].partition("<")[0].rpartition("::")[2]
             return (FIELD, *self.parts(node, deeper, "argument"), name, span(member))
         if kind == "call_expression":

@@ -13,7 +13,7 @@ from msaa_lint.input.code.core.terms import ASSIGN, CALL, DO, NAME, Function, Pa
 from msaa_lint.input.code.parsing import Code, SyntaxNode, fields, function_declarator, span, without_comments
 
 from .directives import Section, Sections
-from .kinds import CLASSES, MAX_DEPTH
+from .kinds import CLASSES, MAX_DEPTH, NAMES
 from .relevance import relevant
 from .statements import Statements
 
@@ -48,6 +48,8 @@ class Reader(Statements):
         """The start offsets of public member declarations."""
         self.virtual: set[str] = set()
         """Virtual methods, each with its class."""
+        self.bases: dict[str, list[str]] = {}
+        """The classes that each class derives from."""
         self.aliases: dict[str, str] = {}
         self.called_names: set[str] = set()
         """The names of functions that other functions call."""
@@ -56,7 +58,7 @@ class Reader(Statements):
         self.read_declarations(root)
         functions = [self.function(node, namespace, class_name) for namespace, class_name, node in self.relevant_functions()]
         read = [function for function in functions if function is not None]
-        return Unit(read, self.members, self.outside, self.prototypes, self.called_names, self.virtual)
+        return Unit(read, self.members, self.outside, self.prototypes, self.called_names, self.virtual, self.bases)
 
     def read_declarations(self, root: SyntaxNode) -> None:
         """Reads everything that can contain functions: namespaces, classes, and preprocessor blocks."""
@@ -75,6 +77,7 @@ class Reader(Statements):
             elif kind in CLASSES:
                 name, body = fields(node, "name", "body")
                 if body is not None:
+                    self.note_bases(node, name, namespace)
                     stack.append((namespace, f"{namespace}{self.text_of(name)}" if name is not None else class_name, body, depth + 1))
             elif kind == "function_definition":
                 if node.child_by_field_name("body") is not None:
@@ -132,6 +135,13 @@ class Reader(Statements):
             elif public:
                 self.public.add(child.start_byte)
 
+    def note_bases(self, node: SyntaxNode, name: SyntaxNode | None, namespace: str) -> None:
+        """Records the classes that a class derives from."""
+        for child in node.named_children if name is not None else ():
+            if child.type == "base_class_clause":
+                bases = [self.type_text(base) for base in child.named_children if base.type in NAMES]
+                self.bases[f"{namespace}{self.text_of(name)}"] = bases
+
     def note_virtual_methods(self, node: SyntaxNode, class_name: str) -> None:
         if VIRTUAL.search(self.text_of(node)):
             _, name = function_declarator(node)
@@ -177,7 +187,9 @@ class Reader(Statements):
                 item._replace(default=item.default or entry.default) for item, entry in zip(parameters, declared, strict=True)
             )
         overridden = VIRTUAL.search(self.text, node.start_byte, body.start_byte) is not None or f"{owner}::{short}" in self.virtual
-        return Function(short, owner, kind, parameters, statements, span(name), namespace, overridden)
+        returns = node.child_by_field_name("declarator")
+        by_reference = returns is not None and returns.type == "reference_declarator"
+        return Function(short, owner, kind, parameters, statements, span(name), namespace, overridden, by_reference)
 
     def initializer(self, node: SyntaxNode) -> Iterator[Term]:
         """Yields the assignments of a constructor's initializer list."""

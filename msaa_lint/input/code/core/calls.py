@@ -9,14 +9,16 @@ from itertools import islice
 
 from msaa_lint.core.text.span import Span
 
+from .classes import pointed
 from .conditions import canonical_text
 from .guards import brief
 from .library import Library
 from .limits import Work
-from .lists import ListMethods
-from .overloads import Overloads, bound
-from .scope import MAX_CALLS, MAX_CLOSURES, MAX_WAYS, MEMBER, Scope, Scopes
-from .terms import BRACES, CALL, FIELD, INDEX, LAMBDA, NAME, Function, Parameter, Term, Unit, labeled
+from .overloads import bound
+from .resolution import Resolution
+from .scope import MAX_CALLS, MAX_CLOSURES, MAX_WAYS, Scope, Scopes
+from .static_types import OWNED
+from .terms import BRACES, CALL, FIELD, INDEX, LAMBDA, NAME, Function, Parameter, Term, Unit
 from .types import element_type
 from .values import (
     MAX_ALTERNATIVES,
@@ -27,7 +29,7 @@ from .values import (
     Cell,
     Closure,
     Ref,
-    Struct,
+    Routine,
     Symbol,
     Value,
     pointee,
@@ -38,20 +40,23 @@ _CAST = re.compile(r"(?:std::)?u?int(?:8|16|32|64|ptr)?_t$|(?:std::)?size_t$|(?:
 """Types whose name, used as a function, converts a value."""
 
 
-_OWNED = re.compile(r"(?:std::)?make_(?:unique|shared)<([\w:]+)>$")
-
-OTHERS = Cell()
-"""Stands for an object of a class other than the method's."""
+SHARE = 8
+"""The part of the work for a program that following calls more often than MAX_WAYS may take in each execution of the program."""
 
 
-class Calls(ListMethods):
+class Calls(Resolution):
     """Evaluates the calls of one file. `objects` is in creation order."""
 
     def __init__(self, unit: Unit, library: Library, fragments: bool, is_cpp: bool, work: Work) -> None:
         super().__init__(unit, library, fragments, is_cpp, work)
-        self.functions = Overloads(unit.functions)
         self.followed: set[Span] = set()
         """The functions that a call was followed to."""
+        self.reserve = 0
+        """The steps that are left for what is certainly executed, at least."""
+
+    def begin(self) -> None:
+        super().begin()
+        self.reserve = self.work.left - self.work.limit // SHARE
 
     @abstractmethod
     def external_call(self, term: Term, name: str, owner: Term | None, values: Sequence[Value], scope: Scope) -> Value:
@@ -64,37 +69,38 @@ class Calls(ListMethods):
     def get(self, term: Term, scope: Scope) -> Value | None:
         """Returns the result of the getter that a name or member calls, or None."""
         name, owner = _callee(term)
-        function = self.find_function(name, (), term, scope)
+        receiver = self.received(owner, scope) if owner is not None else None
+        function = self.find_function(name, (), term, receiver, scope)
         if function is None or not function.getter:
             return None
-        this_object = self.receiver(function, owner, scope)
-        if this_object is OTHERS or not self.may_follow(function, term[-1], scope):
+        if not self.may_follow(function, term[-1], scope):
             return None
-        return self.call_function(function, (CALL, term, (), term[-1]), scope, this_object)
+        return self.call_function(function, (CALL, term, (), term[-1]), scope, self.this_of(function, receiver, scope))
 
     def call(self, term: Term, scope: Scope) -> Value:
         """Returns the value of a call."""
         function, arguments, place = term[1], term[2], term[3]
         name, owner = _callee(function)
         if function[0] == LAMBDA:
-            closure: Closure | None = Closure(function[1], function[2], scope.scopes)
+            closure: Closure | Routine | None = Closure(function[1], function[2], scope.scopes, scope.this_object)
         else:
-            closure = self.closure(name, scope) if function[0] == NAME else None
-        if closure is not None:
-            if place in scope.active_functions or len(scope.calls) >= MAX_CLOSURES:
-                return UNKNOWN_VALUE
-            body = Function("", "", "", closure.parameters, closure.body, place, scope.namespace)
-            return self.execute(body, term, scope, scope.this_object, closure.scopes)
-        callee = self.find_function(name, arguments, function, scope)
-        if callee is not None and owner is not None and not callee.class_name and not self.fragments:
-            # The method of an object that the program does not define, with the name of a function.
-            callee = None
-        this_object = self.receiver(callee, owner, scope) if callee is not None and callee.class_name else None
-        if callee is not None and this_object is not OTHERS and self.may_follow(callee, place, scope):
+            closure = self.local_callable(name, scope) if function[0] == NAME else None
+        if isinstance(closure, Closure):
+            return self.call_closure(closure, term, scope)
+        receiver = self.received(owner, scope) if owner is not None else None
+        callee = closure.function if closure is not None else self.find_function(name, arguments, function, receiver, scope)
+        if callee is None and name in self.callable_names:
+            called = sole_value(self.read(function, scope))
+            if isinstance(called, Closure):
+                return self.call_closure(called, term, scope)
+            callee = called.function if isinstance(called, Routine) else None
+        if callee is not None and self.may_follow(callee, place, scope):
+            this_object = self.this_of(callee, receiver, scope)
             before = len(self.current_objects)
             result = self.call_function(callee, term, scope, this_object)
             is_method = bool(callee.class_name) and owner is not None and owner[:2] != (NAME, "this")
-            return self.result_of_unknown_object(result, callee, term, before) if is_method and this_object is None else result
+            unknown = is_method and (this_object is None or self.is_pointed(this_object, scope))
+            return self.result_of_unknown_object(result, callee, term, before) if unknown else result
         if owner is None:
             if function[0] == NAME and (instance := self.construct_class(function[1], term, scope)) is not None:
                 return instance
@@ -110,7 +116,7 @@ class Calls(ListMethods):
             if inner is not None:
                 return self.sized_list(inner, arguments, place, scope)
         else:
-            value = self.method(owner, name, arguments, place, scope)
+            value = self.method(receiver, name, arguments, place, scope) if receiver is not None else None
             if value is not None:
                 return value
         if name == "memset" and len(arguments) == 3:
@@ -122,67 +128,51 @@ class Calls(ListMethods):
         values = [self.value(argument, scope) for argument in arguments]
         return self.external_call(term, name, owner, values, scope)
 
-    def closure(self, name: str, scope: Scope) -> Closure | None:
+    def local_callable(self, name: str, scope: Scope) -> Closure | Routine | None:
         for variables in reversed(scope.scopes):
             if name in variables:
-                value = sole_value(variables[name].writes)
-                return value if isinstance(value, Closure) else None
+                value = pointee(sole_value(variables[name].writes))
+                return value if isinstance(value, (Closure, Routine)) else None
         return None
 
-    def find_function(self, name: str, arguments: Sequence[Term], function: Term, scope: Scope) -> Function | None:
-        """Returns the only function of the file that a call can refer to; among several, the one in the same class."""
-        count = len(arguments)
-        self.work.spend(1 + len(self.functions.of_count(name, count).every) // 16)
-        group = self.functions.of_count(name, count).of_labels([labeled(argument)[0] for argument in arguments])
-        if self.fragments:
-            return group.fixed[-1] if group.fixed else None
-        if len(group.every) > 1:
-            qualifier = str(function[1]).rpartition("::")[0] if function[0] == NAME else ""
-            if function[0] == FIELD and function[1][:2] != (NAME, "this"):
-                return None
-            if qualifier:
-                self.work.spend(1 + len(group.fixed) // 16)
-                named = [f for f in group.fixed if _qualified_owner(f).endswith(qualifier)]
-                return named[0] if len(named) == 1 else None
-            group = self.functions.of_scope(name, count, scope.class_name, scope.namespace)
-            group = group.of_labels([labeled(argument)[0] for argument in arguments])
-        return group.sole()
-
-    def receiver(self, function: Function, owner: Term | None, scope: Scope) -> Cell | None:
-        """Returns the object that a method is called on; None if it is unknown, OTHERS if it is of another class."""
-        if owner is None or owner[:2] == (NAME, "this"):
-            return scope.this_object if function.class_name == scope.class_name else None
-        cell = self.cell_of(owner, scope) if owner[0] != CALL else None
-        if cell is None:
-            return None
-        kind = self.type_of(cell)
-        short = function.class_name.rpartition("::")[2]
-        if kind and kind != "auto" and short not in kind and self.class_of(kind, scope.namespace) != function.class_name:
-            return OTHERS
-        known = cell.kind == MEMBER or isinstance(pointee(sole_value(cell.read(scope.guards))), Struct)
-        return cell if known else None
+    def call_closure(self, closure: Closure, term: Term, scope: Scope) -> Value:
+        place = closure.body[0][-1] if closure.body else term[-1]
+        if place in scope.active_functions or len(scope.calls) >= MAX_CLOSURES:
+            return UNKNOWN_VALUE
+        class_name, namespace = closure.class_name or scope.class_name, closure.namespace or scope.namespace
+        body = Function("", class_name, "", closure.parameters, closure.body, place, namespace)
+        return self.execute(body, term, scope, closure.this_object, closure.scopes)
 
     def construct_class(self, kind: str, term: Term, scope: Scope) -> Value | None:
-        """Returns an object of a class in the file, built by its constructor; None for other types and if several constructors match."""
-        inner = _OWNED.match(kind)
-        class_name = self.class_of(inner[1] if inner is not None else kind, scope.namespace)
+        """Returns an object of a class of the program, built by its constructor; None for other types and if several constructors match."""
+        owned = OWNED.match(kind)
+        class_name = self.class_of(owned[1] if owned is not None else kind, scope.namespace) if pointed(kind) == kind else None
         if class_name is None:
             return None
-        count = len(term[2])
-        constructors = self.functions.of_class(class_name.rpartition("::")[2], count, class_name).every
-        if len(constructors) != 1 or not self.may_follow(constructors[0], term[3], scope):
+        struct = self.new_object(class_name, term[3])
+        short = class_name.rpartition("::")[2]
+        every = self.classes.methods.get((class_name, short), [])
+        constructor = self.matching(self.taking(every, term[2]), term[2], scope)
+        if constructor is None:
+            return None if every or term[2] else (Alternative(struct, term[3]),)
+        if not self.may_follow(constructor, term[3], scope):
             return None
-        struct = Struct("", term[3], False)
-        this_object = Cell(class_name, "", (Alternative(struct, term[3]),))
-        self.call_function(constructors[0], term, scope, this_object)
+        self.call_function(constructor, term, scope, Cell(class_name, "", (Alternative(struct, term[3]),)))
         return (Alternative(struct, term[3]),)
 
+    def construct_base(self, name: str, term: Term, scope: Scope) -> None:
+        class_name = self.class_of(name, scope.namespace) or ""
+        every = self.classes.methods.get((class_name, class_name.rpartition("::")[2]), [])
+        constructor = self.matching(self.taking(every, term[2]), term[2], scope)
+        if constructor is not None and self.may_follow(constructor, term[3], scope):
+            self.call_function(constructor, term, scope, scope.this_object)
+
     def may_follow(self, function: Function, place: Span, scope: Scope) -> bool:
-        """Returns whether to execute a call: not if calls nest too deeply, recurse, or have been executed too often."""
+        """Returns whether to execute a call: not if calls nest too deeply or recurse, nor often if much of the work is done."""
         if len(scope.calls) >= MAX_CALLS or function.at in scope.active_functions:
             return False
         self.follow_counts[place] = self.follow_counts.get(place, 0) + 1
-        return self.follow_counts[place] <= MAX_WAYS
+        return self.follow_counts[place] <= MAX_WAYS or self.work.left > self.reserve
 
     def call_function(self, function: Function, term: Term, scope: Scope, this_object: Cell | None = None) -> Value:
         before = len(self.current_objects)
@@ -221,10 +211,14 @@ class Calls(ListMethods):
         inner.active_functions = (*scope.active_functions, function.at)
         self.followed.add(function.at)
         inner.unknown_loops = scope.unknown_loops
-        inner.return_type = function.return_type
+        inner.return_type, inner.by_reference = function.return_type, function.by_reference
         inner.iterations = scope.iterations
         inner.this_object = this_object
+        if function.body:
+            inner.extent = Span(function.body[0][-1].start, function.body[-1][-1].end)
+        reading, self.reading = self.reading, False
         self.block(function.body, inner)
+        self.reading = reading
         base = scope.guards
         return_values = [Alternative(a.value, a.at, a.guards - base) for a in inner.return_values]
         if len(return_values) > MAX_ALTERNATIVES or not return_values or all(a.value is UNKNOWN for a in return_values):

@@ -7,12 +7,12 @@ from typing import Any
 
 from msaa_lint.core.text.span import Span
 
+from .elements import Elements
 from .guards import Guards, brief, either, negated
 from .operators import COMPARISONS
 from .scope import Scope
 from .terms import ADDRESS, BINARY, CALL, FIELD, INDEX, LABEL, LITERAL, NAME, TARGET, UNARY, Term
-from .values import MAX_ALTERNATIVES, ApiObject, Instance, Symbol, sole_value
-from .variables import Variables
+from .values import MAX_ALTERNATIVES, ApiObject, Instance, Symbol, Value, sole_value
 
 _DEFINED = re.compile(r"(!?)\s*defined\s*(?:\(\s*(\w+)\s*\)|(\w+))")
 
@@ -50,7 +50,7 @@ def symbol_key(value: Any) -> str:
     return value.key if isinstance(value, Symbol) else ""
 
 
-class ConditionEvaluator(Variables):
+class ConditionEvaluator(Elements):
     """Evaluates conditions."""
 
     def preprocessor_condition(self, text: str) -> bool | Guards:
@@ -116,6 +116,9 @@ class ConditionEvaluator(Variables):
                 if subterm[0] == CALL:
                     stack += subterm[2]
         return brief(canonical_text(term, names))
+
+    def subject(self, value: Value, term: Term, scope: Scope) -> str:
+        return symbol_key(sole_value(value)) or self.canonical_condition(term, scope)
 
     def comparison(self, term: Term, scope: Scope) -> bool | Guards:
         sign = term[1]

@@ -22,13 +22,13 @@ from .values import (
     Closure,
     Flags,
     Ref,
+    Routine,
     Struct,
     Symbol,
     Value,
     pointee,
     sole_value,
 )
-from .variables import is_element_access
 
 
 class Evaluator(ConditionEvaluator):
@@ -46,12 +46,14 @@ class Evaluator(ConditionEvaluator):
             if known is not None:
                 return (Alternative(known, place),)
             if term[1] == "this":
-                return UNKNOWN_VALUE
-            return self.read(term, scope)
+                return (Alternative(Ref(scope.this_object), place),) if scope.this_object is not None else UNKNOWN_VALUE
+            routine = self.routine(term[1], scope)
+            return self.read(term, scope) if routine is None else (Alternative(routine, place),)
         if tag in (FIELD, INDEX):
             return self.read(term, scope)
         if tag == ADDRESS:
-            return self.address(term[1], scope, place)
+            routine = self.routine(term[1][1], scope) if term[1][0] == NAME else None
+            return self.address(term[1], scope, place) if routine is None else (Alternative(routine, place),)
         if tag == TARGET:
             return _targets(self.value(term[1], scope), scope)
         if tag == BINARY:
@@ -63,20 +65,22 @@ class Evaluator(ConditionEvaluator):
         if tag == CHOICE:
             return self.choice(term, scope, kind)
         if tag == CALL:
-            result = self.call(term, scope)
-            # A reference stands for its target.
-            return _targets(result, scope) if is_element_access(term) else result
+            return self.without_aliases(self.call(term, scope), scope)
         if tag == BRACES:
             return self.braced_value(term, scope, kind)
         if tag == LABEL:
             return self.value(term[2], scope, kind)
         if tag == LAMBDA:
-            return (Alternative(Closure(term[1], term[2], scope.scopes), place),)
+            return (Alternative(Closure(term[1], term[2], scope.scopes, scope.this_object, scope.class_name, scope.namespace), place),)
         return UNKNOWN_VALUE
 
     @abstractmethod
     def braced_value(self, term: Term, scope: Scope, kind: str) -> Value:
         """Returns the value of a braced list for a target type."""
+
+    @abstractmethod
+    def routine(self, name: str, scope: Scope) -> Routine | None:
+        """Returns the function outside of classes that a name stands for as a value, or None."""
 
     @abstractmethod
     def construct_class(self, kind: str, term: Term, scope: Scope) -> Value | None:
@@ -98,9 +102,13 @@ class Evaluator(ConditionEvaluator):
         name = term[1] if term[0] == NAME else term[2] if term[0] == FIELD else ""
         if name in self.getters and (value := self.get(term, scope)) is not None:
             return value
+        reading, self.reading = self.reading, True
         cell = self.cell_of(term, scope)
-        if cell is None:
-            return UNKNOWN_VALUE
+        self.reading = reading
+        return self.content(cell, term[-1], scope) if cell is not None else UNKNOWN_VALUE
+
+    def content(self, cell: Cell, place: Span, scope: Scope) -> Value:
+        """Returns the value in a cell, as it is read at a place."""
         value = cell.read(scope.guards)
         if (
             cell.kind == MEMBER
@@ -108,15 +116,30 @@ class Evaluator(ConditionEvaluator):
             and cell.writes is self.initial.get(cell.key)
             and cell.key not in self.summary
         ):
-            self.initial_reads[term[-1]] = f"`{cell.name.rpartition('::')[2]}` keeps its initial value"
+            self.initial_reads[place] = f"`{cell.name.rpartition('::')[2]}` keeps its initial value"
         if not value and cell.kind == MEMBER:
-            value = self.gathered_struct(cell.name, term[-1])
+            value = self.gathered_struct(cell.name, place)
         if not value:
-            return (Alternative(Symbol(cell.key, cell.name.rpartition("::")[2]), term[-1]),) if cell.key else UNKNOWN_VALUE
+            return (Alternative(Symbol(cell.key, cell.name.rpartition("::")[2]), place),) if cell.key else UNKNOWN_VALUE
         if cell.key and cell.kind != MEMBER:
             # For a parameter, keep the location of the argument.
             return value
-        return tuple(a._replace(at=term[-1]) if not isinstance(a.value, (Struct, Array)) else a for a in value)
+        if cell.kind == MEMBER:
+            return tuple(a._replace(at=place) if not isinstance(a.value, (Struct, Array)) else a for a in value)
+        # What a caller wrote stays where it is written.
+        return tuple(a._replace(at=place) if not isinstance(a.value, (Struct, Array)) and scope.contains(a.at) else a for a in value)
+
+    def without_aliases(self, value: Value, scope: Scope) -> Value:
+        """Returns a value with what references refer to in their place."""
+        if not any(isinstance(a.value, Ref) and a.value.alias for a in value):
+            return value
+        alternatives: list[Alternative] = []
+        for a in value:
+            if isinstance(a.value, Ref) and a.value.alias:
+                alternatives += [Alternative(b.value, b.at, a.guards | b.guards) for b in self.content(a.value.cell, a.at, scope)]
+            else:
+                alternatives.append(a)
+        return tuple(alternatives)
 
     def address(self, operand: Term, scope: Scope, place: Span) -> Value:
         if operand[0] == INDEX:
@@ -210,6 +233,11 @@ class Evaluator(ConditionEvaluator):
 
     def assign(self, term: Term, scope: Scope) -> Value:
         _, sign, target, source, place = term
+        if target[0] == NAME and self.is_base(target[1], scope):
+            # A base class in the list of initializers.
+            arguments = source[2] if source[0] == CALL and source[1][:2] == (NAME, "") else (source,)
+            self.construct_base(target[1], (CALL, target, tuple(arguments), place), scope)
+            return UNKNOWN_VALUE
         cell = self.cell_of(target, scope)
         kind = self.type_of(cell) if cell is not None else ""
         if source[0] == CALL and source[1][:2] == (NAME, "") and cell is not None:
@@ -231,9 +259,22 @@ class Evaluator(ConditionEvaluator):
             if sign in (">>=", "/=") and sole_value(value) is UNKNOWN:
                 # What is halved until it fits is chosen by that.
                 value = (Alternative(Symbol(f"{_name_of(target)} at {place.start}", _name_of(target), True), place),)
+        if any(isinstance(a.value, (Closure, Routine)) for a in value):
+            self.callable_names.add(_name_of(target))
         stored = tuple(Alternative(self.stored_value(a.value, cell.kind, _name_of(target)), a.at, a.guards) for a in value)
         self.store(cell, stored, place, scope)
         return value
+
+    def is_base(self, name: str, scope: Scope) -> bool:
+        """Returns whether a name is that of a class from which the class of the scope derives."""
+        if not scope.class_name or not self.classes.has_bases(scope.class_name):
+            return False
+        base = self.class_of(name, scope.namespace)
+        return base is not None and base != scope.class_name and base in self.classes.chain(scope.class_name)
+
+    @abstractmethod
+    def construct_base(self, name: str, term: Term, scope: Scope) -> None:
+        """Executes a constructor of a base class for the object that is constructed."""
 
     def as_pointer(self, name: str, value: Value, term: Term, scope: Scope) -> Value:
         """Returns a pointer to a list that is assigned to a pointer member, so that later writes to the list are seen."""

@@ -7,6 +7,7 @@ functions write to it, so the file is executed repeatedly, each time with the me
 
 from __future__ import annotations
 
+import sys
 from abc import abstractmethod
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
@@ -19,8 +20,29 @@ from .conditions import canonical_text
 from .escapes import mark_escaped
 from .guards import ALWAYS, Guards, brief, contradicts, decided, either, negated
 from .limits import WorkLimitExceeded
-from .scope import MAX_CASES, MAX_PASSES, MAX_TURNS, Scope, name_objects
-from .terms import BINARY, BLOCK, BREAK, DECLARE, DO, FIELD, IF, INDEX, LEAVE, LOOP, NAME, RETURN, SOME, SWITCH, UNARY, Function, Term, at
+from .scope import MAX_CASES, MAX_FRAMES, MAX_PASSES, MAX_TURNS, Scope, name_objects
+from .terms import (
+    BINARY,
+    BLOCK,
+    BREAK,
+    CALL,
+    DECLARE,
+    DO,
+    FIELD,
+    IF,
+    INDEX,
+    LEAVE,
+    LOOP,
+    NAME,
+    RETURN,
+    SOME,
+    SWITCH,
+    TARGET,
+    UNARY,
+    Function,
+    Term,
+    at,
+)
 from .values import (
     MAX_ALTERNATIVES,
     UNKNOWN,
@@ -36,7 +58,6 @@ from .values import (
     Value,
     sole_value,
 )
-from .variables import is_element_access
 
 
 class Interpreter(Calls):
@@ -56,6 +77,8 @@ class Interpreter(Calls):
     def run(self) -> None:
         """Executes the file until the values of members no longer change, or until it exceeds a limit, which `unread` then says."""
         function = None
+        depth = sys.getrecursionlimit()
+        sys.setrecursionlimit(max(depth, MAX_FRAMES))
         try:
             for _ in range(MAX_PASSES):
                 self.begin()
@@ -72,12 +95,27 @@ class Interpreter(Calls):
                 if self.fragments:
                     self.create_from_fragments(self.overlay)
                 last, self.summary = self.summary, {key: _joined(key, list(writes.values())) for key, writes in writes_by_key.items()}
-                if _marks(last) == _marks(self.summary):
+                last_objects, self.object_summary = self.object_summary, self.members_of_objects()
+                if _marks(last) == _marks(self.summary) and _marks(last_objects) == _marks(self.object_summary):
                     break
         except (WorkLimitExceeded, RecursionError) as error:
             # Of half a frame, too much would be said: that nothing reads an image, for example.
             self.begin()
             self.unread = Unread(self.work.message(error), function.at if function is not None else Span(0, 0))
+        finally:
+            sys.setrecursionlimit(depth)
+
+    def members_of_objects(self) -> dict[str, Value]:
+        """Returns the values of members of the objects that were created, which methods of an unknown object may find in them."""
+        writes_by_key: dict[str, dict[tuple[Any, ...], Alternative]] = {}
+        for struct in self.class_objects:
+            for name, cell in struct.fields.items():
+                self.work.spend(1 + len(cell.writes))
+                writes = writes_by_key.setdefault(f"{self.classes.owner(struct.type, name)}::{name}", {})
+                for write in cell.writes:
+                    if write.value is not UNKNOWN and len(writes) <= MAX_ALTERNATIVES:
+                        writes.setdefault(_mark(write), write)
+        return {key: _joined(key, list(writes.values())) for key, writes in writes_by_key.items() if writes}
 
     def reached_functions(self) -> Iterator[Function]:
         """Yields the entry points, and then the functions that no call was followed to: a lambda or an unknown object calls them."""
@@ -146,7 +184,11 @@ class Interpreter(Calls):
             self.value(term[1], scope)
         elif kind == RETURN:
             if term[1] is not None:
-                value = self.value(term[1], scope, scope.return_type)
+                cell = self.cell_of(term[1], scope) if scope.by_reference and term[1][0] in (NAME, FIELD, INDEX, TARGET) else None
+                if cell is not None:
+                    value: Value = (Alternative(Ref(cell, True), term[-1]),)
+                else:
+                    value = self.value(term[1], scope, scope.return_type)
                 base = scope.guards
                 scope.return_values += [Alternative(a.value, a.at, a.guards | base) for a in value] or [
                     Alternative(UNKNOWN, term[-1], base)
@@ -263,7 +305,9 @@ class Interpreter(Calls):
     def range_elements(self, declared: Sequence[Term], over: Term, scope: Scope) -> list[Cell] | None:
         """Returns the elements of a list if they are known and few, otherwise None."""
         value = self.target(over, scope)
-        known = isinstance(value, Array) and value.complete and declared and len(value.items) <= MAX_TURNS
+        known = (
+            isinstance(value, Array) and value.complete and declared and len(value.items) <= MAX_TURNS and (value.items or not value.unset)
+        )
         return value.items if known else None
 
     def declare(self, term: Term, scope: Scope) -> None:
@@ -272,9 +316,15 @@ class Interpreter(Calls):
             # Other fragments of the page assign it.
             scope.scopes[-1][name] = self.member_cell(f"::{name}")
             return
+        result: Value | None = None
         if indirect and initializer is not None:
-            named = initializer[0] in (NAME, FIELD, INDEX) or is_element_access(initializer)
-            cell = self.cell_of(initializer, scope) if named and not kind.endswith("*") else None
+            cell = None
+            if initializer[0] == CALL:
+                result = self.call(initializer, scope)
+                known = sole_value(result)
+                cell = known.cell if isinstance(known, Ref) and known.alias else None
+            elif initializer[0] in (NAME, FIELD, INDEX) and not kind.endswith("*"):
+                cell = self.cell_of(initializer, scope)
             if cell is not None and not isinstance(sole_value(cell.read(scope.guards)), Ref):
                 scope.scopes[-1][name] = cell
                 return
@@ -283,9 +333,11 @@ class Interpreter(Calls):
             value = self.typed_value(kind, name, place)
             value = value or (UNKNOWN_VALUE if indirect else self.default_value(kind, name, place, scope))
         else:
-            value = self.value(initializer, scope, kind)
+            value = self.value(initializer, scope, kind) if result is None else self.without_aliases(result, scope)
             value = value if any(not isinstance(a.value, Symbol) for a in value) else self.typed_value(kind, name, place) or value
             value = tuple(Alternative(self.stored_value(a.value, kind, name), a.at, a.guards) for a in value)
+            if kind == "auto" and (declared := self.class_of_term(initializer, scope)) is not None:
+                cell.kind = declared
         # An initializer can refer to a variable of the same name that this one shadows.
         scope.scopes[-1][name] = cell
         cell.write(value, place, scope.guards)

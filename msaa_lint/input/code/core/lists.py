@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 from msaa_lint.core.text.span import Span
 
+from .escapes import forget
 from .guards import ALWAYS
 from .scope import Scope
 from .structures import Structures
-from .terms import CALL, FIELD, INDEX, LITERAL, NAME, Term
+from .terms import FIELD, INDEX, LITERAL, NAME, Term
 from .values import (
     UNKNOWN,
     UNKNOWN_VALUE,
@@ -31,16 +32,20 @@ COUNTED = frozenset({"size", "count", "length"})
 SELF = frozenset({"get", "value", "data", "begin", "as_span", "handle", "ptr", "operator*", "release", "Get", "asSpan", "c_ptr"})
 
 
+class Receiver(NamedTuple):
+    """What a method is called on: the expression, its cell if it has one, and its value."""
+
+    owner: Term
+    cell: Cell | None
+    content: Value
+
+
 class ListMethods(Structures):
     """The list methods of one file."""
 
-    def method(self, owner: Term, name: str, arguments: Sequence[Term], place: Span, scope: Scope) -> Value | None:
+    def method(self, receiver: Receiver, name: str, arguments: Sequence[Term], place: Span, scope: Scope) -> Value | None:
         """Returns the result of a method of a structure or list, or None for other objects."""
-        cell = self.cell_of(owner, scope) if owner[0] != CALL else None
-        if cell is not None:
-            content = cell.read(scope.guards)
-        else:
-            content = self.value(owner, scope) if owner[0] not in (FIELD, INDEX) else UNKNOWN_VALUE
+        owner, cell, content = receiver
         value = pointee(sole_value(content))
         if len(content) > 1 and any(isinstance(pointee(item.value), Array) for item in content):
             return self.on_alternatives(content, name, place)
@@ -103,29 +108,33 @@ class ListMethods(Structures):
                 value = self.construct(kind, [(None, item) for item in arguments], place, scope)
             else:
                 value = self.value(arguments[0], scope, kind) if arguments else UNKNOWN_VALUE
-            if scope.unknown_loops or len(array.items) >= 64:
-                array.complete = False
+            array.complete = array.complete and not scope.unknown_loops and len(array.items) < 64
+            if len(array.items) >= 64:
                 return UNKNOWN_VALUE
             item = Cell(kind)
             item.write(tuple(self.named_copy(a, arguments) for a in value), place, scope.guards)
             array.items.append(item)
-            return (Alternative(Ref(item), place),)
+            return (Alternative(Ref(item, True), place),)
         if name in ("data", "begin", "cbegin", "get"):
             return (Alternative(Ref(cell if cell is not None else Cell(writes=(Alternative(array, place),))), place),)
         if name in COUNTED:
             return self.count_value(array, place)
         if name in ("back", "front") and array.items:
-            return (Alternative(Ref(array.items[-1 if name == "back" else 0]), place),)
+            return (Alternative(Ref(array.items[-1 if name == "back" else 0], True), place),)
         if name == "at" and len(arguments) == 1:
             index = self.sole(arguments[0], scope)
             if type(index) is int and 0 <= index < len(array.items):
-                return (Alternative(Ref(array.items[index]), place),)
-        if name in ("at", "rbegin", "rend"):
+                return (Alternative(Ref(array.items[index], True), place),)
+        if name == "at" and len(arguments) == 1:
+            return (Alternative(Ref(self.element_of(array, arguments[0], place, scope), True), place),)
+        if name in ("rbegin", "rend"):
             # The element is unknown, so writes to it make the list unknown.
             array.complete = False
             return UNKNOWN_VALUE
         if name == "clear":
             array.items.clear()
+            array.others.clear()
+            array.unset = False
             array.complete = not scope.guards
             return UNKNOWN_VALUE
         if name in ("resize", "fill", "assign", "insert", "pop_back", "erase", "swap", "emplace"):
@@ -149,5 +158,7 @@ class ListMethods(Structures):
                 value = pointee(alternative.value)
                 if isinstance(value, Array):
                     value.complete = False
+                elif isinstance(value, Struct) and target[0] == INDEX:
+                    forget(value)
                 elif isinstance(value, Struct) and target[0] == FIELD:
                     value.cell(self.library.member(target[2])).write(UNKNOWN_VALUE, target[-1], ALWAYS)

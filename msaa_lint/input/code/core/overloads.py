@@ -30,7 +30,7 @@ class Group:
             return self
         group = Group()
         for function in self.every:
-            if _matches(function.parameters, labels):
+            if matches(function.parameters, labels):
                 group.add(function)
         return group
 
@@ -42,7 +42,7 @@ class Group:
 _NONE = Group()
 
 
-def _matches(parameters: Sequence[Parameter], labels: Sequence[str]) -> bool:
+def matches(parameters: Sequence[Parameter], labels: Sequence[str]) -> bool:
     """Returns whether arguments have the labels of parameters in order. Those with a default may be left out; a last argument without a
     label may be a closure after the call."""
     n = 0
@@ -73,8 +73,14 @@ class Overloads:
 
     def __init__(self, functions: Iterable[Function]) -> None:
         self._by_count: dict[tuple[str, int], Group] = {}
+        self.free: dict[str, Function] = {}
+        """The functions outside of classes that no other one has the name of."""
+        names: dict[str, int] = {}
         self._by_owner: dict[tuple[str, int, str | None, str | None], Group] = {}
         for function in functions:
+            if not function.class_name:
+                names[function.name] = names.get(function.name, 0) + 1
+                self.free[function.name] = function
             required = sum(parameter.default is None for parameter in function.parameters)
             for count in range(required, len(function.parameters) + 1):
                 key = (function.name, count)
@@ -82,6 +88,7 @@ class Overloads:
                 self._by_owner.setdefault((*key, function.class_name, None), Group()).add(function)
                 if not function.class_name:
                     self._by_owner.setdefault((*key, None, function.namespace), Group()).add(function)
+        self.free = {name: function for name, function in self.free.items() if names[name] == 1}
 
     def of_count(self, name: str, count: int) -> Group:
         """Returns the functions of a name that take a number of arguments."""

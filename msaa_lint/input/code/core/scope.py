@@ -21,14 +21,17 @@ MEMBER = "member"
 
 Scopes = tuple[dict[str, Cell], ...]
 
-MAX_CALLS = 5
+MAX_CALLS = 100
 """The maximum depth of calls that are executed."""
+
+MAX_FRAMES = 8000
+"""The depth of Python's stack while a program is executed, enough for MAX_CALLS in ordinary code."""
 
 MAX_CLOSURES = 20
 """The maximum depth of calls in which lambdas are executed; they may call each other."""
 
 MAX_WAYS = 4
-"""The maximum number of times that a call is executed."""
+"""The number of times that a call is executed whatever work is left."""
 
 
 class Scope:
@@ -45,6 +48,8 @@ class Scope:
         self.calls = calls
         self.return_values: list[Alternative] = []
         self.return_type = ""
+        self.by_reference = False
+        """Whether the function returns a reference."""
         self.unreachable = False
         """Whether the following statements are unreachable."""
         self.interrupted = False
@@ -54,8 +59,14 @@ class Scope:
         """The current iterations of the enclosing loops that are executed individually."""
         self.this_object: Cell | None = None
         """The object that the method is called on, if known."""
+        self.extent: Span | None = None
+        """The place of the function's body."""
         self.active_functions: tuple[Span, ...] = ()
         """The functions that are being executed."""
+
+    def contains(self, place: Span) -> bool:
+        """Returns whether a place is in the function that is executed, or in none that is known."""
+        return self.extent is None or self.extent.start <= place.start <= self.extent.end
 
 
 def name_objects(value: Value, name: str, scope: Scope) -> None:

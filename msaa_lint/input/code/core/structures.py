@@ -46,6 +46,7 @@ class Structures(Evaluator):
     def begin(self) -> None:
         """Discards the results of the previous execution of the file, but keeps the identity of objects."""
         self.current_objects = {}
+        self.class_objects.clear()
         self.declared_structs.clear()
         self.follow_counts.clear()
         self.initial_reads.clear()
@@ -239,11 +240,12 @@ class Structures(Evaluator):
         built = self.construct_class(kind, (CALL, (NAME, kind, place), arguments, place), scope)
         if built is not None:
             return built
-        struct = Struct("", place, False)
-        names = list(self.members.get(self.class_of(kind, scope.namespace) or "", ()))
-        for name, (path, term) in zip(names, items, strict=False):
+        class_name = self.class_of(kind, scope.namespace) or ""
+        struct = self.new_object(class_name, place)
+        members = self.members.get(class_name, {})
+        for name, (path, term) in zip(members, items, strict=False):
             if not path:
-                value = self.value(term, scope)
+                value = self.value(term, scope, members[name][1])
                 struct.cell(self.library.member(name)).writes = self.copies.alternatives(value)
         return (Alternative(struct, place),)
 
@@ -255,7 +257,8 @@ class Structures(Evaluator):
 
     def count_value(self, value: Any, place: Span) -> Value:
         value = pointee(value)
-        return (Alternative(len(value.items), place),) if isinstance(value, Array) and value.complete else UNKNOWN_VALUE
+        known = isinstance(value, Array) and value.complete and (value.items or not value.unset)
+        return (Alternative(len(value.items), place),) if known else UNKNOWN_VALUE
 
     def zero_memory(self, arguments: Sequence[Term], scope: Scope) -> Value:
         """Executes `memset(&x, 0, sizeof x)`."""

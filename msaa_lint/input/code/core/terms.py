@@ -72,6 +72,8 @@ class Function(NamedTuple):
     """Whether a derived class may override it."""
     getter: bool = False
     """Whether reading a member of its name calls it."""
+    by_reference: bool = False
+    """Whether it returns a reference."""
 
 
 class Unit(NamedTuple):
@@ -85,7 +87,7 @@ class Unit(NamedTuple):
     called: Set[str]
     virtual: Set[str] = frozenset()
     bases: Mapping[str, Sequence[str]] = {}
-    """The classes that each class derives from, in languages whose library needs them."""
+    """The classes that each class derives from."""
     visible: Set[str] = frozenset()
     """Members that other files can read and change, as `Class::member`, in languages that state it."""
     extended: Set[str] = frozenset()

@@ -125,13 +125,15 @@ def possible_writes(writes: Value, configuration: Mapping[str, bool]) -> Value:
 class Struct:
     """A structure of Vulkan or the program. In a zeroed structure, unset members are zero. `name` is the first variable that held it."""
 
-    __slots__ = ("at", "fields", "kind", "name", "used", "zeroed")
+    __slots__ = ("at", "fields", "kind", "name", "type", "used", "zeroed")
 
     def __init__(self, kind: str, at: Span, zeroed: bool = False, name: str = "") -> None:
         self.kind = kind
         self.at = at
         self.zeroed = zeroed
         self.name = name
+        self.type = ""
+        """The class of the program that it is an object of, if known."""
         self.used = False
         """Whether a call takes it."""
         self.fields: dict[str, Cell] = {}
@@ -184,7 +186,7 @@ class Members(Protocol):
 class Array:
     """A list. `complete` means that all its elements are known; `zeroed` that further elements are zero."""
 
-    __slots__ = ("at", "complete", "items", "kind", "name", "zeroed")
+    __slots__ = ("at", "complete", "items", "kind", "name", "others", "unset", "zeroed")
 
     def __init__(self, kind: str, at: Span, complete: bool = True) -> None:
         self.kind = kind
@@ -193,12 +195,17 @@ class Array:
         self.complete = complete
         self.zeroed = False
         self.name = ""
+        self.others: dict[str, Cell] = {}
+        """The elements at unknown indices, by the index."""
+        self.unset = False
+        """Whether it is a member that was not used yet. Then its length is not known, although it starts empty."""
 
 
 class Ref(NamedTuple):
-    """A pointer or reference to a cell."""
+    """A pointer to a cell; an alias is a reference, which stands for what is in the cell."""
 
     cell: Cell
+    alias: bool = False
 
 
 class ApiObject:
@@ -228,7 +235,13 @@ class ApiObject:
 def _said(value: Any) -> str:
     if isinstance(value, ApiObject):
         return f"{value.kind} at {value.at}"
-    return f"at {value.at}" if isinstance(value, (Struct, Array)) else "reference" if isinstance(value, (Ref, Closure)) else repr(value)
+    return (
+        f"at {value.at}"
+        if isinstance(value, (Struct, Array))
+        else "reference"
+        if isinstance(value, (Ref, Closure, Routine))
+        else repr(value)
+    )
 
 
 class Closure(NamedTuple):
@@ -237,6 +250,24 @@ class Closure(NamedTuple):
     parameters: tuple[Any, ...]
     body: tuple[Any, ...]
     scopes: tuple[dict[str, Cell], ...]
+    this_object: Cell | None = None
+    class_name: str = ""
+    namespace: str = ""
+
+
+class Routine:
+    """A pointer to a function of the program."""
+
+    __slots__ = ("function",)
+
+    def __init__(self, function: Any) -> None:
+        self.function = function
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Routine) and other.function is self.function
+
+    def __hash__(self) -> int:
+        return id(self.function)
 
 
 def inner_cells(value: Any) -> list[Cell]:
@@ -276,17 +307,34 @@ class Copier:
         """Returns a deep copy of a structure or list, and of the targets of its pointers, each of which is copied once."""
         return self._copy(value, 0, {})
 
+    def merged(self, value: Value) -> Struct:
+        """Returns one structure for several alternative ones: what is different has alternatives."""
+        structs = [(a.value, a.guards) for a in value]
+        first: Struct = structs[0][0]
+        merged = Struct(first.kind, first.at, all(struct.zeroed for struct, _ in structs), first.name)
+        merged.type = first.type if all(struct.type == first.type for struct, _ in structs) else ""
+        for name in dict.fromkeys(name for struct, _ in structs for name in struct.fields):
+            writes: Value = ()
+            for struct, guards in structs:
+                cell = struct.fields.get(name)
+                unset = (Alternative(None if struct.zeroed else UNKNOWN, struct.at),)
+                writes += self.alternatives(cell.writes if cell is not None and cell.writes else unset, guards)
+            merged.cell(name).writes = limited(writes, first.at)
+        return merged
+
     def _copy(self, value: Any, depth: int, targets: dict[int, Cell] | None) -> Any:
         if depth > MAX_DEPTH:
             return UNKNOWN
         if isinstance(value, Struct) and not isinstance(value, Instance):
             struct = Struct(value.kind, value.at, value.zeroed, value.name)
+            struct.type = value.type
             for name, cell in value.fields.items():
                 struct.fields[name] = self._cell(cell, Cell(cell.kind, cell.name), depth, targets)
             return struct
         if isinstance(value, Array):
             array = Array(value.kind, value.at, value.complete)
-            array.zeroed, array.name = value.zeroed, value.name
+            array.zeroed, array.name, array.others = value.zeroed, value.name, dict(value.others)
+            array.unset = value.unset
             array.items = [self._cell(cell, Cell(cell.kind, cell.name), depth, targets) for cell in value.items]
             return array
         if isinstance(value, Ref) and targets is not None:
@@ -295,7 +343,7 @@ class Copier:
             if copy is None:
                 copy = targets[id(cell)] = Cell(cell.kind, cell.name)
                 self._cell(cell, copy, depth, targets)
-            return Ref(copy)
+            return Ref(copy, value.alias)
         return value
 
     def _cell(self, cell: Cell, copy: Cell, depth: int, targets: dict[int, Cell] | None) -> Cell:
@@ -329,6 +377,9 @@ def are_equal(left: Any, right: Any) -> bool:
     """Returns whether two values are certainly equal."""
     if isinstance(left, Flags) and isinstance(right, Flags):
         return {bit for bit, _ in left.bits} == {bit for bit, _ in right.bits}
+    if isinstance(left, ApiObject) and isinstance(right, ApiObject):
+        # The same call creates the same object again, when a window is resized, for example.
+        return left is right or left.signature() == right.signature()
     if isinstance(left, (Struct, Array, Unknown)):
         return left is right and left is not UNKNOWN
     return type(left) is type(right) and bool(left == right)

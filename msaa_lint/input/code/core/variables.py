@@ -7,6 +7,7 @@ from typing import Any
 
 from msaa_lint.core.text.span import Span
 
+from .classes import Classes, pointed
 from .library import Library
 from .limits import Work
 from .scope import MEMBER, Scope
@@ -18,9 +19,9 @@ MAX_KEY = 2000
 """The maximum length of the path of a member; those of longer ones are unknown."""
 
 
-def is_element_access(term: Term) -> bool:
-    """Returns whether an expression calls a method that returns a reference to an element of a list."""
-    return bool(term[0] == CALL and term[1][0] == FIELD and term[1][2] in ("front", "back", "at"))
+def _element(kind: str, part: str) -> str:
+    """Returns a type, or that of an element if a path has an index."""
+    return (element_type(kind) or kind) if "[" in part else kind
 
 
 class Variables(ABC):
@@ -43,9 +44,14 @@ class Variables(ABC):
                 before = self.globals.get(term[2])
                 again = before is not None and before[3] is not None and term[3] is not None and before[3][:-1] != term[3][:-1]
                 self.globals[term[2]] = (*term[:3], None, *term[4:]) if again and not fragments else term
-        self.members = {name: {term[2]: term for term in terms if term[0] == DECLARE} for name, terms in unit.members.items()}
+        self.classes = Classes(unit)
+        self.members = self.classes.members
         self.summary: dict[str, Value] = {}
         """The values of members: the union of what all functions write."""
+        self.class_objects: list[Struct] = []
+        """The objects of classes that were created."""
+        self.object_summary: dict[str, Value] = {}
+        """The values of their members."""
         self.overlay: dict[str, Cell] = {}
         """The cells of members in the current entry point."""
         self.initial: dict[str, Value] = {}
@@ -55,12 +61,12 @@ class Variables(ABC):
         """The members that are taken to keep their initial value, although other code may change it."""
         self.initial_reads: dict[Span, str] = {}
         """Where such a value is read, with the assumption in words."""
+        self.reading = False
+        """Whether the cells of an expression are only read."""
+        self.callable_names: set[str] = set()
+        """The variables and members to which functions are assigned."""
         self.parts: dict[str, dict[str, None]] = {}
         """The names of members used with each member."""
-        self._classes: dict[str, list[str]] = {}
-        """The classes by the last part of their names."""
-        for name in self.members:
-            self._classes.setdefault(name.rpartition("::")[2], []).append(name)
 
     @abstractmethod
     def value(self, term: Term, scope: Scope, kind: str = "") -> Value:
@@ -100,6 +106,8 @@ class Variables(ABC):
             value.name = value.name or name
         elif isinstance(value, Struct):
             value.kind = value.kind or self.library.structure(kind)
+            if not value.kind and not value.type:
+                value.type = self.class_of(kind, "") or ""
             value.name = name or value.name
         if isinstance(value, Array):
             value.kind = value.kind or element_type(kind) or ""
@@ -127,6 +135,10 @@ class Variables(ABC):
             return value.cell if isinstance(value, Ref) else None
         return None
 
+    @abstractmethod
+    def indexed(self, term: Term, scope: Scope) -> Cell | None:
+        """Returns the cell of an element of a list, or None if it is unknown."""
+
     def variable(self, name: str, scope: Scope) -> Cell | None:
         name = name.removeprefix("this->")
         for variables in reversed(scope.scopes):
@@ -134,39 +146,66 @@ class Variables(ABC):
                 return variables[name]
         if self.library.constant(name) is not None:
             return None
-        if scope.this_object is not None and name in self.members.get(scope.class_name, ()):
+        if scope.this_object is not None and self.classes.member(scope.class_name, name) is not None:
             return self.own_member(name, scope.this_object, scope)
         return self.member_cell(self.member_key(name, scope))
 
+    @abstractmethod
     def own_member(self, name: str, this_object: Cell, scope: Scope) -> Cell:
         """Returns a member of the object whose method is executed."""
-        value = pointee(sole_value(this_object.read(scope.guards)))
-        if isinstance(value, Struct):
-            return value.cell(name)
-        if this_object.kind == MEMBER:
-            return self.member_cell(f"{self.pointed_class(this_object.name) or this_object.name + '.'}{name}")
-        return self.member_cell(f"{scope.class_name}::{name}")
+
+    @abstractmethod
+    def member_of(self, struct: Struct, name: str) -> Cell:
+        """Returns a member of an object, with its initial value if it was not used before."""
+
+    def class_member(self, class_name: str, name: str) -> Cell:
+        """Returns a member of an unknown object of a class."""
+        return self.member_cell(f"{self.classes.owner(class_name, name)}::{name}")
+
+    def new_object(self, class_name: str, place: Span, name: str = "") -> Struct:
+        """Returns a new object of a class."""
+        struct = Struct("", place, False, name)
+        struct.type = class_name
+        if class_name:
+            self.class_objects.append(struct)
+        return struct
 
     def type_of(self, cell: Cell) -> str:
         """Returns the declared type of a variable or member, or an empty string."""
-        if cell.kind != MEMBER:
-            return cell.kind
-        class_name, _, name = cell.name.rpartition("::")
-        term = self.members.get(class_name, {}).get(name) if class_name else self.globals.get(name)
-        return str(term[1]) if term is not None else ""
+        return self.type_of_key(cell.name) if cell.kind == MEMBER else cell.kind
+
+    def type_of_key(self, key: str) -> str:
+        """Returns the declared type of a member by its path, or an empty string."""
+        first, *rest = key.split(".")
+        name = first.partition("[")[0]
+        class_name, _, short = name.rpartition("::")
+        term = self.classes.member(class_name, short) if class_name else self.globals.get(name.removeprefix("::"))
+        term = term or self.globals.get(name.removeprefix("::"))
+        kind = _element(str(term[1]), first) if term is not None else ""
+        for part in rest:
+            owner = self.class_of(kind, self.classes.namespace(class_name)) if kind else None
+            term = self.classes.member(owner, part.partition("[")[0]) if owner is not None else None
+            if term is None:
+                return ""
+            kind = _element(str(term[1]), part)
+        return kind
 
     def member_key(self, name: str, scope: Scope) -> str:
         """Returns the key of a name that is not a local variable: a class member or a global variable."""
+        qualifier, _, short = name.rpartition("::")
+        owner = self.class_of(qualifier, scope.namespace) if qualifier else None
+        if owner is not None and self.classes.member(owner, short) is not None:
+            return f"{self.classes.owner(owner, short)}::{short}"
         namespace = scope.namespace
         while True:
-            if namespace + name in self.globals and name not in self.members.get(scope.class_name, ()):
+            if namespace + name in self.globals and self.classes.member(scope.class_name, name) is None:
                 return f"::{namespace}{name}"
             if not namespace:
                 break
             namespace = namespace[:-2].rpartition("::")[0]
             namespace += "::" if namespace else ""
-        short = name.rpartition("::")[2]
-        return f"{scope.class_name}::{short}" if scope.class_name and not self.fragments else f"::{short}"
+        in_class = scope.class_name and not self.fragments
+        return f"{self.classes.owner(scope.class_name, short)}::{short}" if in_class else f"::{short}"
 
     def member_cell(self, key: str) -> Cell:
         """Returns the cell of a member of an object by its path."""
@@ -178,7 +217,7 @@ class Variables(ABC):
             owner, _, name = key.rpartition(".")
             if owner and "[" not in name:
                 self.parts.setdefault(owner, {})[name] = None
-            writes = self.summary.get(key) or self.declared(key)
+            writes = self.summary.get(key) or self.object_summary.get(key) or self.declared(key)
             if len(writes) > 1:
                 writes = tuple(Alternative(w.value, w.at, w.guards | {(f"{key}={n}", True)}) for n, w in enumerate(writes))
             cell.writes = self.initial[key] = writes
@@ -191,10 +230,6 @@ class Variables(ABC):
     def member_of_object(self, value: Any, cell: Cell, name: str, place: Span, scope: Scope) -> Cell | None:
         """Returns a member of an object of the API; None for other values. `cell` holds the value, or what is unknown."""
         return value.cell(name) if isinstance(value, Instance) else None
-
-    def element_of_object(self, value: Any, index: Any, place: Span) -> Cell | None:
-        """Returns an element of an object of the API; None for other values."""
-        return None
 
     def typed_value(self, kind: str, name: str, place: Span) -> Value:
         """Returns what is known of a variable of unknown value by its type."""
@@ -215,11 +250,19 @@ class Variables(ABC):
         if key in self.declared_values:
             return self.declared_values[key]
         self.declared_values[key] = UNKNOWN_VALUE
+        owner, _, name = key.rpartition(".")
+        if owner:
+            # What is written to it through other objects of its class.
+            parent = self.class_of(self.type_of_key(owner), "")
+            key_of_class = f"{self.classes.owner(parent, name)}::{name}" if parent is not None else ""
+            return (self.summary.get(key_of_class) or self.declared(key_of_class)) if key_of_class else UNKNOWN_VALUE
+        class_name, _, name = key.rpartition("::")
+        term = self.members.get(class_name, {}).get(name) if class_name else self.globals.get(name)
         if key.startswith("::"):
             class_name, term = "", self.globals.get(key[2:])
-        else:
-            class_name, _, name = key.rpartition("::")
-            term = self.members.get(class_name, {}).get(name)
+        elif term is None or term[3] is None:
+            # A static member is defined outside of its class.
+            term = self.globals.get(key, term)
         if term is None:
             return UNKNOWN_VALUE
         _, kind, name, initializer, indirect, fixed, place = term
@@ -246,78 +289,67 @@ class Variables(ABC):
             if scope.this_object is not None:
                 return self.own_member(name, scope.this_object, scope)
             return self.member_cell(self.member_key(name, scope))
-        if operand[0] in (NAME, FIELD, INDEX):
-            cell = self.cell_of(operand, scope)
-            if cell is None:
-                return None
-        else:
-            content = self.sole(operand, scope)
-            if not isinstance(content, Ref):
-                member = self.member_of_object(content, Cell(), name, at(operand), scope)
-                if member is not None:
-                    return member
-                return content.cell(name) if isinstance(content, Struct) else None
-            cell = content.cell
-        value = pointee(sole_value(cell.read(scope.guards)))
+        cell = self.object_cell(operand, scope)
+        if cell is None:
+            class_name = self.class_of_term(operand, scope)
+            return self.class_member(class_name, name) if class_name is not None else None
+        value = self.object_in(cell, scope)
         member = self.member_of_object(value, cell, name, at(operand), scope)
         if member is not None:
             return member
-        if isinstance(value, Array) and value.items:
-            # A pointer to the first element of a list.
-            value = pointee(sole_value(value.items[0].writes))
         if isinstance(value, Struct):
-            return value.cell(name)
+            return self.member_of(value, name)
         if cell.kind == MEMBER:
             return self.member_cell(f"{self.pointed_class(cell.name) or cell.name + '.'}{name}")
         if cell.writes:
-            return None
+            class_name = self.class_of_term(operand, scope)
+            return self.class_member(class_name, name) if class_name is not None else None
         elsewhere = bool(cell.key) or cell.kind.endswith("*")
         if elsewhere and not self.library.structure(cell.kind):
             kind = cell.kind.rstrip("*&")
-            return self.member_cell(f"{self.class_of(kind, scope.namespace) or kind}::{name}")
+            return self.class_member(self.class_of(kind, scope.namespace) or kind, name)
         struct = Struct(self.library.structure(cell.kind), Span(0, 0) if elsewhere else at(operand), False, cell.name)
         cell.writes = (Alternative(struct, struct.at),)
         return struct.cell(name)
 
+    def object_cell(self, operand: Term, scope: Scope) -> Cell | None:
+        """Returns the cell of the object that an expression is or points to, or None if it is unknown."""
+        if operand[0] in (NAME, FIELD, INDEX):
+            return self.cell_of(operand, scope)
+        content = sole_value(self.call(operand, scope)) if operand[0] == CALL else self.sole(operand, scope)
+        if isinstance(content, Ref):
+            return content.cell
+        return Cell(writes=(Alternative(content, at(operand)),)) if isinstance(content, (Struct, Array)) else None
+
+    def object_in(self, cell: Cell, scope: Scope) -> Any:
+        """Returns the structure, or the other value, in a cell. Alternative structures are merged, so that they are changed together."""
+        content = cell.read(scope.guards)
+        value = pointee(sole_value(content))
+        if len(content) > 1 and all(isinstance(a.value, Struct) for a in content):
+            value = self.copies.merged(content)
+            cell.writes = (Alternative(value, content[0].at),)
+        if isinstance(value, Array) and value.items:
+            # A pointer to the first element of a list.
+            value = pointee(sole_value(value.items[0].writes))
+        return value
+
+    @abstractmethod
+    def class_of_term(self, term: Term, scope: Scope) -> str | None:
+        """Returns the class of the object that an expression is or points to, by its declaration, or None."""
+
     def class_of(self, kind: str, namespace: str) -> str | None:
-        """Returns the class in the file that a type refers to, or None."""
-        if f"{namespace}{kind}" in self.members:
-            return f"{namespace}{kind}"
-        if kind in self.members:
-            return kind
-        classes = self._classes.get(kind.rpartition("::")[2], ())
-        return classes[0] if len(classes) == 1 else None
+        """Returns the class in the program that a type refers to, or None."""
+        return self.classes.of_type(kind, namespace)
 
     def pointed_class(self, key: str) -> str:
         """Returns the class, with a trailing `::`, that a pointer member refers to; which object it points to is unknown."""
         class_name, _, name = key.rpartition("::")
-        term = self.members.get(class_name, {}).get(name)
-        if term is None or not term[4]:
+        kind = self.type_of_key(key)
+        term = self.classes.member(class_name, name) if class_name else self.globals.get(name)
+        if not kind or not ((term is not None and term[4]) or pointed(kind) != kind):
             return ""
-        target = self.class_of(term[1], class_name.rpartition("::")[0])
+        target = self.class_of(kind, self.classes.namespace(class_name))
         return f"{target}::" if target is not None else ""
-
-    def indexed(self, term: Term, scope: Scope) -> Cell | None:
-        cell = self.cell_of(term[1], scope)
-        index = self.sole(term[2], scope)
-        if cell is None:
-            return None
-        value = pointee(sole_value(cell.read(scope.guards)))
-        element = self.element_of_object(value, index, term[-1])
-        if element is not None:
-            return element
-        if isinstance(value, Array):
-            if type(index) is not int or not 0 <= index < 64:
-                value.complete = False
-                return Cell()
-            while len(value.items) <= index:
-                value.items.append(self.unset_element(value.kind, term[-1], value.zeroed))
-            return value.items[index]
-        if cell.kind == MEMBER:
-            return self.member_cell(f"{cell.name}[{index}]" if type(index) is int else f"{cell.name}[]")
-        if isinstance(value, Struct) and index == 0:
-            return cell
-        return None
 
     def fill_array(self, array: Array, kind: str, scope: Scope) -> None:
         """Adds elements to an array up to the size of its type."""
@@ -342,6 +374,7 @@ class Variables(ABC):
             array.name, array.zeroed = name, zeroed
             self.fill_array(array, kind, scope)
             return (Alternative(array, place),)
-        if kind[:1].isupper() and not self.library.is_type(kind):
-            return (Alternative(Struct("", place, False, name), place),)
+        class_name = self.class_of(kind, scope.namespace) if pointed(kind) == kind else None
+        if class_name is not None or (kind[:1].isupper() and not self.library.is_type(kind)):
+            return (Alternative(self.new_object(class_name or "", place, name), place),)
         return UNKNOWN_VALUE

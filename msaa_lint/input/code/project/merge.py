@@ -145,7 +145,8 @@ class _Conflicts:
         members = {classes[name]: terms for name, terms in unit.members.items()}
         methods = (name.rpartition("::") for name in unit.virtual)
         virtual = frozenset(f"{renamed(CLASS, class_name)}::{method}" for class_name, _, method in methods)
-        return unit._replace(functions=functions, outside=outside, members=members, virtual=virtual)
+        bases = {renamed(CLASS, name): names for name, names in unit.bases.items()}
+        return unit._replace(functions=functions, outside=outside, members=members, virtual=virtual, bases=bases)
 
     def owners(self, number: int) -> dict[Name, int]:
         """Returns the file whose definition of a name a file uses: itself, or the only one among the files that it includes."""
