@@ -141,10 +141,14 @@ class Suppressed(NamedTuple):
 
 
 class Unread(NamedTuple):
-    """Something multisampled of which an input shows no pass or pipeline to check: its place, None without a text, and the problem."""
+    """Something multisampled of which an input shows no pass or pipeline to check: its place, None without a text, and the problem.
+
+    `unknown` is the first name in source code on the way to its sample count that nothing gives a value; empty if there is none.
+    """
 
     span: Span | None
     message: str
+    unknown: str = ""
 
 
 class CaptureSummary(NamedTuple):

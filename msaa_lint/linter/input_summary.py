@@ -18,7 +18,8 @@ from .results import FileResult
 if TYPE_CHECKING:
     from msaa_lint.input.capture_input import CaptureInput
     from msaa_lint.input.code.parsing import Code
-    from msaa_lint.input.source_file import SourceFile
+    from msaa_lint.input.code.unknowns import Unknowns
+    from msaa_lint.input.source_file import CodeFile, SourceFile
 
 
 def input_summaries(data: bytes | CaptureInput | SourceFile, result: FileResult) -> list[InputSummary]:
@@ -28,13 +29,14 @@ def input_summaries(data: bytes | CaptureInput | SourceFile, result: FileResult)
         return [input_summary(data, result)]
     documents = [each.document for each in result.documents if each.checked]
     fatal = {finding.file for finding in result.findings if finding.fatal}
+    unknowns = _unknowns(files)
     summaries = []
     for file in files:
         if file.is_input:
             within = Span(file.start, file.start + len(file.source.text))
             counts = _summary(file.source.name, file.language, documents, file.source.name in fatal, None, within)
             is_read = counts.images + counts.passes + counts.pipelines > 0
-            unread = _unread_code(file.codes, documents if is_read else (), False)
+            unread = _unread_code(file.codes, documents if is_read else (), False, unknowns)
             summaries.append(counts._replace(unread=unread))
     return summaries
 
@@ -52,7 +54,7 @@ def input_summary(data: bytes | CaptureInput | SourceFile, result: FileResult) -
         # What is known of the images that a shader reads, and of its pipeline, is that they are there.
         shaders = [document for document in documents if _is_shader(document)]
         frames = [document for document in documents if not _is_shader(document)]
-        unread = _unread_code(data.program.codes, frames, bool(shaders))
+        unread = _unread_code(data.program.codes, frames, bool(shaders), _unknowns(data.files))
         return _summary(result.file, data.language, frames, failed, unread)._replace(shaders=len(shaders))
     unread = _unread_frame(documents, "capture a whole frame")
     return _summary(result.file, data.format, documents, failed, unread)._replace(capture=data.summary)
@@ -113,7 +115,13 @@ def _unread_frame(documents: Iterable[Document], help: str) -> Unread | None:
     return first
 
 
-def _unread_code(codes: Sequence[Code], documents: Iterable[Document], reads: bool) -> Unread | None:
+def _unknowns(files: Iterable[CodeFile]) -> Unknowns:
+    from msaa_lint.input.code.unknowns import SearchedFile, Unknowns
+
+    return Unknowns([SearchedFile(file.source.name, file.codes) for file in files])
+
+
+def _unread_code(codes: Sequence[Code], documents: Iterable[Document], reads: bool, unknowns: Unknowns) -> Unread | None:
     """The first code that creates something multisampled of which no pass, or no pipeline, was read."""
     from msaa_lint.input.code.creations import IMAGES, READS, Creation, creations
 
@@ -140,8 +148,10 @@ def _unread_code(codes: Sequence[Code], documents: Iterable[Document], reads: bo
         else:
             message = "" if pipelines else f"{quote} creates multisampled pipelines, but none was read"
         if message:
-            message += "; check a capture or a description of the frame instead"
-            return Unread(Span(creation.start, creation.end), message)
+            first = unknowns.first(creation.text.partition(" = ")[2]) if kind != READS else None
+            advice = f"; {first.reason}: state it with `// msaa-lint: assume {first.name}=VALUE`, or" if first is not None else ";"
+            message += f"{advice} check a capture or a description of the frame instead"
+            return Unread(Span(creation.start, creation.end), message, first.name if first is not None else "")
     return None
 
 

@@ -63,6 +63,9 @@ def _of_format(format: str, inputs: Sequence[InputSummary]) -> str:
     for checked_in_part, words in ((False, "not checked because of errors"), (True, "checked in part because of errors")):
         if checked_in_part in failed:
             parts.append(f"{failed.count(checked_in_part)} {words}")
+    unread = sum(each.unread is not None for each in inputs) if format in SOURCE else 0
+    if unread and parts:
+        parts.append(f"{unread} not understood")
     return f"{name}: {', '.join(parts) or ('nothing read' if format in SOURCE else 'nothing to check')}"
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from msaa_lint.core.finding import CaptureSummary, Finding, Fix, InputSummary, Result, Saving, Suppressed, Undecided
+from msaa_lint.core.finding import CaptureSummary, Finding, Fix, InputSummary, Result, Saving, Suppressed, Undecided, Unread
 from msaa_lint.core.text.span import Label, Span
 
 from . import Options, Write
@@ -100,9 +100,13 @@ def _input(entry: InputSummary, result: Result, options: Options) -> Json:
         "format": entry.format or None,
         **{name: getattr(entry, name) for name in COUNTS},
         "failed": entry.failed,
-        "unread": {**_place(result, entry.file, unread.span), "message": text(unread.message)} if unread is not None else None,
+        "unread": _unread(unread, entry.file, result) if unread is not None else None,
         "capture": _capture(entry.capture) if entry.capture is not None else None,
     }
+
+
+def _unread(unread: Unread, file: str, result: Result) -> Json:
+    return {**_place(result, file, unread.span), "message": text(unread.message), "unknown": text(unread.unknown) or None}
 
 
 def _capture(capture: CaptureSummary) -> Json:

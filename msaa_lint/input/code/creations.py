@@ -71,8 +71,12 @@ def creations(codes: Iterable[Code]) -> Iterator[Creation]:
     Declarations of members, tables of enumerants, and comparisons create nothing.
     """
     for code in codes:
-        text = _BLANKED.sub(lambda match: _VISIBLE.sub(" ", match[0]), without_dead_code(code).text)
-        yield from _of_language(code.language, text)
+        yield from _of_language(code.language, blanked(code))
+
+
+def blanked(code: Code) -> str:
+    """Returns the text of code with comments, literals, and dead code blanked, at the same offsets."""
+    return _BLANKED.sub(lambda match: _VISIBLE.sub(" ", match[0]), without_dead_code(code).text)
 
 
 class _Ones:

@@ -134,7 +134,7 @@ def test_hostile_pages_take_no_time(text: str, page: str) -> None:
 
 
 def test_every_name_is_of_a_language() -> None:
-    assert set(NAMES.values()) == {"c", "cpp", "objc", "objcpp", "swift", "glsl"}
+    assert set(NAMES.values()) == {"c", "cpp", "objc", "objcpp", "swift", "glsl", "rust"}
 
 
 @pytest.mark.parametrize(

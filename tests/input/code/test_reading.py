@@ -351,7 +351,7 @@ def test_of_a_folder_what_speaks_of_multisampling_is_linted(tmp_path: Path) -> N
     write(tmp_path, "no/page.md", f"```cpp\n{CODE}```\n")
     write(tmp_path, "no/text.txt", f"```cpp\n{CODE}```\n")
     write(tmp_path, "no/page.adoc", f"[source,cpp]\n----\n{CODE}----\n")
-    write(tmp_path, "no/a.rs")
+    write(tmp_path, "no/a.java")
     write(tmp_path, "no/matlab.m", "function msaa(MTLTexture)\nend\n")
     write(tmp_path, "no/.hidden.cpp")
     write(tmp_path, "no/.git/a.cpp")
@@ -599,7 +599,7 @@ def test_code_of_pages_is_checked_at_its_lines(tmp_path: Path, page: str, text: 
     assert (line, column) == (LINE + 2, COLUMN + 3 * (page == "a.rst"))
 
 
-@pytest.mark.parametrize(("name", "language"), [("shader.HLSL", "HLSL"), ("main.rs", "Rust"), ("App.java", "Java")])
+@pytest.mark.parametrize(("name", "language"), [("shader.HLSL", "HLSL"), ("main.go", "Go"), ("App.java", "Java")])
 def test_a_language_that_is_not_read_is_said_to_be(tmp_path: Path, name: str, language: str) -> None:
     path = tmp_path / name
     path.write_text(CODE, encoding="utf-8")
