@@ -33,6 +33,34 @@ def passes(count: int) -> str:
     return function(repeated(ATTACHMENT + PASS, count))
 
 
+RENDERING = """\
+    VkRenderingAttachmentInfo a{n} = {{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO}};
+    a{n}.imageView = target->view();
+    a{n}.resolveMode = VK_RESOLVE_MODE_AVERAGE_BIT;
+    a{n}.resolveImageView = other->view();
+    a{n}.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
+    VkRenderingInfo i{n} = {{VK_STRUCTURE_TYPE_RENDERING_INFO}};
+    i{n}.colorAttachmentCount = 1;
+    i{n}.pColorAttachments = &a{n};
+    vkCmdBeginRendering(cmd, &i{n});
+"""
+
+
+def renderings_of_unknown_views(count: int) -> str:
+    return function(repeated(RENDERING, count))
+
+
+def images_and_descriptors(count: int) -> str:
+    image = """\
+    VkImageCreateInfo i{n} = {{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO}};
+    i{n}.samples = VK_SAMPLE_COUNT_4_BIT;
+    i{n}.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+    vkCreateImage(device, &i{n}, nullptr, &image{n});
+"""
+    bound = "    VkDescriptorImageInfo d{n} = {{}};\n    d{n}.imageView = view;\n    vkCmdCopyImage(cmd, from{n}, x, to, y, 1, &region);\n"
+    return function(repeated(image + bound, count))
+
+
 def attachments_of_one_pass(count: int) -> str:
     listed = f"    VkAttachmentDescription all[] = {{{', '.join(f'a{n}' for n in range(count))}}};\n"
     info = f"    VkRenderPassCreateInfo info = {{}};\n    info.attachmentCount = {count};\n    info.pAttachments = all;\n"
@@ -310,6 +338,8 @@ SHAPES: tuple[Shape, ...] = (
     cpp("long condition", long_condition),
     cpp("long choice", long_choice),
     cpp("flags", flags),
+    cpp("renderings of unknown views", renderings_of_unknown_views),
+    cpp("images and descriptors", images_and_descriptors),
     cpp("parentheses", parentheses),
     cpp("unary operators", unary),
     cpp("method chain", method_chain),
