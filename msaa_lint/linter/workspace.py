@@ -16,7 +16,6 @@ from msaa_lint.core.text.tree import Limits
 from msaa_lint.frame.devices import DeviceProfile
 from msaa_lint.frame.profiles import Problem, profile_of
 from msaa_lint.input import opening
-from msaa_lint.input.code import installed
 from msaa_lint.input.discovery import Discovered, discover
 from msaa_lint.input.file_types import STDIN
 
@@ -285,6 +284,8 @@ class Workspace:
 
     def _inputs_among(self, files: Mapping[str, str | None], related: Mapping[str, str]) -> list[str]:
         """The inputs among source files of folders: those of the programs that use multisampling."""
+        from msaa_lint.input.code import installed
+
         if self.request.format is None and installed():
             self._programs = self._find_programs(files, related)
         return [path for program in self._programs or () for path in program.inputs]

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from msaa_lint.core.text.source import Unreadable
 from msaa_lint.input.file_types import LANGUAGES, PAGES, missing_extra
 
-from .languages import language_of_header, unread
+from .languages import MODULES, language_of_header, unread
 
 if TYPE_CHECKING:
     from msaa_lint.core.text.source import Source
@@ -19,15 +19,6 @@ if TYPE_CHECKING:
     from msaa_lint.frame.description.document import Document
 
     from .parsing import Assumptions, Code, Read, Remark, Unread
-
-MODULES = {
-    **dict.fromkeys(("c", "cpp"), "c.description_trees"),
-    **dict.fromkeys(("objc", "objcpp"), "objc.description_trees"),
-    "swift": "swift.description_trees",
-    "rust": "rust.description_trees",
-    "glsl": "glsl.description_trees",
-}
-"""The module of this package that reads each language."""
 
 WORDS = ("sample", "attachment", "resolve", "msaa", "2dms", "inputms")
 """Code that contains none of these words, in any case, is skipped."""

@@ -2,6 +2,15 @@
 
 import re
 
+MODULES = {
+    **dict.fromkeys(("c", "cpp"), "c.description_trees"),
+    **dict.fromkeys(("objc", "objcpp"), "objc.description_trees"),
+    "swift": "swift.description_trees",
+    "rust": "rust.description_trees",
+    "glsl": "glsl.description_trees",
+}
+"""The module of `input.code` that reads each language."""
+
 UNREAD = {
     ".go": "Go",
     ".zig": "Zig",

@@ -8,9 +8,9 @@ import pytest
 
 from msaa_lint.core.text.span import Span
 from msaa_lint.input.code.c.macros import merged
-from msaa_lint.input.code.c.places import Piece, Places
 from msaa_lint.input.code.c.preprocessor import definitions, preprocessed, without_dead_code
 from msaa_lint.input.code.parsing import Code
+from msaa_lint.input.code.places import Piece, Places
 
 
 def read(text: str, language: str = "cpp") -> str:

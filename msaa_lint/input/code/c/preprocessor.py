@@ -12,11 +12,11 @@ from msaa_lint.core.quote import shortened
 from msaa_lint.core.text.span import Span
 from msaa_lint.input.code.core.conditions import condition_key
 from msaa_lint.input.code.parsing import Code, Unread
+from msaa_lint.input.code.places import Piece, Places
 from msaa_lint.input.code.sample_counts.arithmetic import condition_holds
 
 from .groups import Arm, Group, Line, balance
 from .macros import NO_MACROS, Definitions, Expansion, Macro, Macros, Token, TooLong, expandable, extended, parsed
-from .places import Piece, Places
 
 MAX_NESTED = 8
 """The maximum nesting of macros in a condition."""

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from msaa_lint.input.code.c.description_trees import CPP, FileSyntax, executed, syntax_of
+from msaa_lint.input.code.c.description_trees import syntax_of
+from msaa_lint.input.code.core.assumed_values import assuming
 from msaa_lint.input.code.metal.description_trees import calls_metal
 from msaa_lint.input.code.parsing import Code, Read, tree
+from msaa_lint.input.code.programs import FileSyntax, executed
 
 from .messages import rewrite
 from .syntax import unit
@@ -19,4 +21,4 @@ def file_syntax(code: Code) -> FileSyntax:
 
 def trees(code: Code) -> list[Read]:
     """Returns the trees of a file or of a page's fragments: at most one for each API. Raises `Missing` if the grammar is not installed."""
-    return executed(file_syntax(code), code.fragments, code.language in CPP)
+    return executed(file_syntax(code), code.fragments, assuming(code.assumptions))

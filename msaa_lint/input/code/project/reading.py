@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from importlib import import_module
 from typing import NamedTuple
 
 from msaa_lint.core.text.node_builder import mapping
 from msaa_lint.core.text.source import Source, Unreadable
 from msaa_lint.core.text.span import Span
-from msaa_lint.input.code.c.description_trees import CPP, FileSyntax, executed, file_syntax, located
+from msaa_lint.input.code.c.description_trees import file_syntax
 from msaa_lint.input.code.c.macros import Definitions
-from msaa_lint.input.code.c.places import Piece, Places
 from msaa_lint.input.code.c.preprocessor import definitions
 from msaa_lint.input.code.core.assumed_values import Assume, assuming
-from msaa_lint.input.code.objc.description_trees import file_syntax as objc_syntax
+from msaa_lint.input.code.languages import MODULES
 from msaa_lint.input.code.parsing import Assumptions, Code, Missing, Read, Unread, ascii_only
+from msaa_lint.input.code.places import Piece, Places
+from msaa_lint.input.code.programs import CPP, FileSyntax, executed, located
 
 from .macros import SharedMacros
 from .merge import MAX_REACH, File, merged
@@ -62,10 +64,10 @@ def read(files: Sequence[ProgramFile], headers: Sequence[bool], assumptions: Ass
     for number, (file, offset) in enumerate(zip(files, starts(files), strict=True)):
         try:
             code = file.code
-            if code.language in ("objc", "objcpp"):
-                known = objc_syntax(code)
-            else:
+            if code.language in ("c", "cpp"):
                 known = file_syntax(code, macros.visible(number, code.text, reach(files, number)) | _built(file))
+            else:
+                known = import_module(f"msaa_lint.input.code.{MODULES[code.language]}").file_syntax(code)
             syntax = loads(dumps(known), length)
         except Missing:
             raise
@@ -83,9 +85,7 @@ def read(files: Sequence[ProgramFile], headers: Sequence[bool], assumptions: Ass
     assume = assuming(assumptions, places.original)
     reads = _read(files, syntaxes, headers, assume)
     if any(entry.unread for entry in reads):
-        alone = (
-            entry for syntax, file in zip(syntaxes, files, strict=True) if syntax is not None for entry in _alone(syntax, file, assume)
-        )
+        alone = (entry for syntax in syntaxes if syntax is not None for entry in _alone(syntax, assume))
         reads = [*alone, *(entry._replace(tree=mapping([], Span(0, 0))) for entry in reads if entry.unread)]
     return [*located(reads, places), *unread]
 
@@ -137,8 +137,9 @@ def _read(
         sum(syntax.length for syntax in every),
         calls_metal=any(syntax.calls_metal for syntax in every),
         platform=next((syntax.platform for syntax in every if syntax.platform is not None), None),
+        language=next((syntax.language for syntax in every if syntax.language in CPP), every[0].language),
     )
-    return executed(program, False, any(file.language in CPP for file in files), assume)
+    return executed(program, False, assume)
 
 
 def _unique(name: str, names: dict[str, int]) -> str:
@@ -147,9 +148,9 @@ def _unique(name: str, names: dict[str, int]) -> str:
     return name if names[name] == 1 else _unique(f"{name} {names[name]}", names)
 
 
-def _alone(syntax: FileSyntax, file: ProgramFile, assume: Assume) -> Iterator[Read]:
+def _alone(syntax: FileSyntax, assume: Assume) -> Iterator[Read]:
     """Yields what a file creates by itself. What takes too long is left to the message about the program."""
-    for entry in executed(syntax, False, file.language in CPP, assume):
+    for entry in executed(syntax, False, assume):
         if entry.tree.value:
             yield entry._replace(unread=())
 

@@ -12,10 +12,10 @@ from typing import Any
 from msaa_lint.core.text.node import Node
 from msaa_lint.core.text.span import Span
 from msaa_lint.frame.description.document import Basis
-from msaa_lint.input.code.c.description_trees import FileSyntax
-from msaa_lint.input.code.c.places import Piece
 from msaa_lint.input.code.core.terms import Function, Parameter, Unit
 from msaa_lint.input.code.parsing import Read, Unread
+from msaa_lint.input.code.places import Piece
+from msaa_lint.input.code.programs import FileSyntax
 
 PROTOCOL = 5
 """The version of the format, so that it does not depend on that of Python."""

@@ -5,23 +5,22 @@ from __future__ import annotations
 import re
 
 from msaa_lint.input.code.core.assumed_values import assuming
-from msaa_lint.input.code.core.limits import Work
 from msaa_lint.input.code.parsing import Code, Read, tree
-from msaa_lint.input.code.vulkan.rust import RustInterpreter
-from msaa_lint.input.code.vulkan.tree_writer import DescriptionWriter
+from msaa_lint.input.code.programs import FileSyntax, executed
 
 from .syntax import prepared, unit
 
 _VULKAN = re.compile(r"\b(?:vk|ash|vulkanalia|vulkano|erupt)::|renderpass!")
 
 
+def file_syntax(code: Code) -> FileSyntax:
+    """Returns what is known of a file or of a page's fragments. Raises `Missing` if the grammar is not installed."""
+    code = prepared(code)
+    known = unit(code, tree(code).root_node)
+    return FileSyntax(known, (), _VULKAN.search(code.text) is not None, True, False, len(code.text), language=code.language)
+
+
 def trees(code: Code) -> list[Read]:
     """Returns the tree of a file or of a page's fragments: one or none. Raises `Missing` if the grammar is not installed."""
-    if _VULKAN.search(code.text) is None:
-        return []
-    code = prepared(code)
-    interpreter = RustInterpreter(unit(code, tree(code).root_node), code.fragments, Work(len(code.text)))
-    assuming(code.assumptions)(interpreter)
-    interpreter.run()
-    read = DescriptionWriter(interpreter, code.fragments, True).read()
-    return [read] if read is not None else []
+    syntax = file_syntax(code)
+    return executed(syntax, code.fragments, assuming(code.assumptions)) if syntax.fills_structures else []

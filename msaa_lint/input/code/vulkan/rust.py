@@ -101,8 +101,8 @@ def _squashed(enum: str) -> dict[str, str]:
 class RustInterpreter(VulkanInterpreter):
     """Executes a Rust program that calls Vulkan."""
 
-    def __init__(self, unit: Unit, fragments: bool, work: Work) -> None:
-        super().__init__(unit, fragments, False, work, RustLibrary())
+    def __init__(self, unit: Unit, fragments: bool, is_cpp: bool, work: Work) -> None:
+        super().__init__(unit, fragments, is_cpp, work, RustLibrary())
 
     def braced_value(self, term: Term, scope: Scope, kind: str) -> Value:
         """Returns the value of a structure. One of a type that the program declares sets the members of the type, as constructors do."""
