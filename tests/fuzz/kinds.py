@@ -93,6 +93,8 @@ KINDS = {
     "c": _source("frame.c", "c", "tests/input/code/corpus/*.c", "examples/capture/*.c"),
     "cpp": _source("frame.cpp", "cpp", "tests/input/code/corpus/*.cpp", "examples/code/*.cpp"),
     "swift": _source("frame.swift", "swift", "tests/input/code/swift/*.swift"),
+    "objc": _source("frame.m", "objc", "tests/input/code/objc/*.m"),
+    "objcpp": _source("frame.mm", "objcpp", "tests/input/code/objc/*.mm"),
     "rust": _source("frame.rs", "rust", "tests/input/code/corpus/*.rs"),
     "glsl": _source("shader.frag", "glsl", "tests/frame/spirv/shaders/*.frag", "rules/shaders/*.frag", "examples/capture/*.frag"),
     "markdown": Kind(

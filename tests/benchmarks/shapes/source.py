@@ -1,4 +1,4 @@
-"""Source code: what GLSL and Swift have many of, and how it can nest. C and C++ are in `source_c`."""
+"""Source code: what GLSL, Swift, and Objective-C have many of, and how it can nest. C and C++ are in `source_c`."""
 
 from __future__ import annotations
 
@@ -34,6 +34,53 @@ def swift(name: str, body: Callable[[int], str]) -> Shape:
         return f"{head}{body(count)}    }}\n}}\n"
 
     return code(f"Swift: {name}", "a.swift", content)
+
+
+OBJC_TEXTURE = """\
+    MTLTextureDescriptor *d{n} = [[MTLTextureDescriptor alloc] init];
+    d{n}.textureType = MTLTextureType2DMultisample;
+    d{n}.sampleCount = 4;
+    id<MTLTexture> t{n} = [device newTextureWithDescriptor:d{n}];
+"""
+
+
+def objc(name: str, body: Callable[[int], str]) -> Shape:
+    def content(count: int) -> str:
+        head = "#import <Metal/Metal.h>\n@implementation Renderer\n- (void)make:(id<MTLDevice>)device on:(BOOL)on {\n"
+        return f"{head}{body(count)}}}\n@end\n"
+
+    return code(f"Objective-C: {name}", "a.m", content)
+
+
+def objc_textures(count: int) -> str:
+    return repeated(OBJC_TEXTURE, count)
+
+
+def objc_nested_messages(count: int) -> str:
+    return OBJC_TEXTURE.format(n=0) + "    " + "[" * count + "device" + " next]" * count + ";\n"
+
+
+def objc_nested_arguments(count: int) -> str:
+    return OBJC_TEXTURE.format(n=0) + "    " + "[self use:" * count + "device" + "]" * count + ";\n"
+
+
+def objc_blocks(count: int) -> str:
+    return OBJC_TEXTURE.format(n=0) + repeated("    [self do{n}: ^{{ d0.sampleCount = {n}; }}];\n", count)
+
+
+def objc_methods(count: int) -> str:
+    calls = repeated("}}\n- (void)step{m} {{\n    [self step{n}];\n    [self step{n}];\n", count)
+    return OBJC_TEXTURE.format(n=0) + calls
+
+
+def objc_properties(count: int) -> str:
+    every = repeated("@property (nonatomic) id<MTLTexture> p{n};\n", count)
+    return (
+        "}\n@end\n@interface Renderer ()\n"
+        + every
+        + "@end\n@implementation Renderer\n- (void)draw {\n"
+        + repeated("    self.p{n} = nil;\n", count)
+    )
 
 
 def markdown(count: int) -> str:
@@ -253,6 +300,12 @@ SHAPES: tuple[Shape, ...] = (
     swift("tuples that are alike", swift_equal_tuples),
     swift("option sets", swift_options),
     swift("long sum", swift_long_sum),
+    objc("textures", objc_textures),
+    objc("nested messages", objc_nested_messages),
+    objc("nested arguments", objc_nested_arguments),
+    objc("blocks", objc_blocks),
+    objc("methods that call the last twice", objc_methods),
+    objc("properties", objc_properties),
     code("Swift: functions", "a.swift", swift_functions),
     code("Swift: functions that call the next twice", "a.swift", swift_call_tree),
     code("Swift: overloads", "a.swift", swift_overloads),

@@ -280,7 +280,7 @@ def _texts(text: str) -> Iterator[str]:
     yield from ("/*" + text, '"' + text, 'R"(' + text, "#if 0\n" + text, "x" * 100_000 + text, text.replace("\n", "\\\n"))
 
 
-@pytest.mark.parametrize("language", ["cpp", "c", "glsl", "swift"])
+@pytest.mark.parametrize("language", ["cpp", "c", "glsl", "swift", "objc"])
 def test_any_text_is_read(language: str) -> None:
     text = {"glsl": GLSL + MAIN.format(""), "swift": SWIFT + "    }\n}\n"}.get(language, function(""))
     for changed in _texts(text):
@@ -290,6 +290,8 @@ def test_any_text_is_read(language: str) -> None:
 CORPUS = {
     "cpp": sorted((ROOT / "tests/input/code/corpus").glob("*.cpp")),
     "c": sorted((ROOT / "tests/input/code/corpus").glob("*.c")),
+    "objc": sorted((ROOT / "tests/input/code/objc").glob("*.m")),
+    "objcpp": sorted((ROOT / "tests/input/code/objc").glob("*.mm")),
     "swift": sorted((ROOT / "tests/input/code/swift").glob("*.swift")),
     "glsl": sorted((ROOT / "tests/frame/spirv/shaders").glob("*.frag")),
 }

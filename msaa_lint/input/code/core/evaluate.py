@@ -329,7 +329,8 @@ def _calculated(sign: str, left: Alternative, right: Alternative, place: Span) -
     if sign == "|":
         first, second = _bits(a, left.at), _bits(b, right.at)
         if first is not None and second is not None and not (isinstance(a, int) and isinstance(b, int)):
-            return Flags((*first, *second))
+            names = {name for name, _ in first}
+            return Flags((*first, *(bit for bit in second if bit[0] not in names)))
     if type(a) is int and type(b) is int and abs(a) < 2**40 and abs(b) < 2**40:
         if sign == "<<":
             return a << b if 0 <= b < 40 else UNKNOWN

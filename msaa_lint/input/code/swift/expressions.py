@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from abc import ABC, abstractmethod
+from functools import reduce
 
 from msaa_lint.core.text.span import Span
 from msaa_lint.input.code.core.terms import (
@@ -20,6 +21,7 @@ from msaa_lint.input.code.core.terms import (
     LITERAL,
     NAME,
     RETURN,
+    SWITCH,
     TUPLE,
     UNARY,
     UNPARSED,
@@ -228,10 +230,25 @@ def _chosen(terms: tuple[Term, ...] | list[Term], depth: int) -> Term | None:
     if term[0] == DO:
         value: Term = term[1]
         return value
+    if term[0] == SWITCH:
+        return _chosen_case(term, depth)
     if term[0] != IF:
         return None
     then, otherwise = _chosen(term[2], depth + 1), _chosen(term[3], depth + 1)
     return (CHOICE, term[1], then, otherwise, term[-1]) if then is not None and otherwise is not None else None
+
+
+def _chosen_case(term: Term, depth: int) -> Term | None:
+    """Returns the value of a `switch` whose cases are single expressions."""
+    chosen: Term | None = None
+    for labels, body in reversed(term[2][:MAX_DEPTH]):
+        value = _chosen(body[:-1], depth + 1)
+        if value is None:
+            return None
+        conditions = [(BINARY, "==", term[1], label, term[-1]) for label in labels if label is not None]
+        condition = reduce(lambda a, b: (BINARY, "||", a, b, a[-1]), conditions) if conditions else None
+        chosen = value if condition is None or chosen is None else (CHOICE, condition, value, chosen, term[-1])
+    return chosen
 
 
 def tuple_of(labels: list[str], terms: list[Term], at: Span) -> Term:

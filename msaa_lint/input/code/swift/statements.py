@@ -11,6 +11,7 @@ from msaa_lint.input.code.core.terms import (
     BINARY,
     BLOCK,
     BRACES,
+    BREAK,
     CALL,
     DECLARE,
     DO,
@@ -23,6 +24,7 @@ from msaa_lint.input.code.core.terms import (
     NAME,
     RETURN,
     SOME,
+    SWITCH,
     TUPLE,
     UNARY,
     UNPARSED,
@@ -113,7 +115,8 @@ class Statements(Expressions):
         elif kind == "control_transfer_statement":
             result = node.child_by_field_name("result")
             leaving = not self.text.startswith("return", node.start_byte)
-            terms.append((LEAVE, at) if leaving else (RETURN, self.returned(self.expression(result, depth)) if result else None, at))
+            jump = (BREAK if self.text.startswith("break", node.start_byte) else LEAVE, at)
+            terms.append(jump if leaving else (RETURN, self.returned(self.expression(result, depth)) if result else None, at))
         elif kind == "function_declaration":
             name = self.text_of(node.child_by_field_name("name"))
             parameters, labels = self.parameters(node)
@@ -211,32 +214,22 @@ class Statements(Expressions):
         return LOOP, declared, self.expression(over, depth + 1) if over is not None else None, body, at
 
     def cases(self, node: SyntaxNode, depth: int) -> list[Term]:
-        """Returns a `switch` as a chain of `if`s."""
-        subject = self.expression(node.child_by_field_name("expr"), depth + 1)
-        otherwise: tuple[Term, ...] = ()
-        entries = [child for child in node.named_children if child.type == "switch_entry"][: MAX_ARMS * 4]
-        for entry in reversed(entries):
-            body = tuple(term for term in self.statements(block(entry), depth + 1) if term[0] != LEAVE or not self.breaks(term))
-            patterns = [child for child in entry.named_children if child.type == "switch_pattern"]
-            if not patterns:
-                otherwise = body
-                continue
-            conditions = [self.pattern(subject, pattern, depth) for pattern in patterns[:MAX_ARMS]]
-            condition = reduce(lambda a, b: (BINARY, "||", a, b, a[-1]), conditions)
-            otherwise = ((IF, condition, body, otherwise, span(entry)),)
-        return list(otherwise)
+        """Returns a `switch`, whose cases do not fall through."""
+        cases: list[tuple[tuple[Term | None, ...], tuple[Term, ...]]] = []
+        for entry in (child for child in node.named_children if child.type == "switch_entry"):
+            patterns = [child for child in entry.named_children if child.type == "switch_pattern"][:MAX_ARMS]
+            labels = tuple(self.pattern(pattern, depth) for pattern in patterns) or (None,)
+            cases.append((labels, (*self.statements(block(entry), depth + 1), (BREAK, span(entry)))))
+        return [(SWITCH, self.expression(node.child_by_field_name("expr"), depth + 1), tuple(cases), span(node))]
 
-    def breaks(self, term: Term) -> bool:
-        return self.text.startswith("break", term[-1].start)
-
-    def pattern(self, subject: Term, node: SyntaxNode, depth: int) -> Term:
-        """Returns the condition that a value matches a pattern."""
+    def pattern(self, node: SyntaxNode, depth: int) -> Term:
+        """Returns the value that a pattern matches."""
         written, at = self.text_of(node).strip(), span(node)
         if re.fullmatch(r"[A-Z]?\w*\.\w+", written):
-            return BINARY, "==", subject, (NAME, "." + written.rpartition(".")[2], at), at
+            return NAME, "." + written.rpartition(".")[2], at
         inner = node.named_children[0].named_children if node.named_child_count else []
         if len(inner) == 1 and inner[0].type.endswith("literal"):
-            return BINARY, "==", subject, self.expression(inner[0], depth + 1), at
+            return self.expression(inner[0], depth + 1)
         return UNPARSED, written[:100], at
 
     def declared(self, node: SyntaxNode, depth: int = 0) -> list[Term]:
