@@ -115,9 +115,17 @@ def _is_set(item: Cell) -> bool:
     return any(not isinstance(write.value, Struct) or write.value.fields for write in item.writes)
 
 
+_OTHER = "the element at "
+
+
+def is_other_element(text: str) -> bool:
+    """Returns whether a condition says that two unknown indices are the same."""
+    return text.startswith(_OTHER)
+
+
 def _make_uncertain(item: Cell, place: Span) -> None:
     """Makes an element of a list unknown that a write at an unknown index may change."""
-    guards = frozenset({(f"the element at {place.start}", True)})
+    guards = frozenset({(f"{_OTHER}{place.start}", True)})
     struct = sole_value(item.writes)
     for cell in struct.fields.values() if isinstance(struct, Struct) else (item,):
         cell.write(UNKNOWN_VALUE, place, guards)

@@ -12,6 +12,7 @@ from itertools import chain
 from typing import Any
 
 from msaa_lint.input.code.core.configurations import ASSUMED
+from msaa_lint.input.code.core.elements import is_other_element
 from msaa_lint.input.code.core.values import (
     UNKNOWN,
     ApiObject,
@@ -50,6 +51,8 @@ class Multisampling(VulkanConfiguration):
                     self.assume(write.guards)
         self.assume_replacements(value for _, value in slots)
         guards = self.guard_texts()
+        # What is written at another unknown index is another element.
+        self.configuration.update(dict.fromkeys(filter(is_other_element, guards), False))
         for text in guards:
             if text not in self.configuration and _FLAG.fullmatch(text) and not _OPPOSITE.search(text):
                 self.configuration[text] = True

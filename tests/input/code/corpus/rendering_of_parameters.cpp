@@ -60,7 +60,7 @@ void CommandList::beginTargets(const std::vector<ColorTarget>& targets, Texture*
         color.imageView = target.texture->getView();
         color.imageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
         color.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
-        color.storeOp = VK_ATTACHMENT_STORE_OP_STORE;  // expect-later: MSAA201
+        color.storeOp = VK_ATTACHMENT_STORE_OP_STORE;  // expect: MSAA201
         if (target.resolve) {
             color.resolveMode = VK_RESOLVE_MODE_AVERAGE_BIT;
             color.resolveImageView = target.resolve->getView();
