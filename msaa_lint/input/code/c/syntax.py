@@ -48,6 +48,8 @@ class Reader(Statements):
         """The start offsets of public member declarations."""
         self.virtual: set[str] = set()
         """Virtual methods, each with its class."""
+        self.visible: set[str] = set()
+        """Public members, as `Class::member`."""
         self.bases: dict[str, list[str]] = {}
         """The classes that each class derives from."""
         self.aliases: dict[str, str] = {}
@@ -58,7 +60,7 @@ class Reader(Statements):
         self.read_declarations(root)
         functions = [self.function(node, namespace, class_name) for namespace, class_name, node in self.relevant_functions()]
         read = [function for function in functions if function is not None]
-        return Unit(read, self.members, self.outside, self.prototypes, self.called_names, self.virtual, self.bases)
+        return Unit(read, self.members, self.outside, self.prototypes, self.called_names, self.virtual, self.bases, self.visible)
 
     def read_declarations(self, root: SyntaxNode) -> None:
         """Reads everything that can contain functions: namespaces, classes, and preprocessor blocks."""
@@ -88,7 +90,7 @@ class Reader(Statements):
                     terms = self.declared(node)
                     if node.start_byte in self.public:
                         # Any code may change a public member, so its initial value says nothing.
-                        terms = [term if term[5] else (*term[:3], None, *term[4:]) for term in terms]
+                        self.visible |= {f"{class_name}::{term[2]}" for term in terms if not term[5]}
                     self.members.setdefault(class_name, []).extend(terms)
                     self.note_prototype(node)
                     self.note_virtual_methods(node, class_name)
@@ -103,7 +105,7 @@ class Reader(Statements):
                 if tested is None or self.text_of(tested) != self.text_of(node.child_by_field_name("name")):
                     self.outside += self.macro_constant(node)
             elif kind == "type_definition":
-                self.queue_class(node, stack, namespace, class_name, depth)
+                self.queue_class(node, stack, namespace, self.named_by_typedef(node, namespace) or class_name, depth)
                 self.alias(node)
             elif kind in ("namespace_alias_definition", "alias_declaration"):
                 self.alias(node)
@@ -112,6 +114,16 @@ class Reader(Statements):
             elif self.fragments:
                 # Pages show statements without their function.
                 self.outside += self.statement(node, 0)
+
+    def named_by_typedef(self, node: SyntaxNode, namespace: str) -> str:
+        """Returns the name that `typedef struct {...} Name;` gives a structure. Beside its own name, that is like a derived class."""
+        struct, name = fields(node, "type", "declarator")
+        if struct is None or struct.type not in CLASSES or name is None or name.type != "type_identifier":
+            return ""
+        tag, alias = struct.child_by_field_name("name"), f"{namespace}{self.text_of(name)}"
+        if tag is not None and alias != f"{namespace}{self.text_of(tag)}":
+            self.bases[alias] = [self.text_of(tag)]
+        return alias
 
     @staticmethod
     def queue_class(node: SyntaxNode, stack: list[tuple[str, str, SyntaxNode, int]], namespace: str, class_name: str, depth: int) -> None:

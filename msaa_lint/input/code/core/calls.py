@@ -40,6 +40,8 @@ _CAST = re.compile(r"(?:std::)?u?int(?:8|16|32|64|ptr)?_t$|(?:std::)?size_t$|(?:
 """Types whose name, used as a function, converts a value."""
 
 
+COPIES = frozenset({"memcpy", "memmove", "copy", "copy_n"})
+
 SHARE = 8
 """The part of the work for a program that following calls more often than MAX_WAYS may take in each execution of the program."""
 
@@ -119,6 +121,9 @@ class Calls(Resolution):
             value = self.method(receiver, name, arguments, place, scope) if receiver is not None else None
             if value is not None:
                 return value
+        if name in COPIES and len(arguments) == 3:
+            self.copy_memory(*((arguments[0], arguments[1]) if name.startswith("mem") else (arguments[2], arguments[0])), scope)
+            return UNKNOWN_VALUE
         if name == "memset" and len(arguments) == 3:
             return self.zero_memory(arguments, scope)
         if name in ("min", "max", "MIN", "MAX") and len(arguments) == 2:

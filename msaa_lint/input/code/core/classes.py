@@ -28,7 +28,9 @@ class Classes:
         self.members = {name: {term[2]: term for term in terms if term[0] == DECLARE} for name, terms in unit.members.items()}
         self._names: dict[str, list[str]] = {}
         """The classes by the last part of their names."""
-        for name in dict.fromkeys((*self.members, *(function.class_name for function in unit.functions if function.class_name))):
+        for name in dict.fromkeys(
+            (*self.members, *unit.bases, *(function.class_name for function in unit.functions if function.class_name))
+        ):
             self._names.setdefault(name.rpartition("::")[2], []).append(name)
         self._bases = {name: tuple(self._base(name, base) for base in bases) for name, bases in unit.bases.items()}
         self._derived: dict[str, list[str]] = {}

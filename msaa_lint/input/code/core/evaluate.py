@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 from msaa_lint.core.text.span import Span
@@ -29,6 +29,9 @@ from .values import (
     pointee,
     sole_value,
 )
+
+ALLOCATORS = frozenset({"malloc", "calloc", "alloca", "_alloca"})
+"""Functions that return memory."""
 
 
 class Evaluator(ConditionEvaluator):
@@ -65,6 +68,9 @@ class Evaluator(ConditionEvaluator):
         if tag == CHOICE:
             return self.choice(term, scope, kind)
         if tag == CALL:
+            name = term[1][1] if term[1][0] == NAME else ""
+            if name in ALLOCATORS and kind and (self.library.structure(kind) or self.class_of(kind, scope.namespace) is not None):
+                return self.allocated(name, term[2], kind, place, scope)
             return self.without_aliases(self.call(term, scope), scope)
         if tag == BRACES:
             return self.braced_value(term, scope, kind)
@@ -77,6 +83,10 @@ class Evaluator(ConditionEvaluator):
     @abstractmethod
     def braced_value(self, term: Term, scope: Scope, kind: str) -> Value:
         """Returns the value of a braced list for a target type."""
+
+    @abstractmethod
+    def allocated(self, name: str, arguments: Sequence[Term], kind: str, place: Span, scope: Scope) -> Value:
+        """Returns memory for one or several structures of a type."""
 
     @abstractmethod
     def routine(self, name: str, scope: Scope) -> Routine | None:
@@ -229,6 +239,8 @@ class Evaluator(ConditionEvaluator):
                 continue
             value = self.value(branch, scope, kind) or (Alternative(UNKNOWN, at(branch)),)
             alternatives += [Alternative(a.value, a.at, a.guards | guards) for a in value if not contradicts(a.guards, guards)]
+        if len(alternatives) > 1 and all(type(a.value) is Struct for a in alternatives):
+            return (Alternative(self.copies.merged(tuple(alternatives)), alternatives[0].at),)
         return tuple(alternatives) if len(alternatives) <= MAX_ALTERNATIVES else UNKNOWN_VALUE
 
     def assign(self, term: Term, scope: Scope) -> Value:

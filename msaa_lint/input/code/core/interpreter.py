@@ -18,6 +18,7 @@ from msaa_lint.input.code.parsing import Unread
 from .calls import Calls
 from .conditions import canonical_text
 from .escapes import mark_escaped
+from .evaluate import ALLOCATORS
 from .guards import ALWAYS, Guards, brief, contradicts, decided, either, negated
 from .limits import WorkLimitExceeded
 from .scope import MAX_CASES, MAX_FRAMES, MAX_PASSES, MAX_TURNS, Scope, name_objects
@@ -46,7 +47,6 @@ from .terms import (
 from .values import (
     MAX_ALTERNATIVES,
     UNKNOWN,
-    UNKNOWN_VALUE,
     Alternative,
     ApiObject,
     Array,
@@ -319,7 +319,7 @@ class Interpreter(Calls):
         result: Value | None = None
         if indirect and initializer is not None:
             cell = None
-            if initializer[0] == CALL:
+            if initializer[0] == CALL and initializer[1][1] not in ALLOCATORS:
                 result = self.call(initializer, scope)
                 known = sole_value(result)
                 cell = known.cell if isinstance(known, Ref) and known.alias else None
@@ -331,7 +331,10 @@ class Interpreter(Calls):
         cell = self.other_branch_variable(name, kind, scope) or Cell(kind, name)
         if initializer is None:
             value = self.typed_value(kind, name, place)
-            value = value or (UNKNOWN_VALUE if indirect else self.default_value(kind, name, place, scope))
+            if not value and not indirect:
+                value = self.construct_class(kind, (CALL, (NAME, kind, place), (), place), scope) or self.default_value(
+                    kind, name, place, scope
+                )
         else:
             value = self.value(initializer, scope, kind) if result is None else self.without_aliases(result, scope)
             value = value if any(not isinstance(a.value, Symbol) for a in value) else self.typed_value(kind, name, place) or value

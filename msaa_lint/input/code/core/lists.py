@@ -11,7 +11,7 @@ from .escapes import forget
 from .guards import ALWAYS
 from .scope import Scope
 from .structures import Structures
-from .terms import FIELD, INDEX, LITERAL, NAME, Term
+from .terms import CALL, FIELD, INDEX, LITERAL, NAME, Term
 from .values import (
     UNKNOWN,
     UNKNOWN_VALUE,
@@ -27,7 +27,9 @@ from .values import (
 
 APPEND = frozenset({"push_back", "emplace_back", "append", "add", "pushBack", "Add", "PushBack", "push"})
 
-COUNTED = frozenset({"size", "count", "length"})
+COUNTED = frozenset({"size", "count", "length", "Num", "Size", "Count", "Length", "getSize", "GetSize", "ssize"})
+
+DATA = frozenset({"data", "begin", "cbegin", "get", "Data", "GetData", "getData", "constData", "ptr", "ptrw"})
 
 SELF = frozenset({"get", "value", "data", "begin", "as_span", "handle", "ptr", "operator*", "release", "Get", "asSpan", "c_ptr"})
 
@@ -115,7 +117,7 @@ class ListMethods(Structures):
             item.write(tuple(self.named_copy(a, arguments) for a in value), place, scope.guards)
             array.items.append(item)
             return (Alternative(Ref(item, True), place),)
-        if name in ("data", "begin", "cbegin", "get"):
+        if name in DATA:
             return (Alternative(Ref(cell if cell is not None else Cell(writes=(Alternative(array, place),))), place),)
         if name in COUNTED:
             return self.count_value(array, place)
@@ -137,6 +139,8 @@ class ListMethods(Structures):
             array.unset = False
             array.complete = not scope.guards
             return UNKNOWN_VALUE
+        if name in ("insert", "assign", "resize", "fill") and self.refilled(array, name, arguments, place, scope):
+            return UNKNOWN_VALUE
         if name in ("resize", "fill", "assign", "insert", "pop_back", "erase", "swap", "emplace"):
             array.complete = array.complete and name == "resize" and not array.items
             if array.complete and arguments:
@@ -144,6 +148,32 @@ class ListMethods(Structures):
                 array.complete = type(count) is int and 0 <= count <= 64
                 array.items += [self.unset_element(array.kind, place, True) for _ in range(count if array.complete else 0)]
         return UNKNOWN_VALUE
+
+    def refilled(self, array: Array, name: str, arguments: Sequence[Term], place: Span, scope: Scope) -> bool:
+        """Executes a method that appends or replaces elements. Returns False if its effect is unknown."""
+        if scope.guards or scope.unknown_loops or not array.complete or not arguments:
+            return False
+        if name == "insert" or (name == "assign" and arguments[0][0] == CALL):
+            ends = arguments[1:] if name == "insert" else arguments
+            at_end = arguments[0][0] == CALL and arguments[0][1][0] == FIELD and arguments[0][1][2] in ("end", "cend")
+            if name == "insert" and not at_end:
+                return False
+            source = self.target(ends[0], scope) if len(ends) == 2 else None
+            if isinstance(source, Array) and source.complete:
+                fresh = [Cell(array.kind, writes=self.copies.alternatives(item.writes)) for item in source.items]
+            elif len(ends) == 1:
+                fresh = [Cell(array.kind, writes=self.copies.alternatives(self.value(ends[0], scope, array.kind)))]
+            else:
+                return False
+            array.items[:] = [*(array.items if name == "insert" else ()), *fresh][:64]
+            return True
+        count = len(array.items) if name == "fill" else self.sole(arguments[0], scope)
+        if type(count) is not int or not 0 <= count <= 64 or len(arguments) != (1 if name == "fill" else 2):
+            return False
+        value = self.value(arguments[-1], scope, array.kind)
+        kept = array.items[:count] if name == "resize" else []
+        array.items[:] = [*kept, *(Cell(array.kind, writes=self.copies.alternatives(value)) for _ in range(count - len(kept)))]
+        return True
 
     def named_copy(self, alternative: Alternative, arguments: Sequence[Term]) -> Alternative:
         value = self.copies.value(alternative.value)

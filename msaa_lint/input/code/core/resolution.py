@@ -10,7 +10,7 @@ from .lists import ListMethods, Receiver
 from .overloads import Overloads, matches
 from .scope import MEMBER, Scope
 from .terms import CALL, FIELD, INDEX, LABEL, LITERAL, NAME, Function, Term, Unit, labeled
-from .values import Cell, Instance, Ref, Routine, Struct, pointee, sole_value
+from .values import Array, Cell, Instance, Ref, Routine, Struct, pointee, sole_value
 
 
 class Resolution(ListMethods):
@@ -73,6 +73,8 @@ class Resolution(ListMethods):
     def find_method(self, name: str, arguments: Sequence[Term], receiver: Receiver, scope: Scope) -> Function | None:
         count = len(arguments)
         known = pointee(sole_value(receiver.content))
+        if isinstance(known, Array):
+            return None
         class_name = known.type if isinstance(known, Struct) else ""
         declared = class_name or self.class_of_term(receiver.owner, scope)
         if declared:

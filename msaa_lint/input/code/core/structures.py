@@ -7,12 +7,13 @@ from typing import Any
 
 from msaa_lint.core.text.span import Span
 
+from .escapes import forget
 from .evaluate import Evaluator
 from .guards import ALWAYS, Guards
 from .library import Construction, Library
 from .limits import Work
 from .scope import Scope
-from .terms import ADDRESS, BRACES, CALL, FIELD, INDEX, LITERAL, NAME, SOME, TUPLE, UNPARSED, Term, Unit
+from .terms import ADDRESS, BINARY, BRACES, CALL, FIELD, INDEX, LITERAL, NAME, SOME, TUPLE, UNPARSED, Term, Unit
 from .types import element_type
 from .values import (
     UNKNOWN,
@@ -259,6 +260,43 @@ class Structures(Evaluator):
         value = pointee(value)
         known = isinstance(value, Array) and value.complete and (value.items or not value.unset)
         return (Alternative(len(value.items), place),) if known else UNKNOWN_VALUE
+
+    def copy_memory(self, target: Term, source: Term, scope: Scope) -> None:
+        """Executes `memcpy(&a, &b, sizeof a)` and the like."""
+        to, content = self.target(target, scope), self.target(source, scope)
+        if isinstance(to, Struct) and isinstance(content, Struct) and not scope.guards:
+            copy = self.copies.value(content)
+            to.fields, to.zeroed, to.kind = copy.fields, copy.zeroed, to.kind or copy.kind
+        elif isinstance(to, Array) and isinstance(content, Array) and not scope.guards:
+            copied = self.copies.value(content)
+            to.items[: len(copied.items)], to.complete = copied.items, to.complete and copied.complete
+        elif isinstance(to, (Struct, Array)):
+            forget(to)
+
+    def allocated(self, name: str, arguments: Sequence[Term], kind: str, place: Span, scope: Scope) -> Value:
+        """Returns memory for one or several structures of a type."""
+        zeroed = "calloc" in name
+        counts = [self.count_of_bytes(argument, scope) for argument in arguments]
+        count = counts[0] * counts[1] if len(counts) == 2 and counts[0] and counts[1] else counts[0] if len(counts) == 1 else None
+        element = self.unset_element(kind, place, zeroed).writes or (
+            Alternative(self.new_object(self.class_of(kind, "") or "", place), place),
+        )
+        if count == 1:
+            return element
+        array = Array(kind, place)
+        array.zeroed = zeroed
+        array.items = [self.unset_element(kind, place, zeroed) for _ in range(count if count is not None and count <= 64 else 0)]
+        return (Alternative(array, place),)
+
+    def count_of_bytes(self, term: Term, scope: Scope) -> int | None:
+        """Returns the number of elements in `n * sizeof(T)`, or None."""
+        if term[0] == UNPARSED and term[1].startswith("sizeof"):
+            return 1
+        if term[0] == BINARY and term[1] == "*":
+            left, right = self.count_of_bytes(term[2], scope), self.count_of_bytes(term[3], scope)
+            return left * right if left is not None and right is not None else None
+        count = self.sole(term, scope)
+        return count if type(count) is int and 0 < count <= 64 else None
 
     def zero_memory(self, arguments: Sequence[Term], scope: Scope) -> Value:
         """Executes `memset(&x, 0, sizeof x)`."""

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import re
 
-_LISTED = re.compile(
-    r"(?:std::|eastl::|absl::)?(?:array|vector|span|inlined_vector|InlinedVector|small_vector|initializer_list|SmallVector|Array|Vector)<([^,<>]+)[,>]"
-)
+_LISTED = re.compile(r"(?:\w+::)*(?:array|vector|span|initializer_list|\w*(?:_vector|_array|Vector|Array|Span|List|Slice))<([^,<>]+)[,>]")
 _FIXED = re.compile(r"(?:std::|eastl::)?array<[^,<>]+,([^<>]+)>$")
 
 

@@ -273,7 +273,8 @@ class Variables(ABC):
             lasting = [a for a in value if not (isinstance(a.value, Struct) and not a.value.kind and not a.value.fields)]
             if not fixed:
                 # Other code may change the value; discard values that are typical placeholders: one sample, null, false, an operation.
-                lasting = [a for a in lasting if self.lasts(a.value)]
+                # Any code may change a public member.
+                lasting = [a for a in lasting if self.lasts(a.value) and (key not in self.unit.visible or key in self.globals)]
                 self.changeable.add(key)
             self.declared_values[key] = tuple(Alternative(self.stored_value(a.value, kind, name), a.at, a.guards) for a in lasting)
         elif value := self.typed_value(kind, name, place):

@@ -228,7 +228,7 @@ class VulkanInterpreter(Interpreter):
         plain = (name.startswith(("vk", "vma")) and name[2:3].isupper()) or name.startswith("vma")
         result: Value = (Alternative(obj, term[3]),)
         for position, argument in enumerate(term[2]):
-            if position <= n:
+            if position <= n or (name.startswith("vk") and position < len(term[2]) - 1 and argument[0] != ADDRESS):
                 continue
             target = argument[1] if argument[0] == ADDRESS else argument if plain and argument[0] in (NAME, FIELD, INDEX) else None
             if target is None:
