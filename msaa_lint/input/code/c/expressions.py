@@ -141,7 +141,10 @@ class Expressions(SyntaxReader, ABC):
         if kind in ("comma_expression", "ERROR") and node.named_child_count:
             return self.expression(node.named_children[-1], deeper)
         if kind == "new_expression":
-            type_node, list_node = fields(node, "type", "arguments")
+            type_node, list_node, array = fields(node, "type", "arguments", "declarator")
+            if type_node is not None and array is not None:
+                length = self.expression(array.child_by_field_name("length"), deeper)
+                return (CALL, (NAME, f"{self.type_text(type_node)}[]", at), (length,), at)
             if type_node is not None:
                 arguments = tuple(self.expression(child, deeper) for child in without_comments(list_node))
                 return (CALL, (NAME, self.type_text(type_node), at), arguments, at)
