@@ -41,6 +41,16 @@ _VULKAN = re.compile(
     rf"|(?P<initializer>{_COUNT}|{_NAMED})\s*,\s*(?:VK_ATTACHMENT_LOAD_OP_|VK_IMAGE_TILING_|(?:\w+::){{0,9}}(?:AttachmentLoadOp|ImageTiling)::)"
     rf"|\b\w{{0,80}}(?i:create|make|alloc|init)\w{{0,80}}\s*\((?:[^;{{}}()]|\([^;{{}}()]{{0,80}}\)){{0,200}}?(?P<passed>{_COUNT})"
 )
+_VULKAN_ANCHOR = re.compile(
+    r"(?:\.|->)\s*(?:samples|rasterizationSamples|setSamples|setRasterizationSamples)\b|VK_SAMPLE_COUNT_(?!1_)|SampleCountFlagBits::e(?!1\b)"
+    r"|VK_ATTACHMENT_LOAD_OP_|VK_IMAGE_TILING_|AttachmentLoadOp::|ImageTiling::"
+)
+"""What each match of `_VULKAN` contains. It is searched for only in the statements with one of these."""
+
+MAX_BEFORE = 1000
+MAX_AFTER = 400
+"""The number of characters of a statement before and after an anchor."""
+
 _VULKAN_IMAGES = re.compile(
     r"(?i:create)\w{0,80}(?:Image|Texture|RenderPass|Attachment|Target)\w{0,80}\s*\(|raii::(?:Image|RenderPass)\b|[bB]eginRendering"
 )
@@ -71,6 +81,8 @@ def creations(codes: Iterable[Code]) -> Iterator[Creation]:
     Declarations of members, tables of enumerants, and comparisons create nothing.
     """
     for code in codes:
+        if code.language not in ("swift", "glsl", "objc", "objcpp") and _VULKAN_ANCHOR.search(code.text) is None:
+            continue
         yield from _of_language(code.language, blanked(code))
 
 
@@ -105,16 +117,39 @@ class _Ones:
         return self.names.get(value, False)
 
 
+def _matches(pattern: re.Pattern[str], text: str) -> Iterator[re.Match[str]]:
+    """Yields the matches of a language's pattern."""
+    if pattern is not _VULKAN:
+        yield from pattern.finditer(text)
+        return
+    done = 0
+    for anchor in _VULKAN_ANCHOR.finditer(text):
+        if anchor.end() <= done:
+            continue
+        least = max(done, anchor.start() - MAX_BEFORE)
+        start = max(least, *(text.rfind(sign, least, anchor.start()) + 1 for sign in ";{}"))
+        for match in pattern.finditer(text, start, min(anchor.end() + MAX_AFTER, len(text))):
+            yield match
+            done = match.end()
+        done = max(done, anchor.end())
+
+
 def _of_language(language: str, text: str) -> Iterator[Creation]:
     if language == "glsl":
         match = _GLSL.search(text) if _GLSL_READS.search(text) is not None else None
         if match is not None:
             yield Creation(READS, match.start(), match.end(), match[0])
         return
-    pattern, images, pipelines = (_METAL, _METAL_IMAGES, None) if language == "swift" else (_VULKAN, _VULKAN_IMAGES, _VULKAN_PIPELINES)
+    if language in ("swift", "objc", "objcpp"):
+        yield from _of_api(text, _METAL, _METAL_IMAGES, None)
+    if language != "swift":
+        yield from _of_api(text, _VULKAN, _VULKAN_IMAGES, _VULKAN_PIPELINES)
+
+
+def _of_api(text: str, pattern: re.Pattern[str], images: re.Pattern[str], pipelines: re.Pattern[str] | None) -> Iterator[Creation]:
     has_images, has_pipelines = images.search(text) is not None, pipelines is None or pipelines.search(text) is not None
     ones = _Ones(text)
-    for match in pattern.finditer(text):
+    for match in _matches(pattern, text):
         groups = match.groupdict()
         value = next(groups[name] for name in ("value", "argument", "initializer", "passed") if groups.get(name) is not None).strip()
         if ones.holds(value):
