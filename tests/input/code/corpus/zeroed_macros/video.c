@@ -48,7 +48,7 @@ void Vid_CreateScenePass(void) {
     attachments[1].format = VK_FORMAT_D32_SFLOAT;
     attachments[1].samples = video.sample_count;
     attachments[1].loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
-    attachments[1].storeOp = VK_ATTACHMENT_STORE_OP_STORE;  // expect-later: MSAA203
+    attachments[1].storeOp = VK_ATTACHMENT_STORE_OP_STORE;  // may: MSAA203
     attachments[1].stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
     attachments[1].stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
     if (resolve) {
