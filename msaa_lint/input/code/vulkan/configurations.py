@@ -133,12 +133,18 @@ class VulkanConfiguration(Configuration):
         return self.image_in(self.get(struct, name)[0])
 
     def image_in(self, view: Any) -> ApiObject | None:
-        view = self.dereference(view)
-        if isinstance(view, ApiObject) and view.kind == "view":
-            image = self.dereference(self.get(view.info, "image")[0])
-            if isinstance(image, ApiObject) and image.kind == "image" and not self.is_excluded(image):
-                return self.first_duplicate(image)
-        return None
+        view = self.wrapped_object(view, "view")
+        image = self.wrapped_object(self.get(view.info, "image")[0], "image") if view is not None else None
+        return self.first_duplicate(image) if image is not None and not self.is_excluded(image) else None
+
+    def wrapped_object(self, value: Any, kind: str) -> ApiObject | None:
+        """Returns an object of Vulkan, or the only one of a kind that an object of the program holds, as a class that converts to it."""
+        value = self.dereference(value)
+        if isinstance(value, Struct) and not value.kind:
+            held = [self.dereference(sole_value(self.settle(cell.writes))) for cell in value.fields.values()]
+            objects = [item for item in held if isinstance(item, ApiObject) and item.kind == kind]
+            value = objects[0] if len(objects) == 1 else None
+        return value if isinstance(value, ApiObject) and value.kind == kind else None
 
     def first_duplicate(self, obj: ApiObject) -> ApiObject:
         """Returns the first object that is identical to this one; calling a function twice creates two."""

@@ -27,7 +27,7 @@ void Scene::CreateTargets(VkDevice device) {
 VkRenderPass Scene::CreatePass(VkDevice device) {
     return RenderPassBuilder()
         .AddAttachment(VK_FORMAT_R16G16B16A16_SFLOAT, VK_SAMPLE_COUNT_4_BIT, VK_ATTACHMENT_LOAD_OP_CLEAR,
-                       VK_ATTACHMENT_STORE_OP_STORE)  // expect-later: MSAA201
+                       VK_ATTACHMENT_STORE_OP_STORE)  // expect: MSAA201
         .AddResolve(VK_FORMAT_R16G16B16A16_SFLOAT, VK_ATTACHMENT_STORE_OP_STORE)
         .Create(device);
 }

@@ -7,6 +7,6 @@ ColorTarget::ColorTarget(const Device& device, uint32_t width, uint32_t height)
 
 DepthTarget::DepthTarget(const Device& device, uint32_t width, uint32_t height)
     : m_image(device, width, height, VK_FORMAT_D32_SFLOAT_S8_UINT,
-              VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,  // expect-later: MSAA401
+              VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,  // expect: MSAA401
               device.samples()),
       m_view(device, m_image, VK_IMAGE_ASPECT_DEPTH_BIT) {}
