@@ -41,8 +41,12 @@ def merged(files: Sequence[File]) -> Unit:
         for name, terms in unit.members.items():
             members[name] = (*members.get(name, ()), *terms) if name in unit.extended else members.get(name, terms)
     functions: dict[Hashable, Function] = {}
+    classes: dict[str, list[str]] = {}
+    for name in members:
+        classes.setdefault(name.rpartition("::")[2], []).append(name)
     for unit in units:
         for function in unit.functions:
+            function = _qualified(function, members, classes)
             functions.setdefault((*_signature(function), shape(function.body)), _completed(function, prototypes, virtual))
     outside = _globals(term for unit in units for term in unit.outside)
     called = frozenset(name for unit in units for name in unit.called)
@@ -53,6 +57,18 @@ def merged(files: Sequence[File]) -> Unit:
     visible = frozenset(name for unit in units for name in unit.visible)
     extended = frozenset(name for unit in units for name in unit.extended)
     return Unit(list(functions.values()), members, outside, prototypes, called, virtual, bases, visible, extended)
+
+
+def _qualified(function: Function, members: Mapping[str, object], classes: Mapping[str, Sequence[str]]) -> Function:
+    """Returns a method with the full name of its class, which `using namespace` lets a file shorten. `classes` has the classes by their
+    last names."""
+    name = function.class_name
+    if not name or name in members:
+        return function
+    named = [full for full in classes.get(name.rpartition("::")[2], ()) if full.endswith(f"::{name}")]
+    if len(named) != 1:
+        return function
+    return function._replace(class_name=named[0], namespace=f"{named[0].removesuffix(name)}{function.namespace}")
 
 
 def _signature(function: Function) -> tuple[Hashable, ...]:

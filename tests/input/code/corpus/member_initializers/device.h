@@ -2,6 +2,8 @@
 
 #include <vulkan/vulkan.h>
 
+namespace app {
+
 class Device {
 public:
     explicit Device(VkPhysicalDevice physical, VkDevice device) : m_device(device) { vkGetPhysicalDeviceProperties(physical, &m_properties); }
@@ -24,3 +26,5 @@ private:
     VkDevice m_device;
     VkPhysicalDeviceProperties m_properties{};
 };
+
+}

@@ -1,5 +1,7 @@
 #include "image.h"
 
+using namespace app;
+
 Image::Image(const Device& device, uint32_t width, uint32_t height, VkFormat format, VkImageUsageFlags usage, VkSampleCountFlagBits samples)
     : m_device(device), m_info({.width = width, .height = height, .format = format, .usage = usage, .samples = samples}), m_image(create()) {}
 

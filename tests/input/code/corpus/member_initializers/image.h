@@ -2,6 +2,8 @@
 
 #include "device.h"
 
+namespace app {
+
 struct ImageInfo {
     uint32_t width, height;
     VkFormat format;
@@ -33,3 +35,5 @@ public:
 private:
     VkImageView m_view = VK_NULL_HANDLE;
 };
+
+}

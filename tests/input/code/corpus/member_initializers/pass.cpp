@@ -3,6 +3,8 @@
 
 #include "targets.h"
 
+using namespace app;
+
 VkRenderPass createPass(const Device& device) {
     VkAttachmentDescription color = {};
     color.format = VK_FORMAT_B8G8R8A8_SRGB;

@@ -1,5 +1,7 @@
 #include "targets.h"
 
+using namespace app;
+
 ColorTarget::ColorTarget(const Device& device, uint32_t width, uint32_t height)
     : m_image(device, width, height, VK_FORMAT_B8G8R8A8_SRGB,
               VK_IMAGE_USAGE_TRANSIENT_ATTACHMENT_BIT | VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, device.samples()),

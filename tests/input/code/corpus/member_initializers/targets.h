@@ -2,6 +2,8 @@
 
 #include "image.h"
 
+namespace app {
+
 class ColorTarget {
 public:
     ColorTarget(const Device& device, uint32_t width, uint32_t height);
@@ -21,3 +23,5 @@ private:
     Image m_image;
     ImageView m_view;
 };
+
+}
