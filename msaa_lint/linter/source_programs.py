@@ -22,10 +22,13 @@ MAX_BYTES = (4 << 20) + 1
 MAX_ELSEWHERE = 1000
 """The number of files that are read because inputs include them."""
 
-TOGETHER = ("c", "cpp", "objc", "objcpp")
+FAMILIES = (("c", "cpp", "objc", "objcpp"), ("swift",), ("rust",))
 """The languages whose files are read together."""
 
-_ENDINGS = tuple(ending for language in TOGETHER for ending in LANGUAGES[language])
+TOGETHER = tuple(language for family in FAMILIES for language in family)
+
+_FAMILY_ENDINGS = tuple(tuple(ending for language in family for ending in LANGUAGES[language]) for family in FAMILIES)
+_ENDINGS = tuple(ending for endings in _FAMILY_ENDINGS for ending in endings)
 
 
 class ProgramInput(NamedTuple):
@@ -54,10 +57,14 @@ def programs(inputs: Iterable[str], related: Mapping[str, str], projects: Mappin
     """
     from msaa_lint.input.code.project.programs import Project
 
-    search = _Search({path for path in inputs if is_read_together(path)}, {**projects, **related}, index)
-    search.add(sorted({*search.inputs, *filter(is_read_together, related)}), related)
-    project = Project([search.entries[path] for path in sorted(search.entries)])
-    return [_input(project, program, search) for program in project.programs()]
+    inputs = list(inputs)
+    found: list[ProgramInput] = []
+    for endings in _FAMILY_ENDINGS:
+        search = _Search({path for path in inputs if path.lower().endswith(endings)}, {**projects, **related}, index)
+        search.add(sorted({*search.inputs, *(path for path in related if path.lower().endswith(endings))}), related)
+        project = Project([search.entries[path] for path in sorted(search.entries)])
+        found += [_input(project, program, search) for program in project.programs()]
+    return sorted(found, key=lambda program: program.inputs)
 
 
 class _Search:

@@ -6,6 +6,7 @@ Files are searched by words, without being parsed, so that the files of a large 
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from contextlib import suppress
 from typing import Any, NamedTuple
 
@@ -28,10 +29,16 @@ SOURCES = (".cpp", ".c", ".cc", ".cxx", ".mm", ".m")
 
 _INCLUDE = re.compile(rb'^[ \t]*#[ \t]*(?:include|import)[ \t]*[<"]([^>"\r\n]{1,400})[>"]', re.MULTILINE)
 
+_RUST_MODULE = re.compile(
+    rb"^[ \t]*(?:pub(?:\([a-z ]{1,20}\))?[ \t]+)?(?:mod[ \t]+(\w+)[ \t]*;|use[ \t]+(\w+(?:::\w+){1,12}))", re.MULTILINE
+)
+"""A module of Rust that a file declares or uses."""
+
 _MAIN = re.compile(
     rb"^[ \t]*(?:extern[ \t]+\"C\"[ \t]+)?(?:(?:int|auto|sapp_desc|SDL_AppResult)\s+(?:[A-Z_a-z]\w*[ \t]+){0,2}"
     rb"(?:_?main_?|w?WinMain|_tmain|wmain|SDL_main|SDL_AppInit|sokol_main)|void\s+android_main)[ \t]*\((?![^()]{0,400}\)[ \t]*;)"
-    rb"|^[A-Z][A-Z0-9_]*_MAIN[A-Z_]*[ \t]*\(",
+    rb"|^[A-Z][A-Z0-9_]*_MAIN[A-Z_]*[ \t]*\("
+    rb"|^(?:pub[ \t]+)?(?:async[ \t]+)?fn[ \t]+main[ \t]*\(|^@(?:main|UIApplicationMain|NSApplicationMain)\b",
     re.MULTILINE,
 )
 """Where a program starts, also by the macro of a framework."""
@@ -75,6 +82,8 @@ def words(data: bytes) -> Words:
     if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
         data = data.decode("utf-16", "replace").encode()
     includes = dict.fromkeys(name.decode("utf-8", "replace").replace("\\", "/") for name in _INCLUDE.findall(data))
+    if b"fn " in data:
+        includes.update(dict.fromkeys(_modules(data)))
     has_main = _MAIN.search(data) is not None
     if _RELATED.search(data) is None:
         return Words(length, tuple(includes), frozenset(), has_main, False, False, False, False)
@@ -84,6 +93,15 @@ def words(data: bytes) -> Words:
     speaks = has_api and mentions.speaks(text)
     multisampled = speaks or mentions.mentions_multisampling(text)
     return Words(length, tuple(includes), frozenset(names), has_main, True, has_api, multisampled, speaks)
+
+
+def _modules(data: bytes) -> Iterator[str]:
+    """Yields the files that the modules of Rust may be in that a file declares or uses."""
+    for match in _RUST_MODULE.finditer(data):
+        parts = (match[1] or match[2]).decode().split("::")
+        parts = parts[1:] if parts[0] in ("crate", "super", "self") else parts
+        for end in range(1, len(parts) + 1):
+            yield from ("/".join(parts[:end]) + ".rs", "/".join(parts[:end]) + "/mod.rs")
 
 
 class Index:

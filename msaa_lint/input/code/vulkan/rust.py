@@ -10,7 +10,7 @@ from msaa_lint.input.code.core.library import Construction
 from msaa_lint.input.code.core.limits import Work
 from msaa_lint.input.code.core.scope import Scope
 from msaa_lint.input.code.core.terms import Term, Unit
-from msaa_lint.input.code.core.values import Struct, Value
+from msaa_lint.input.code.core.values import Struct, Value, sole_value
 
 from . import names
 from .creation import VulkanInterpreter
@@ -110,5 +110,8 @@ class RustInterpreter(VulkanInterpreter):
         owner = self.class_of(term[1] or kind, scope.namespace) if term[2] else None
         if owner is not None and len(value) == 1 and isinstance(value[0].value, Struct):
             for name, cell in value[0].value.fields.items():
+                if sole_value(cell.writes) is None:
+                    # What a constructor leaves null is set later.
+                    continue
                 self.store(self.member_cell(f"{owner}::{name}"), cell.writes, cell.writes[-1].at if cell.writes else term[-1], scope)
         return value
