@@ -38,9 +38,8 @@ class _Reader(Reader):
                 return (NAME, "this", span(node))
             if name in _NULL:
                 return (LITERAL, None, span(node))
-            if self.own_class and name[0] == "_" and name[1:2].islower():
-                # The variable of a property has an underscore before the property's name.
-                return (FIELD, (NAME, "this", span(node)), name[1:], span(node))
+            if self.own_class and (own := property_name(name)) != name:
+                return (FIELD, (NAME, "this", span(node)), own, span(node))
         if kind == "null":
             return (LITERAL, None, span(node))
         term = super().expression(node, depth)
@@ -48,7 +47,7 @@ class _Reader(Reader):
             message = self.message_of(term)
             if message is not None and message.labels is None:
                 return self.sent(term, message, (), span(node))
-            return (FIELD, term[1], term[2][1:] if term[2][0] == "_" and term[2][1:2].islower() else term[2], term[3])
+            return (FIELD, term[1], property_name(term[2]), term[3])
         if term[0] == BINARY and term[1] in _COMPARED and (LITERAL, None) in (term[2][:2], term[3][:2]):
             operand = term[3] if term[2][:2] == (LITERAL, None) else term[2]
             return (UNARY, "!", operand, term[-1]) if term[1] == "==" else (UNARY, "!", (UNARY, "!", operand, term[-1]), term[-1])
@@ -84,7 +83,7 @@ class _Reader(Reader):
             # A pointer to an object is a variable of its own; only a reference of C++ stands for another.
             refers = "&" in self.text_of(node).partition("=")[0]
             return [(*term[:4], term[4] and refers, *term[5:]) for term in terms]
-        return [(*term[:2], term[2][1:] if term[2][0] == "_" else term[2], *term[3:]) for term in terms]
+        return [(*term[:2], property_name(term[2]), *term[3:]) for term in terms]
 
     def function_name(self, node: SyntaxNode) -> str:
         _, name = function_declarator(node)
@@ -106,3 +105,8 @@ class _Reader(Reader):
         parameters = tuple(p._replace(label=labels[n] if n < len(labels) else "") for n, p in enumerate(function.parameters))
         getter = not parameters and function.return_type != "void"
         return function._replace(name=message.name, parameters=parameters, getter=getter)
+
+
+def property_name(name: str) -> str:
+    """Returns the name of the property whose variable has a name, which begins with an underscore; other names are returned as is."""
+    return name[1:] if name.startswith("_") and name[1:2].islower() else name
