@@ -30,6 +30,13 @@ READS = (
 )
 CAPTURES = (*READS, ("convert",))
 
+PROJECTS = (("check", "--no-cache", "--output", "json"), ("check", "--no-cache", "--output", "full"), ("facts",), ("convert",))
+COMMANDS = b"""[
+ {"directory": ".", "file": "frame.cpp", "command": "c++ -DSAMPLES=4 -D 'A(x)=x' -c frame.cpp", "output": "CMakeFiles/app.dir/frame.cpp.o"},
+ {"directory": "/", "file": "../frame.cpp", "arguments": ["c++", "-DB", "-c", "frame.cpp"]}
+]
+"""
+
 
 class Kind(NamedTuple):
     """A kind of input. `seeds` returns the contents of the file `name`, which is mutated; `files` lie beside it.
@@ -92,6 +99,22 @@ KINDS = {
     "fossilize": Kind("capture.foz", corpus.fossilize_databases, CAPTURES, ("binary",)),
     "c": _source("frame.c", "c", "tests/input/code/corpus/*.c", "examples/capture/*.c"),
     "cpp": _source("frame.cpp", "cpp", "tests/input/code/corpus/*.cpp", "examples/code/*.cpp"),
+    "project": Kind(
+        "frame.h",
+        lambda: files("tests/input/code/corpus/*/*.h", "tests/input/code/corpus/*/*.cpp"),
+        PROJECTS,
+        ("code", "comment"),
+        files={"frame.cpp": b'#include "frame.h"\n' + next(iter(files("tests/input/code/corpus/class_over_files/pass.cpp")))},
+        input=".",
+    ),
+    "compile-commands": Kind(
+        "compile_commands.json",
+        lambda: [COMMANDS],
+        PROJECTS[:1],
+        ("json",),
+        files={"frame.cpp": next(iter(files("tests/input/code/corpus/class_over_files/pass.cpp")))},
+        input=".",
+    ),
     "swift": _source("frame.swift", "swift", "tests/input/code/swift/*.swift"),
     "objc": _source("frame.m", "objc", "tests/input/code/objc/*.m"),
     "objcpp": _source("frame.mm", "objcpp", "tests/input/code/objc/*.mm"),

@@ -8,5 +8,6 @@ from .rules import SHAPES as RULES
 from .shaders import SHAPES as SHADERS
 from .shape import Shape
 from .source import SHAPES as SOURCE
+from .source_projects import SHAPES as SOURCE_PROJECTS
 
-SHAPES: tuple[Shape, ...] = (*DESCRIPTIONS, *DESCRIPTION_TEXTS, *CAPTURES, *CAPTURE_TEXTS, *RULES, *SHADERS, *SOURCE)
+SHAPES: tuple[Shape, ...] = (*DESCRIPTIONS, *DESCRIPTION_TEXTS, *CAPTURES, *CAPTURE_TEXTS, *RULES, *SHADERS, *SOURCE, *SOURCE_PROJECTS)

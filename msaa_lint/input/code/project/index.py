@@ -5,6 +5,7 @@ Files are searched by words, without being parsed, so that the files of a large 
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Iterator
 from contextlib import suppress
@@ -132,7 +133,8 @@ class Index:
     def of_entry(self, path: str) -> Words:
         """The words of a regular file, according to the listing of its folder. Raises OSError if it cannot be read."""
         with open_entry(path) as file:
-            return self.add(shown(path), file.read(MAX_BYTES))
+            # Python allocates as much memory as it is asked to read.
+            return self.add(shown(path), file.read(min(os.fstat(file.fileno()).st_size, MAX_BYTES)))
 
     def of(self, path: str, project: str | None) -> Words | None:
         """The words of a file; None if it cannot be read. A pipe is not read twice."""
