@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from bisect import bisect_left
 from collections.abc import Iterator, Mapping, Sequence
+from itertools import islice
 
 from msaa_lint.core.quote import quoted
 from msaa_lint.core.text.span import Span
@@ -56,7 +57,7 @@ def stated(codes: Sequence[tuple[Code, int]], configured: Mapping[str, bool | in
     remarks: list[Remark] = []
     for code, offset in codes:
         if "assume" in code.text and "msaa-lint" in code.text:
-            entries = list(_of_code(code, offset, remarks))
+            entries = list(islice(_of_code(code, offset, remarks), MAX_ASSUMPTIONS + 1))
             every += entries[:MAX_ASSUMPTIONS]
             if len(entries) > MAX_ASSUMPTIONS and (at := entries[MAX_ASSUMPTIONS].at) is not None:
                 remarks.append(
@@ -77,18 +78,21 @@ def unused(assumptions: Assumptions) -> Iterator[Remark]:
 def _of_code(code: Code, offset: int, remarks: list[Remark]) -> Iterator[Assumed]:
     found = comments((code,))
     starts = [0, *(match.end() for match in re.finditer(r"\r\n|\r|\n", code.text)), len(code.text) + 1]
+    first = line = 0
     for comment in found.comments:
         match = _BEGINNING.match(comment.text)
         if match is not None:
             base = comment.span.start
-            line = _line_about(base, found, starts)
+            number = bisect_left(starts, base + 1)
+            if not first <= number < line:
+                # The comments of a block are about the same line.
+                first, line = number, _line_about(number, found, starts)
             about = Span(starts[line - 1] + offset, starts[line] + offset)
             yield from _entries(comment.text, match.end(), base + offset, about, code.text[starts[line - 1] : starts[line]], remarks)
 
 
-def _line_about(at: int, found: Comments, starts: Sequence[int]) -> int:
-    """Returns the line that a comment is about: its own or, if it is alone there, the next one that is not a comment."""
-    line = bisect_left(starts, at + 1)
+def _line_about(line: int, found: Comments, starts: Sequence[int]) -> int:
+    """Returns the line that a comment on a line is about: its own or, if it is alone there, the next one that is not a comment."""
     while line in found.alone and line < len(starts) - 1:
         line += 1
     return line
