@@ -73,7 +73,7 @@ class Calls(Resolution):
         name, owner = _callee(term)
         receiver = self.received(owner, scope) if owner is not None else None
         function = self.find_function(name, (), term, receiver, scope)
-        if function is None or not function.getter:
+        if function is None or not function.getter or function.open:
             return None
         if not self.may_follow(function, term[-1], scope):
             return None

@@ -52,11 +52,16 @@ class MetalConfiguration(Configuration):
             value = write.value
             if (
                 (name == "textureType" and value in MULTISAMPLE_TYPES)
-                or (name == "storeAction" and value in MULTISAMPLE_RESOLVES)
                 or (name == "resolveTexture" and isinstance(value, (ApiObject, Symbol)))
                 or (name in ("sampleCount", "rasterSampleCount") and isinstance(value, Symbol))
             ):
                 self.assume(write.guards | guards)
+        for obj in self.current_objects:
+            for name, value in members_of(obj.info):
+                resolving = [write.guards for write in value if name == "storeAction" and write.value in MULTISAMPLE_RESOLVES]
+                if resolving:
+                    # Which of several resolves it is stays open.
+                    self.assume(frozenset.intersection(*resolving) | obj.guards)
         for guards in (guards | write.guards for _, write, guards in writes):
             self.assume_by_words(guards)
         for text, way in self.program.passed.items():
