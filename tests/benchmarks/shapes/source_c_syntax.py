@@ -102,6 +102,54 @@ def broken(count: int) -> str:
     return function("    VkImageCreateInfo = ; samples )( {{ = 4 }} ;\n" * count + IMAGE)
 
 
+def macro_uses(count: int) -> str:
+    """Uses of macros that use others."""
+    macros = (
+        "#define SET(info, name, value) info.name = value\n#define IMAGE(info, count) SET(info, samples, VK_SAMPLE_COUNT_##count##_BIT)\n"
+    )
+    return macros + function("    IMAGE(info, 4);\n" * count + IMAGE)
+
+
+def doubled_macros(count: int) -> str:
+    """Each macro doubles the one before it."""
+    return "#define M0 samples\n" + repeated("#define M{m} M{n} M{n}\n", count) + function(f"    M{count};\n" + IMAGE)
+
+
+def long_macros(count: int) -> str:
+    """A list in a macro, and a use of it for each of its items."""
+    items = "#define ITEMS(X) " + repeated("X({n}) ", count) + "\n#define X(n) samples = n;\n"
+    return items + function("    ITEMS(X)\n" * count + IMAGE)
+
+
+def open_macros(count: int) -> str:
+    """Uses of a macro whose arguments do not end."""
+    return "#define M(x) x\n" + function("    M(samples\n" * count + IMAGE)
+
+
+def structural_directives(count: int) -> str:
+    """Conditions whose parts open braces."""
+    return function(repeated("#ifdef FLAG{n}\n    if (samples) {{\n#else\n    {{\n#endif\n    }}\n", count) + IMAGE)
+
+
+def outer_directives(count: int) -> str:
+    return repeated("#ifdef FLAG{n}\n", count) + function(IMAGE) + "#endif\n" * count
+
+
+def settled_directives(count: int) -> str:
+    return "#define N 4\n" + function(
+        repeated("#if N > {n} && N < 8\n    samples = {n};\n#else\n    samples = 1;\n#endif\n", count) + IMAGE
+    )
+
+
+def annotations(count: int) -> str:
+    return repeated("ENGINE_API ENGINE_INLINE void ENGINE_CALL f{n}(int samples) NOEXCEPT {{}}\nDECLARE(f{n})\n", count) + function(IMAGE)
+
+
+def small_functions(count: int) -> str:
+    """Functions of which each calls the next one."""
+    return repeated("void f{n}() {{ f{m}(); }}\n", count) + function(IMAGE)
+
+
 SHAPES: tuple[Shape, ...] = (
     cpp("comments", comments),
     cpp("strings", strings),
@@ -127,4 +175,13 @@ SHAPES: tuple[Shape, ...] = (
     cpp("open lists", unbalanced("a = {")),
     cpp("open templates", unbalanced("a<b<")),
     cpp("broken statements", broken),
+    cpp("uses of macros", macro_uses),
+    cpp("doubled macros", doubled_macros),
+    cpp("long macros", long_macros),
+    cpp("open macros", open_macros),
+    cpp("directives that split braces", structural_directives),
+    cpp("directives around functions", outer_directives),
+    cpp("settled directives", settled_directives),
+    cpp("annotations", annotations),
+    cpp("functions that call the next", small_functions),
 )

@@ -8,10 +8,11 @@ from typing import NamedTuple
 
 from .macros import Macros
 
-RELEVANT = re.compile(
-    r"[sS]ample(?!r)|SAMPLE(?!R)|[aA]ttachment|ATTACHMENT|[mM]saa|MSAA|[rR]esolve|RESOLVE|[fF]ramebuffer|[rR]enderPass|CreateImage|createImage|ImageCreateInfo|TRANSIENT|mageView|[dD]escriptor|AddTexture|(?:[cC]opy|[bB]lit)Image|VK_FORMAT_[DSX]|Format::e[DSX]\d"
-)
-"""Functions without any of these are irrelevant unless they call one that is relevant."""
+_WORDS = (
+    "attachment", "msaa", "resolve", "framebuffer", "renderpass", "createimage", "imagecreateinfo", "transient", "imageview",
+    "copyimage", "blitimage", "descriptor", "addtexture", "vk_format_d", "vk_format_s", "vk_format_x8_d", "format::ed", "format::es", "format::ex8d",
+)  # fmt: skip
+"""Functions without any of these words, or `sample`, in any case, are irrelevant unless they call one that is relevant."""
 
 MAX_ROUNDS = 4
 """The maximum length of a chain of calls that ends in a relevant function and whose functions are all relevant."""
@@ -101,6 +102,12 @@ def bodies(text: str) -> list[Body]:
     return found
 
 
+def is_relevant(text: str) -> bool:
+    """Returns whether a text mentions multisampling, or what it takes part in. Samplers alone do not."""
+    text = text.lower()
+    return any(word in text for word in _WORDS) or text.count("sample") > text.count("sampler")
+
+
 def _is_header(before: str) -> bool:
     """Returns whether a text that precedes a brace, without comments, is the header of a function."""
     tail = _TAIL.search(before.rstrip())
@@ -126,7 +133,7 @@ def without_irrelevant_bodies(text: str, macros: Macros) -> str:
 def _relevant_macros(text: str, macros: Macros) -> set[str]:
     """Returns the names of macros whose replacement mentions multisampling, or uses one that does."""
     texts = [*_DEFINITION.findall(text), *((name, macro.replacement) for name, found in macros.items() for macro in found)]
-    known = {name for name, replacement in texts if RELEVANT.search(replacement) is not None or RELEVANT.search(name) is not None}
+    known = {name for name, replacement in texts if is_relevant(f"{name} {replacement}")}
     for _ in range(MAX_ROUNDS if known else 0):
         more = {name for name, replacement in texts if name not in known and not known.isdisjoint(_WORD.findall(replacement))}
         known |= more
@@ -140,7 +147,7 @@ def relevant(texts: Sequence[str], names: Sequence[Iterable[str]], words: Set[st
 
     `names` are what each function may be called by.
     """
-    kept = [RELEVANT.search(text) is not None or (bool(words) and not words.isdisjoint(_WORD.findall(text))) for text in texts]
+    kept = [is_relevant(text) or (bool(words) and not words.isdisjoint(_WORD.findall(text))) for text in texts]
     fresh = {name for n, matters in enumerate(kept) if matters for name in names[n]}
     called = {n: set(_CALLED.findall(texts[n])) for n, matters in enumerate(kept) if not matters}
     for _ in range(MAX_ROUNDS):
