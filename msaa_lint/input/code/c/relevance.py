@@ -10,7 +10,8 @@ from .macros import Macros
 
 _WORDS = (
     "attachment", "msaa", "resolve", "framebuffer", "renderpass", "createimage", "imagecreateinfo", "transient", "imageview",
-    "copyimage", "blitimage", "descriptor", "addtexture", "vk_format_d", "vk_format_s", "vk_format_x8_d", "format::ed", "format::es", "format::ex8d",
+    "copyimage", "blitimage", "descriptor", "addtexture",
+    "vk_format_d", "vk_format_s", "vk_format_x8_d", "format::ed", "format::es", "format::ex8d",
 )  # fmt: skip
 """Functions without any of these words, or `sample`, in any case, are irrelevant unless they call one that is relevant."""
 
