@@ -29,9 +29,20 @@ _COUNT = re.compile(r"SAMPLE_COUNT_(?:2|4|8|16|32|64)_BIT|SampleCountFlagBits::e
 """A sample count above one."""
 
 
+_STATED = re.compile(
+    r"SAMPLE_COUNT_|SampleCountFlag|IMAGE_USAGE_|ImageUsageFlag|ATTACHMENT_(?:LOAD|STORE)_OP_|Attachment(?:Load|Store)Op|MTL(?:Load|Store)Action"
+)
+"""Counts, flags, and operations, which a program may state in one file and use in another."""
+
+
 def mentions_api(text: str) -> bool:
     """Returns whether a text mentions an API that the rules check."""
     return _API.search(text) is not None
+
+
+def may_have_findings(text: str) -> bool:
+    """Returns whether a text states what rules check in a program, such as a usage that it passes to a function of another file."""
+    return mentions_api(text) or _STATED.search(text) is not None
 
 
 def mentions_multisampling(text: str) -> bool:

@@ -90,7 +90,7 @@ def words(data: bytes) -> Words:
         return Words(length, tuple(includes), frozenset(), has_main, False, False, False, False)
     names = {name.decode() for pattern in (_CLASS, _FUNCTION) for name in pattern.findall(data)}
     text = data[: mentions.MAX_BYTES].decode("latin-1")
-    has_api = mentions.mentions_api(text)
+    has_api = mentions.may_have_findings(text)
     speaks = has_api and mentions.speaks(text)
     multisampled = speaks or mentions.mentions_multisampling(text)
     return Words(length, tuple(includes), frozenset(names), has_main, True, has_api, multisampled, speaks)

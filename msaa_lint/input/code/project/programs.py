@@ -126,9 +126,9 @@ class Project:
     def _inputs(self, numbers: Sequence[int], seen: Sequence[int]) -> tuple[int, ...]:
         """Returns the inputs of a program, whose own files have `numbers`."""
         entries = self.entries
-        words = [entries[number].words for number in (*numbers, *seen)]
-        is_relevant = any(word.has_multisampling for word in words) and any(entries[number].words.has_api for number in numbers)
-        candidates = [number for number in numbers if is_relevant and entries[number].is_candidate and entries[number].words.is_related]
+        candidates = [number for number in numbers if entries[number].is_candidate and entries[number].words.has_api]
+        if candidates and not any(entries[number].words.has_multisampling for number in (*numbers, *seen)):
+            candidates = []
         return tuple(sorted({*candidates, *(number for number in numbers if entries[number].is_input)}))
 
     def _seen(self, numbers: Sequence[int]) -> tuple[int, ...]:
