@@ -224,3 +224,9 @@ def test_hostile_text(text: str) -> None:
     assert len(rewrite(text).text) == len(text)
     trees(Code("void f() {\n" + MADE + "}\n" + text, "objcpp"))
     assert time.process_time() - begun < 5
+
+
+def test_an_object_of_a_class_without_members() -> None:
+    text = "Pool::Pool(int n) { }\nvoid f(id<MTLDevice> device, id<MTLCommandBuffer> buffer) {\nauto pool = Pool(1, 2);\n" + MADE + "}\n"
+    (only,) = trees(Code(text, "objcpp"))
+    assert plain(only.tree)["metal"]["textures"]["color"]["sampleCount"] == 4

@@ -317,7 +317,7 @@ class MetalInterpreter(MetalObjects):
 
     def class_object(self, class_name: str, arguments: Sequence[Term], values: Sequence[Value], place: Span, scope: Scope) -> Value:
         """Returns an object of a class of the program: its members, where its arguments are labeled with them."""
-        members = self.members[class_name]
+        members = self.members.get(class_name, {})
         labels = [labeled(argument)[0] for argument in arguments]
         if not labels or not all(label in members for label in labels):
             return self.of_class(class_name, place)
