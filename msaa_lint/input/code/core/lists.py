@@ -12,6 +12,7 @@ from .guards import ALWAYS
 from .scope import Scope
 from .structures import Structures
 from .terms import CALL, FIELD, INDEX, LITERAL, NAME, Term
+from .types import element_type
 from .values import (
     UNKNOWN,
     UNKNOWN_VALUE,
@@ -76,6 +77,10 @@ class ListMethods(Structures):
             return self.on_list(value, cell, name, arguments, place, scope)
         if name in SELF and not arguments:
             return content
+        if name == "clear" and cell is not None and not arguments and element_type(self.type_of(cell)) is not None:
+            # Whatever the list held before, it is empty now.
+            cell.write((Alternative(Array(element_type(self.type_of(cell)) or "", place), place),), place, scope.guards)
+            return UNKNOWN_VALUE
         if cell is not None and cell.writes == () and name in APPEND and len(arguments) == 1:
             # The list was declared elsewhere, or its type is unknown.
             self.value(arguments[0], scope)

@@ -56,7 +56,9 @@ void RenderPass::CreateGui(VkDevice device) {
     VkAttachmentDescription color{};
     color.format = SwapChain::Get()->Format();
     color.samples = static_cast<VkSampleCountFlagBits>(SwapChain::Get()->Samples());
-    color.loadOp = VK_ATTACHMENT_LOAD_OP_LOAD;  // expect-later: MSAA202
+    color.loadOp = VK_ATTACHMENT_LOAD_OP_LOAD;  // expect: MSAA202
+    color.initialLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
+    color.finalLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
     color.storeOp = VK_ATTACHMENT_STORE_OP_STORE;  // expect-later: MSAA201
     color.stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
     color.stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
