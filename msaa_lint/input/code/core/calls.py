@@ -42,8 +42,8 @@ _CAST = re.compile(r"(?:std::)?u?int(?:8|16|32|64|ptr)?_t$|(?:std::)?size_t$|(?:
 
 COPIES = frozenset({"memcpy", "memmove", "copy", "copy_n"})
 
-SHARE = 8
-"""The part of the work for a program that following calls more often than MAX_WAYS may take in each execution of the program."""
+MAX_REPEATED_STEPS = 60_000
+"""The steps after which, in each execution of a program, a call is not followed more often than MAX_WAYS."""
 
 
 class Calls(Resolution):
@@ -58,7 +58,7 @@ class Calls(Resolution):
 
     def begin(self) -> None:
         super().begin()
-        self.reserve = self.work.left - self.work.limit // SHARE
+        self.reserve = self.work.left - MAX_REPEATED_STEPS
 
     @abstractmethod
     def external_call(self, term: Term, name: str, owner: Term | None, values: Sequence[Value], scope: Scope) -> Value:
