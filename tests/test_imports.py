@@ -110,7 +110,7 @@ def test_source_code_that_is_passed_over_loads_no_grammar(tmp_path: Path) -> Non
     done, found = imported(tmp_path, CLEAN, ".")
     assert done.returncode == 0, done.stdout
     assert "msaa_lint.input.code.mentions" in found
-    light = {f"msaa_lint.input.code{module}" for module in ("", ".languages", ".mentions")}
+    light = {f"msaa_lint.input.code{module}" for module in ("", ".languages", ".mentions", ".project", ".project.index")}
     assert below(found - light, HEAVY | NEAREST | WRITING) == []
 
 
@@ -139,7 +139,7 @@ ONLY_IN = {
     "typer": {"cli.app"},
     "yaml": {"core.text"},
     "cel_expr_python": {"linter.rules.condition"},
-    "orjson": {"input.captures.json_stream", "input.readers.fossilize_objects"},
+    "orjson": {"input.captures.json_stream", "input.code.project", "input.readers.fossilize_objects"},
     "vulkan": {"experiments.confirm.binding"},
     "tree_sitter": {"input.code"},
     "backports": {"input.compression"},

@@ -55,13 +55,16 @@ def programs(inputs: Iterable[str], related: Mapping[str, str], projects: Mappin
     `related` are the other source files of folders, with their projects; `projects` has those of inputs that are not named; `index` has the
     words of files. What the inputs include elsewhere in their projects is read, too. A file that cannot be read is in no program.
     """
-    from msaa_lint.input.code.project.programs import Project
-
     inputs = list(inputs)
     found: list[ProgramInput] = []
     for endings in _FAMILY_ENDINGS:
         search = _Search({path for path in inputs if path.lower().endswith(endings)}, {**projects, **related}, index)
-        search.add(sorted({*search.inputs, *(path for path in related if path.lower().endswith(endings))}), related)
+        candidates = [path for path in related if path.lower().endswith(endings)]
+        if not search.inputs and not any(words.has_api for path in candidates if (words := index.of(path, related[path])) is not None):
+            continue
+        from msaa_lint.input.code.project.programs import Project
+
+        search.add(sorted({*search.inputs, *candidates}), related)
         project = Project([search.entries[path] for path in sorted(search.entries)])
         found += [_input(project, program, search) for program in project.programs()]
     return sorted(found, key=lambda program: program.inputs)

@@ -259,9 +259,7 @@ class Workspace:
         """The words of source files."""
         from msaa_lint.input.code.project.index import Index
 
-        index = Index(self._cache)
-        index.open(os.getcwd())
-        return index
+        return Index(os.getcwd(), lambda: self._cache)
 
     @cached_property
     def _cache(self) -> "Cache | None":
@@ -275,9 +273,10 @@ class Workspace:
 
     def close(self) -> None:
         """Keeps what the cache is for."""
-        if "_index" in self.__dict__ and self._cache is not None:
-            self._index.close(os.getcwd())
-            self._cache.close()
+        if "_index" in self.__dict__:
+            self._index.close()
+        if (cache := self.__dict__.get("_cache")) is not None:
+            cache.close()
 
     def _speaks(self, path: str) -> bool:
         return self._index.of_entry(path).speaks

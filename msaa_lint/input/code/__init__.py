@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from msaa_lint.core.text.source import Unreadable
 from msaa_lint.input.file_types import LANGUAGES, PAGES, missing_extra
 
-from .languages import MODULES, language_of_header, unread
+from .languages import GRAMMARS, MODULES, language_of_header, unread
 
 if TYPE_CHECKING:
     from msaa_lint.core.text.source import Source
@@ -64,8 +64,6 @@ def language_of(name: str, head: str) -> str | None:
 def installed() -> bool:
     """Returns whether the extra `source` is installed."""
     from importlib.util import find_spec
-
-    from .parsing import GRAMMARS
 
     return all(find_spec(name) is not None for name in ("tree_sitter", *GRAMMARS.values()))
 

@@ -11,6 +11,16 @@ MODULES = {
 }
 """The module of `input.code` that reads each language."""
 
+GRAMMARS = {
+    "c": "tree_sitter_c",
+    # Objective-C is rewritten as C++.
+    **dict.fromkeys(("cpp", "objc", "objcpp"), "tree_sitter_cpp"),
+    "swift": "tree_sitter_swift",
+    "rust": "tree_sitter_rust",
+    "glsl": "tree_sitter_glsl",
+}
+"""The package of each language's grammar."""
+
 UNREAD = {
     ".go": "Go",
     ".zig": "Zig",

@@ -12,6 +12,8 @@ from msaa_lint.core.text.span import Span
 from msaa_lint.frame.description.document import Basis
 from msaa_lint.input.file_types import missing_extra
 
+from .languages import GRAMMARS
+
 if TYPE_CHECKING:
     import tree_sitter
     from tree_sitter import Tree
@@ -22,17 +24,6 @@ else:
     SyntaxNode = object
 
 _NOT_ASCII = re.compile(r"[^\x00-\x7f]")
-
-GRAMMARS = {
-    "c": "tree_sitter_c",
-    # Objective-C is rewritten as C++.
-    **dict.fromkeys(("cpp", "objc", "objcpp"), "tree_sitter_cpp"),
-    "swift": "tree_sitter_swift",
-    "rust": "tree_sitter_rust",
-    "glsl": "tree_sitter_glsl",
-}
-"""The package of each language's grammar."""
-
 
 MAX_CALLBACKS = 30_000
 """The maximum number of progress callbacks of the parser, enough for 4 MB of ordinary code. Each takes up to half a millisecond."""

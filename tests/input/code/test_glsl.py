@@ -305,9 +305,9 @@ def test_spirv_under_the_name_of_a_text(tmp_path: Path) -> None:
 
 
 def test_without_the_extra(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    from msaa_lint.input.code import parsing
+    from msaa_lint.input.code import languages
 
-    monkeypatch.setitem(parsing.GRAMMARS, "glsl", "no_such_grammar")
+    monkeypatch.setitem(languages.GRAMMARS, "glsl", "no_such_grammar")
     (tmp_path / "resolve.frag").write_text(AVERAGES, encoding="utf-8")
     ((code, severity, message),) = of_frame(tmp_path, "resolve.frag")
     assert (code, severity, message) == ("MSAA903", "warning", "`resolve.frag` is GLSL")

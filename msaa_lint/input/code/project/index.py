@@ -7,20 +7,22 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Iterator
-from contextlib import suppress
-from typing import Any, NamedTuple
+from collections.abc import Callable, Iterator
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-from msaa_lint.core.cache import Cache, digest
 from msaa_lint.core.project import shown
 from msaa_lint.core.text.files import open_entry, open_file
 from msaa_lint.input.code import mentions
+
+if TYPE_CHECKING:
+    from msaa_lint.core.cache import Cache
 
 MAX_BYTES = (4 << 20) + 1
 """The number of bytes of a file that are searched; a source file of that length is too long to be read."""
 
 MIN_KEPT = 50
-"""The number of files from which on a cache keeps their words."""
+"""The number of files of a run whose words are not kept in a cache."""
 
 HEADERS = (".h", ".hpp", ".hh", ".hxx", ".h++", ".inl", ".ipp", ".tpp", ".inc")
 """The endings of files that sources include."""
@@ -106,29 +108,39 @@ def _modules(data: bytes) -> Iterator[str]:
 
 
 class Index:
-    """The words of the files of a run. With a cache, files that are as they were in an earlier run are not searched again."""
+    """The words of the files of a run. With a cache, files that are as they were in an earlier run are not searched again, apart from the
+    first `MIN_KEPT`: a few files take less time than what they were kept in. `cache` opens it, when it is needed."""
 
-    def __init__(self, cache: Cache | None = None) -> None:
-        self.cache = cache
+    def __init__(self, folder: str, cache: Callable[[], Cache | None]) -> None:
+        self.folder = folder
         self.by_path: dict[str, Words] = {}
-        self._known: dict[str, list[Any]] = {}
+        self._open = cache
         self._used: dict[str, list[Any]] = {}
 
-    def open(self, folder: str) -> None:
-        """Reads the words of the files of an earlier run in a folder."""
-        data = self.cache.read("words", folder) if self.cache is not None else None
-        if data is not None:
-            import orjson
+    @cached_property
+    def _cache(self) -> Cache | None:
+        return self._open()
 
-            with suppress(ValueError):
-                self._known = orjson.loads(data)
+    @cached_property
+    def _known(self) -> dict[str, list[Any]]:
+        """The words of the files of an earlier run in the folder."""
+        data = self._cache.read("words", self.folder) if self._cache is not None else None
+        if data is None:
+            return {}
+        import orjson
 
-    def close(self, folder: str) -> None:
+        try:
+            known: dict[str, list[Any]] = orjson.loads(data)
+        except ValueError:
+            return {}
+        return known
+
+    def close(self) -> None:
         """Keeps the words of the files of this run."""
-        if self.cache is not None and len(self._used) >= MIN_KEPT and self._used.keys() != self._known.keys():
+        if self._used and self._cache is not None and self._used.keys() != self._known.keys():
             import orjson
 
-            self.cache.write("words", folder, orjson.dumps(self._used))
+            self._cache.write("words", self.folder, orjson.dumps(self._used))
 
     def of_entry(self, path: str) -> Words:
         """The words of a regular file, according to the listing of its folder. Raises OSError if it cannot be read."""
@@ -149,15 +161,21 @@ class Index:
         return self.by_path.get(path)
 
     def add(self, path: str, data: bytes) -> Words:
-        key = digest(data) if self.cache is not None else ""
-        members = self._known.get(key) if key else None
+        found = words(data) if len(self.by_path) < MIN_KEPT or self._cache is None else self._kept(data)
+        self.by_path[path] = found
+        return found
+
+    def _kept(self, data: bytes) -> Words:
+        """The words of a file, from the cache if it has them."""
+        from msaa_lint.core.cache import digest
+
+        key = digest(data)
+        members = self._known.get(key)
         try:
             found = Words(members[0], tuple(members[1]), frozenset(members[2]), *members[3:]) if members is not None else words(data)
         except (TypeError, IndexError):
             found = words(data)
-        if key:
-            self._used[key] = members if members is not None else [found.length, found.includes, sorted(found.names), *found[3:]]
-        self.by_path[path] = found
+        self._used[key] = members if members is not None else [found.length, found.includes, sorted(found.names), *found[3:]]
         return found
 
 

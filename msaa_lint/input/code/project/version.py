@@ -6,7 +6,7 @@ import os
 from importlib.util import find_spec
 
 from msaa_lint.core.package import VERSION
-from msaa_lint.input.code.parsing import GRAMMARS
+from msaa_lint.input.code.languages import GRAMMARS
 
 _ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
 _FOLDERS = ("input/code", "core/text", "frame/vulkan", "frame/metal")
