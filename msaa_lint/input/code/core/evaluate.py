@@ -301,6 +301,7 @@ class Evaluator(ConditionEvaluator):
         """Writes to a cell. A structure assigned to a member is written member by member."""
         known = sole_value(value)
         if cell.kind == MEMBER and isinstance(known, Struct) and not known.kind:
+            self.held.add(cell.name)
             for name, inner in known.fields.items():
                 self.store(self.member_cell(f"{cell.name}.{name}"), inner.read(scope.guards), place, scope)
             return

@@ -123,8 +123,7 @@ class Interpreter(Calls):
         yield from entry_points
         known = {function.at for function in entry_points}
         for function in self.unit.functions:
-            is_method = function.name != function.class_name.rpartition("::")[2]
-            if is_method and function.at not in known and function.at not in self.followed:
+            if function.at not in known and function.at not in self.followed:
                 yield function
 
     def entry_points(self) -> list[Function]:

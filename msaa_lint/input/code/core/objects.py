@@ -18,7 +18,7 @@ class ClassObjects(Variables):
         if isinstance(value, Struct):
             return self.member_of(value, name)
         if this_object.kind == MEMBER:
-            return self.member_cell(f"{self.pointed_class(this_object.name) or this_object.name + '.'}{name}")
+            return self.part_of_member(this_object, name)
         return self.class_member(scope.class_name, name)
 
     def member_of(self, struct: Struct, name: str) -> Cell:

@@ -159,4 +159,4 @@ class Resolution(ListMethods):
     def is_pointed(self, cell: Cell, scope: Scope) -> bool:
         """Returns whether a member points to an object of a class, but which one is unknown."""
         known = pointee(sole_value(cell.read(scope.guards)))
-        return cell.kind == MEMBER and not isinstance(known, Struct) and bool(self.pointed_class(cell.name))
+        return cell.kind == MEMBER and not isinstance(known, Struct) and not self.is_held(cell) and bool(self.pointed_class(cell.name))

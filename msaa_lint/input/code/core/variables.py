@@ -54,6 +54,8 @@ class Variables(ABC):
         """The values of their members."""
         self.overlay: dict[str, Cell] = {}
         """The cells of members in the current entry point."""
+        self.held: set[str] = set()
+        """The members to which an object of the program is assigned where it is created; their members are known by their path."""
         self.initial: dict[str, Value] = {}
         """The values of those members before the entry point was executed."""
         self.declared_values: dict[str, Value] = {}
@@ -223,6 +225,15 @@ class Variables(ABC):
             cell.writes = self.initial[key] = writes
         return cell
 
+    def is_held(self, cell: Cell) -> bool:
+        """Returns whether the object that a member points to is the one that is created for it."""
+        return cell.name in self.held and all(write.value is None for write in cell.writes)
+
+    def part_of_member(self, cell: Cell, name: str) -> Cell:
+        """Returns a member of the object that a member is, or that it points to."""
+        owner = "" if self.is_held(cell) else self.pointed_class(cell.name)
+        return self.member_cell(f"{owner or cell.name + '.'}{name}")
+
     def names_of(self, key: str) -> tuple[str, ...]:
         """Returns the names of the members that are used with a key."""
         return tuple(self.parts.get(key.removesuffix("."), ()))
@@ -301,7 +312,7 @@ class Variables(ABC):
         if isinstance(value, Struct):
             return self.member_of(value, name)
         if cell.kind == MEMBER:
-            return self.member_cell(f"{self.pointed_class(cell.name) or cell.name + '.'}{name}")
+            return self.part_of_member(cell, name)
         if cell.writes:
             class_name = self.class_of_term(operand, scope)
             return self.class_member(class_name, name) if class_name is not None else None
