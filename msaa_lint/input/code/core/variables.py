@@ -18,6 +18,9 @@ from .values import UNKNOWN_VALUE, Alternative, Array, Cell, Copier, Flags, Inst
 MAX_KEY = 2000
 """The maximum length of the path of a member; those of longer ones are unknown."""
 
+MAX_NESTING = 4
+"""The maximum nesting of structures that are built from their members."""
+
 
 def _element(kind: str, part: str) -> str:
     """Returns a type, or that of an element if a path has an index."""
@@ -246,14 +249,16 @@ class Variables(ABC):
         """Returns what is known of a variable of unknown value by its type."""
         return UNKNOWN_VALUE
 
-    def gathered_struct(self, key: str, place: Span) -> Value:
-        """Returns an undeclared structure built from the members that are written."""
+    def gathered_struct(self, key: str, place: Span, depth: int = 0) -> Value:
+        """Returns an undeclared structure built from the members that are written, and from theirs."""
         names = self.parts.get(key)
-        if not names:
+        if not names or depth > MAX_NESTING:
             return UNKNOWN_VALUE
         struct = Struct("", place, False, key.rpartition("::")[2])
         for name in names:
-            struct.fields[name] = self.member_cell(f"{key}.{name}")
+            cell = self.member_cell(f"{key}.{name}")
+            inner = () if cell.writes else self.gathered_struct(cell.name, place, depth + 1)
+            struct.fields[name] = Cell(MEMBER, cell.name, inner, cell.key) if inner else cell
         return (Alternative(struct, place),)
 
     def declared(self, key: str) -> Value:

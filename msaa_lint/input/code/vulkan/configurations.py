@@ -34,6 +34,10 @@ COUNTS = {
 """The member with the number of elements of another member."""
 
 
+MAX_WRAPPERS = 3
+"""One more than the maximum number of objects of the program around an object of Vulkan, one in another."""
+
+
 class VulkanConfiguration(Configuration):
     """The values of a Vulkan program in one configuration."""
 
@@ -139,12 +143,14 @@ class VulkanConfiguration(Configuration):
 
     def wrapped_object(self, value: Any, kind: str) -> ApiObject | None:
         """Returns an object of Vulkan, or the only one of a kind that an object of the program holds, as a class that converts to it."""
-        value = self.dereference(value)
-        if isinstance(value, Struct) and not value.kind:
-            held = [self.dereference(sole_value(self.settle(cell.writes))) for cell in value.fields.values()]
-            objects = [item for item in held if isinstance(item, ApiObject) and item.kind == kind]
-            value = objects[0] if len(objects) == 1 else None
-        return value if isinstance(value, ApiObject) and value.kind == kind else None
+        level = [self.dereference(value)]
+        for _ in range(MAX_WRAPPERS):
+            objects = [item for item in level if isinstance(item, ApiObject) and item.kind == kind]
+            if objects:
+                return objects[0] if all(item is objects[0] for item in objects) else None
+            wrappers = [item for item in level if isinstance(item, Struct) and not item.kind]
+            level = [self.dereference(sole_value(self.settle(cell.writes))) for item in wrappers for cell in item.fields.values()]
+        return None
 
     def first_duplicate(self, obj: ApiObject) -> ApiObject:
         """Returns the first object that is identical to this one; calling a function twice creates two."""

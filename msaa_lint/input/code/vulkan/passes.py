@@ -28,8 +28,8 @@ class Passes(Subpasses):
                 images = [self.image_in(sole_value(self.settle(cell.writes))) for cell in views.items]
             else:
                 continue
-            target = self.dereference(self.get(obj.info, "renderPass")[0])
-            if not isinstance(target, ApiObject):
+            target = self.wrapped_object(self.get(obj.info, "renderPass")[0], "renderPass")
+            if target is None:
                 render_passes = [p for p in passes if len(self.structs(p.info, "attachments") or ()) == len(images)]
                 target = render_passes[0] if len(render_passes) == 1 and len(passes) == 1 else None
             if target is None:
