@@ -16,6 +16,7 @@ from .core.terms import Unit
 from .metal.description_trees import metal_reads
 from .parsing import Read, Unread
 from .places import Piece, Places
+from .sample_counts.program_formats import with_formats
 from .vulkan.creation import VulkanInterpreter
 from .vulkan.rust import RustInterpreter
 from .vulkan.tree_writer import DescriptionWriter
@@ -92,7 +93,7 @@ def _vulkan_reads(syntax: FileSyntax, fragments: bool, is_cpp: bool, assume: Ass
     start = Span(at, at)
     node = read.tree if read is not None else mapping([], Span(0, 0))
     items = [(key, node.keys[key].span, value) for key, value in node.value.items()]
-    items.append(("sampleCountChoices", start, mapping(syntax.choices, start)))
+    items.append(("sampleCountChoices", start, mapping(with_formats(syntax.choices, syntax.unit), start)))
     return [
         Read(
             mapping(items, Span(0, 0)),

@@ -173,7 +173,7 @@ class Uses:
             if inner.type in ("binary_expression", "case_statement", "lambda_expression"):
                 continue
             if inner.type in ("identifier", "field_identifier", "qualified_identifier"):
-                name = _format(self.expressions.text_of(inner))
+                name = format_name(self.expressions.text_of(inner))
                 if name is not None:
                     form = format_of(name)
                     if form is not None and not {"depth", "stencil"}.isdisjoint(form.aspects):
@@ -253,8 +253,9 @@ def _receiver(node: SyntaxNode) -> SyntaxNode | None:
     return None
 
 
-def _format(text: str) -> str | None:
+def format_name(text: str) -> str | None:
     """Returns the format that a name denotes, in either spelling."""
     if text.startswith("VK_FORMAT_"):
-        return text.removeprefix("VK_FORMAT_")
+        name = text.removeprefix("VK_FORMAT_")
+        return name if name in VALUES["VkFormat"] else None
     return _FORMATS.get(text.rpartition("Format::e")[2].lower()) if "Format::e" in text else None

@@ -16,7 +16,7 @@ VkSampleCountFlagBits Renderer::usableSampleCount() const {
     VkPhysicalDeviceProperties properties;
     vkGetPhysicalDeviceProperties(gpu, &properties);
     const VkSampleCountFlags counts =
-        properties.limits.framebufferColorSampleCounts & properties.limits.framebufferDepthSampleCounts;  // expect-later: MSAA854
+        properties.limits.framebufferColorSampleCounts & properties.limits.framebufferDepthSampleCounts;  // expect: MSAA854
     return (counts & VK_SAMPLE_COUNT_4_BIT) ? VK_SAMPLE_COUNT_4_BIT : VK_SAMPLE_COUNT_1_BIT;
 }
 

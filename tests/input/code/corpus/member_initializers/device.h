@@ -12,7 +12,7 @@ public:
 
     VkSampleCountFlagBits samples() const {  // expect: MSAA851
         auto counts = m_properties.limits.framebufferColorSampleCounts &
-                      m_properties.limits.framebufferDepthSampleCounts;  // expect-later: MSAA854
+                      m_properties.limits.framebufferDepthSampleCounts;  // expect: MSAA854
         if (counts & VK_SAMPLE_COUNT_16_BIT)
             return VK_SAMPLE_COUNT_16_BIT;
         if (counts & VK_SAMPLE_COUNT_8_BIT)
