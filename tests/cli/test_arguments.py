@@ -57,7 +57,7 @@ WRONG = [
     ("check", "`check` needs an argument: write `msaa-lint check PATH...`"),
     ("confirm", "`confirm` needs an argument: write `msaa-lint confirm PATH...`, or `--list-devices`"),
     ("study", "`study` needs an argument: write `msaa-lint study INPUT...`, or `--list-scenes`"),
-    ("convert", "`convert` needs an argument: write `msaa-lint convert INPUT`"),
+    ("convert", "`convert` needs an argument: write `msaa-lint convert INPUT...`"),
     ("init a b", "unexpected argument `b`: `init` takes only one FOLDER"),
     ("schema json", "unknown argument `json` of `schema`: did you mean `json-v1`?"),
     ("check a --outptu json", "unknown option `--outptu` of `check`: did you mean `--output`?"),

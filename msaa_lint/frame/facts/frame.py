@@ -159,7 +159,9 @@ class Frame:
             # A slot of Metal's says which aspects it is attached for.
             slots = self.document.metal.attachments if self.document.metal is not None else {}
             for attachment in made.attachments:
-                attachment.aspects = _aspects(attachment, tuple(slots.get(id(attachment.record), ())))
+                # Of the formats that a program selects from, only S8_UINT has no depth.
+                selected = ("depth",) if attachment.depth_stencil and not self.document.whole else ()
+                attachment.aspects = _aspects(attachment, tuple(slots.get(id(attachment.record), selected)))
             self.passes.append(made)
             self._named[name] = made
 
@@ -424,11 +426,8 @@ def _aspects(attachment: Attachment, stated: tuple[str, ...] = ()) -> list[Aspec
         names: tuple[str | None, ...] = attachment.format.aspects
     elif stated:
         names = stated
-    elif attachment.color or any("color" in aspects for aspects in attachment.resolve.values()):
-        names = ("color",)
     else:
-        # Of the formats of a depth/stencil attachment, only S8_UINT has no depth.
-        names = ("depth",) if attachment.depth_stencil else (None,)
+        names = ("color",) if attachment.color or any("color" in aspects for aspects in attachment.resolve.values()) else (None,)
     return [
         Aspect(name, record.stencilLoadOp, record.stencilStoreOp, "stencilLoadOp", "stencilStoreOp")
         if name == "stencil"

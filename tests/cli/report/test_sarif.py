@@ -159,7 +159,7 @@ def test_invocation_tells_of_failure_and_of_what_stayed_undecided() -> None:
             "level": "note",
             "message": {
                 "text": "Checked 3 descriptions: 3 images, 2 passes, 1 pipeline, 1 not checked because of errors; "
-                "1 RenderDoc capture: 4 images, 2 passes, 12 pipelines; 1 C++ file: 1 image."
+                "1 RenderDoc capture: 4 images, 2 passes, 12 pipelines; 1 C++ file: 1 image, 1 not understood."
             },
         },
         {

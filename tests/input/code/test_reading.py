@@ -345,7 +345,7 @@ def test_of_a_folder_what_speaks_of_multisampling_is_linted(tmp_path: Path) -> N
     write(tmp_path, "yes/a.mm")
     write(tmp_path, "yes/a.m", "#import <Metal/Metal.h>\nvoid f(MTLTextureDescriptor *d) { d.sampleCount = 4; }\n")
     assert checked(tmp_path, "yes") == 6
-    write(tmp_path, "no/main.cpp", "int main() { return 0; } // MSAA, some day\n")
+    write(tmp_path, "no/words/main.cpp", "int main() { return 0; } // MSAA, some day\n")
     write(tmp_path, "no/single.cpp", "VkImageCreateInfo info{};\ninfo.samples = VK_SAMPLE_COUNT_1_BIT;\n")
     write(tmp_path, "no/far.cpp", "// " + "x" * (1 << 20) + "\nVkImageCreateInfo msaa;\n")
     write(tmp_path, "no/page.md", f"```cpp\n{CODE}```\n")

@@ -14,6 +14,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from msaa_lint.core.project import shown
 from msaa_lint.core.text.files import open_entry, open_file
 from msaa_lint.input.code import mentions
+from msaa_lint.input.code.languages import unread
+from msaa_lint.input.file_types import HEAD_BYTES
 
 if TYPE_CHECKING:
     from msaa_lint.core.cache import Cache
@@ -161,7 +163,10 @@ class Index:
         return self.by_path.get(path)
 
     def add(self, path: str, data: bytes) -> Words:
-        found = words(data) if len(self.by_path) < MIN_KEPT or self._cache is None else self._kept(data)
+        if unread(path, data[:HEAD_BYTES].decode("latin-1")) is not None:
+            found = Words(len(data), (), frozenset(), False, False, False, False, False)
+        else:
+            found = words(data) if len(self.by_path) < MIN_KEPT or self._cache is None else self._kept(data)
         self.by_path[path] = found
         return found
 
