@@ -6,18 +6,23 @@ It runs in the process of the tests where only what it prints, writes and return
 from __future__ import annotations
 
 import gc
+import getpass
 import io
 import os
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 from unittest import mock
 
 from msaa_lint.__main__ import main
 from tests.paths import ROOT
 
-FONTS = os.environ.get("MPLCONFIGDIR") or os.path.join(os.path.expanduser("~"), ".cache", "matplotlib")
-"""Where matplotlib keeps the list of fonts, which takes seconds to make."""
+CACHES = os.path.join(tempfile.gettempdir(), f"msaa-lint-tests-{getpass.getuser()}")
+"""The folder for caches, in which a file is where the command would keep its own: matplotlib takes seconds to list the fonts."""
+
+os.makedirs(CACHES, exist_ok=True)
+Path(CACHES, "msaa-lint").touch()
 
 Done = subprocess.CompletedProcess[str]
 
@@ -25,7 +30,7 @@ Done = subprocess.CompletedProcess[str]
 def environment_of(stated: dict[str, str]) -> dict[str, str]:
     """An environment without what a developer's own may hold."""
     kept = {name: os.environ[name] for name in ("PATH", "HOME", "SYSTEMROOT") if name in os.environ}
-    return {**kept, "PYTHONPATH": str(ROOT), "XDG_CACHE_HOME": os.devnull, "MPLCONFIGDIR": FONTS, **stated}
+    return {**kept, "PYTHONPATH": str(ROOT), "XDG_CACHE_HOME": CACHES, **stated}
 
 
 def run(folder: Path, *arguments: str, stdin: bytes = b"", **environment: str) -> Done:

@@ -3,14 +3,13 @@
 import os
 import signal
 
-from tests.command import FONTS
+from tests.command import CACHES
 from tests.strength import load_profile
 
 load_profile()
 
 # No test reads what another one kept, nor what the user's own runs did; a test of the cache names a folder.
-os.environ["XDG_CACHE_HOME"] = os.devnull
-os.environ["MPLCONFIGDIR"] = FONTS
+os.environ["XDG_CACHE_HOME"] = CACHES
 
 # A shell starts commands in the background with these signals ignored, and what the tests start would inherit that.
 for _number, _handler in ((signal.SIGINT, signal.default_int_handler), (signal.SIGQUIT, signal.SIG_DFL)):

@@ -188,12 +188,13 @@ def places_read(folder: Path) -> set[tuple[str, str, int]]:
     from msaa_lint.core.text.source import Unreadable
     from msaa_lint.core.text.span import Span
     from msaa_lint.input.code import language_of
+    from msaa_lint.input.code.project.index import Index
     from msaa_lint.input.source_file import read_program, read_source_text, source_text
     from msaa_lint.linter.source_programs import is_read_together, programs
 
     paths = [str(path) for path in sorted(folder.rglob("*")) if path.is_file() and is_read_together(path.name)]
     places = set()
-    for program in programs(paths, {}, {}):
+    for program in programs(paths, {}, {}, Index(os.getcwd(), lambda: None)):
         contents = [Path(path).read_bytes() for path in program.paths]
         languages = [language_of(path, data[:4096].decode("utf-8", "replace")) for path, data in zip(program.paths, contents, strict=True)]
         files = [
