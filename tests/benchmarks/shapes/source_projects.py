@@ -29,7 +29,26 @@ def _source(number: int, header: str = "parts.h") -> str:
     return f'#include "{header}"\n' + function(IMAGE, f"void Part{number}::create(int samples)")
 
 
+def _choices(count: int) -> str:
+    """Choices of a count that each pass to the next object."""
+    return "".join(
+        f"VkSampleCountFlagBits pick{n}() {{\n"
+        "    VkSampleCountFlags counts = limits.framebufferColorSampleCounts & limits.framebufferDepthSampleCounts;\n"
+        "    if (counts & VK_SAMPLE_COUNT_8_BIT) return VK_SAMPLE_COUNT_8_BIT;\n    return VK_SAMPLE_COUNT_1_BIT;\n}\n"
+        f"void Part{n}::choose() {{ samples{n} = pick{n}(); part{n + 1}.create(samples{n}); }}\n"
+        for n in range(count)
+    )
+
+
 SHAPES: tuple[Shape, ...] = (
+    _folder(
+        "sample counts chosen for images elsewhere",
+        lambda n: {
+            "parts.h": "".join(f"{_class(k)[:-3]}    void choose();\n}};\nextern Part{k} part{k};\n" for k in range(n + 1)),
+            "choices.cpp": '#include "parts.h"\n' + _choices(n),
+            **{f"part{k}.cpp": _source(k) for k in range(n)},
+        },
+    ),
     _folder(
         "one program",
         lambda n: {"parts.h": "".join(map(_class, range(n))), **{f"part{k}.cpp": _source(k) for k in range(n)}},
