@@ -42,7 +42,7 @@ _CAST = re.compile(r"(?:std::)?u?int(?:8|16|32|64|ptr)?_t$|(?:std::)?size_t$|(?:
 
 COPIES = frozenset({"memcpy", "memmove", "copy", "copy_n"})
 
-MAX_REPEATED_STEPS = 60_000
+MAX_REPEATED_STEPS = 100_000
 """The steps after which, in each execution of a program, a call is not followed more often than MAX_WAYS."""
 
 

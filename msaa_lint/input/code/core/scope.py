@@ -30,7 +30,7 @@ MAX_FRAMES = 8000
 MAX_CLOSURES = 20
 """The maximum depth of calls in which lambdas are executed; they may call each other."""
 
-MAX_WAYS = 4
+MAX_WAYS = 1
 """The number of times that a call is executed whatever work is left."""
 
 
