@@ -30,6 +30,7 @@ from .values import (
     Closure,
     Ref,
     Routine,
+    Struct,
     Symbol,
     Value,
     pointee,
@@ -219,6 +220,8 @@ class Calls(Resolution):
         inner.return_type, inner.by_reference = function.return_type, function.by_reference
         inner.iterations = scope.iterations
         inner.this_object = this_object
+        if function.class_name and function.name != function.class_name.rpartition("::")[2]:
+            inner.object_class = self.object_class(function.class_name, term, this_object, scope)
         if function.body:
             inner.extent = Span(function.body[0][-1].start, function.body[-1][-1].end)
         reading, self.reading = self.reading, False
@@ -229,6 +232,13 @@ class Calls(Resolution):
         if len(return_values) > MAX_ALTERNATIVES or not return_values or all(a.value is UNKNOWN for a in return_values):
             return UNKNOWN_VALUE
         return tuple(return_values)
+
+    def object_class(self, class_name: str, term: Term, this_object: Cell | None, scope: Scope) -> str:
+        """Returns the class of the object that a method of a class is called on: that class, or one known to derive from it."""
+        known = pointee(sole_value(this_object.writes)) if this_object is not None else None
+        owner = _callee(term[1])[1]
+        own = known.type if isinstance(known, Struct) else scope.object_class if owner is None or owner[:2] == (NAME, "this") else ""
+        return own if own and own != class_name and class_name in self.classes.chain(own) else class_name
 
     def bind_parameter(self, parameter: Parameter, term: Term, scope: Scope) -> Cell:
         """Returns the cell of a parameter; for an argument passed by reference, the argument's own cell."""

@@ -64,8 +64,8 @@ class Resolution(ListMethods):
             self.work.spend(1 + len(group.every) // 16)
             named = [f for f in group.every if (f.class_name or f.namespace.rstrip(":")).endswith(qualifier)]
             return self.matching(named, arguments, scope)
-        if scope.class_name and (methods := self.taking(self.methods(scope.class_name, name), arguments)):
-            return self.dispatched(methods, scope.class_name, scope.this_object, arguments, scope)
+        if scope.class_name and (methods := self.taking(self.methods(scope.object_class, name), arguments)):
+            return self.dispatched(methods, scope.object_class, scope.this_object, arguments, scope)
         free = self.taking(self.functions.of_scope(name, count, "", scope.namespace).every or self.free_functions(name, count), arguments)
         # Swift's `.target(...)` is a method of the type that is expected.
         return self.matching(free, arguments, scope) if free or self.is_cpp else group.sole()

@@ -59,6 +59,8 @@ class Scope:
         """The current iterations of the enclosing loops that are executed individually."""
         self.this_object: Cell | None = None
         """The object that the method is called on, if known."""
+        self.object_class = class_name
+        """The class of that object, as far as it is known: `class_name` or one that derives from it."""
         self.extent: Span | None = None
         """The place of the function's body."""
         self.active_functions: tuple[Span, ...] = ()
