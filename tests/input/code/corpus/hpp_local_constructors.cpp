@@ -44,7 +44,7 @@ public:
             surfaceFormat,
             samples,
             vk::AttachmentLoadOp::eClear,
-            vk::AttachmentStoreOp::eStore,  // expect-later: MSAA201
+            vk::AttachmentStoreOp::eStore,  // expect: MSAA201
             vk::AttachmentLoadOp::eDontCare,
             vk::AttachmentStoreOp::eDontCare,
             vk::ImageLayout::eUndefined,
