@@ -28,8 +28,9 @@ from msaa_lint.input.code.core.values import (
     sole_value,
 )
 
+from .instances import MetalInstances
 from .names import CREATES, DESCRIPTOR_METHODS, MEMBERS, PLAIN_OBJECTS, READS, STORES, kind_of, setter_member, type_name
-from .objects import CREATED, Encoded, MetalObjects, name_by_member
+from .objects import CREATED, Encoded, name_by_member
 
 _HARMLESS = frozenset({"print", "assert", "precondition", "NSLog", "debugPrint", "withExtendedLifetime", "NSAssert", "NSParameterAssert"})
 _SAME = frozenset({"init", "retain", "autorelease", "get", "mutableCopy", "release", "drain"})
@@ -46,15 +47,13 @@ _DESCRIPTOR_MEMBERS = ("pixelFormat", "width", "height", "mipmapLevelCount")
 _DEFAULTS = {"mipmapped": "mipmapLevelCount", "size": "width"}
 
 
-class MetalInterpreter(MetalObjects):
+class MetalInterpreter(MetalInstances):
     """Executes a program that calls Metal."""
 
     def begin(self) -> None:
         super().begin()
         self.filled: dict[Instance, list[tuple[int, Struct, Guards]]] = {}
         """Descriptors that entry points fill in, by the numbers of these, with their last state."""
-        self.used: set[str] = set()
-        """The keys of descriptors that calls take."""
         self.passed: dict[str, bool] = {}
         """Conditions under which functions do not return early, which are assumed."""
         self.tuples: dict[Span, Struct] = {}
@@ -274,26 +273,6 @@ class MetalInterpreter(MetalObjects):
         cell.write(after, place, scope.guards)
         return UNKNOWN_VALUE
 
-    def copy_of(self, original: Instance, place: Span, scope: Scope) -> Value:
-        """Returns a copy of a descriptor and its attachments."""
-        copy = self.construct_object(original.kind, place, scope)
-        instance: Instance = copy[0].value
-        instance.complete = original.complete
-        self.used.add(original.key)
-        self.copy_members(original, instance, place)
-        return copy
-
-    def copy_members(self, original: Instance, copy: Instance, place: Span) -> None:
-        for name, cell in original.fields.items():
-            self.work.spend()
-            inner = sole_value(cell.writes)
-            if isinstance(inner, Instance) and inner.kind == "attachment":
-                target = sole_value(self.slot(copy, name, place).writes)
-                if target is not inner:
-                    self.copy_members(inner, target, place)
-            else:
-                copy.cell(name).writes = cell.writes
-
     def external_call(self, term: Term, name: str, owner: Term | None, values: Sequence[Value], scope: Scope) -> Value:
         """Returns the result of a function outside the program."""
         function, arguments, place = term[1], term[2], term[3]
@@ -314,38 +293,6 @@ class MetalInterpreter(MetalObjects):
         for value in values:
             self.escape(value, place, scope)
         return (Alternative(Symbol(brief(canonical_text(term)), name, bool(self.library.is_count_choice(name))), place),)
-
-    def class_object(self, class_name: str, arguments: Sequence[Term], values: Sequence[Value], place: Span, scope: Scope) -> Value:
-        """Returns an object of a class of the program: its members, where its arguments are labeled with them."""
-        members = self.members.get(class_name, {})
-        labels = [labeled(argument)[0] for argument in arguments]
-        if not labels or not all(label in members for label in labels):
-            return self.of_class(class_name, place)
-        struct = Struct("", place)
-        for label, value in zip(labels, values, strict=True):
-            struct.cell(label).write(value, place, ALWAYS)
-            self.member_cell(f"{class_name}::{label}").write(value, place, scope.guards)
-        return (Alternative(struct, place),)
-
-    def construct_class(self, kind: str, term: Term, scope: Scope) -> Value | None:
-        """Returns an object of a class of the program after its constructor; None where there is none, or several match."""
-        class_name = self.class_of(kind, scope.namespace)
-        if class_name is None and not kind_of(kind):
-            return None
-        owner = class_name or kind
-        short = owner.rpartition("::")[2]
-        group = self.functions.of_class(short, len(term[2]), owner).of_labels([labeled(argument)[0] for argument in term[2]])
-        if len(group.every) != 1:
-            return None
-        value = self.construct_object(kind_of(kind), term[3], scope) if class_name is None else self.of_class(owner, term[3])
-        if self.may_follow(group.every[0], term[3], scope):
-            self.call_function(group.every[0], term, scope, Cell(owner, "", value))
-        return value
-
-    def own_member(self, name: str, this_object: Cell, scope: Scope) -> Cell:
-        """Returns a member of the object whose method is executed: all objects of a class are taken for one."""
-        value = pointee(sole_value(this_object.read(scope.guards)))
-        return value.cell(name) if isinstance(value, Struct) else self.member_cell(f"{scope.class_name}::{name}")
 
     def escape(self, value: Value, place: Span, scope: Scope) -> None:
         """Handles an argument of a function outside the program, which may change descriptors, read textures, and call closures."""
