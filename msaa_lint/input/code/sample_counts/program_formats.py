@@ -156,14 +156,17 @@ class _Formats:
 
     def _received(self, variable: Identity, doubtful: bool, depth: int, seen: set[Identity]) -> Iterator[tuple[str, Span]]:
         """Yields the formats that a variable receives."""
-        for function, value in self.flow.sources.get(variable, ()):
-            found = list(self._formats(value, function, doubtful, depth + 1, seen))
-            if variable[0] in (PARAMETER, MEMBER) and any(_is_color(name) for name, _ in found):
-                # Another call or object has another format.
-                if doubtful:
-                    yield from found
-                continue
-            yield from found
+        values = self.flow.sources.get(variable, ())
+        received = [list(self._formats(value, function, doubtful, depth + 1, seen)) for function, value in values]
+        if doubtful and variable[0] == MEMBER:
+            # Which of the values an object with the count has is unknown, unless all of them are known.
+            known = all(found or _is_undefined(value) for found, (_, value) in zip(received, values, strict=True))
+            yield from (item for found in received for item in found if known)
+            return
+        for found in received:
+            # Another call or object has another format.
+            if variable[0] not in (PARAMETER, MEMBER) or not any(_is_color(name) for name, _ in found):
+                yield from found
 
     def _returned(self, call: Term, function: int, doubtful: bool, depth: int, seen: set[Identity]) -> Iterator[tuple[str, Span]]:
         """Yields the formats that a call may return: those that the function names and those among its arguments."""
@@ -199,6 +202,13 @@ class _Formats:
             if term and isinstance(term[-1], Span):
                 yield term
             stack += [part for part in term if isinstance(part, tuple) and not isinstance(part, Span)]
+
+
+def _is_undefined(value: Term) -> bool:
+    """Returns whether a value stands for no format."""
+    if value[0] == BRACES and len(value[2]) <= 1:
+        return not value[2] or _is_undefined(value[2][0][1])
+    return value[0] == NAME and format_name(value[1]) == "UNDEFINED"
 
 
 def _is_color(name: str) -> bool:

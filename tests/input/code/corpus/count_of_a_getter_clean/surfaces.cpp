@@ -17,6 +17,24 @@ public:
     }
 };
 
+/// A layer has the format that its creator names; a format with stencil is only the default.
+class Layer {
+public:
+    Layer(vk::Format format, vk::SampleCountFlagBits samples) : m_layerFormat(format), m_layerSamples(samples) {}
+
+    vk::ImageCreateInfo describe() const {
+        return vk::ImageCreateInfo().setFormat(m_layerFormat).setSamples(m_layerSamples);
+    }
+
+private:
+    vk::Format m_layerFormat = vk::Format::eD24UnormS8Uint;
+    vk::SampleCountFlagBits m_layerSamples;
+};
+
+vk::ImageCreateInfo glow(const View* view) {
+    return Layer(vk::Format::eR8G8B8A8Unorm, view->settings().samples()).describe();
+}
+
 void Surface::allocate(vk::Device device, vk::Format format, vk::Extent2D extent, vk::SampleCountFlagBits samples) {
     m_format = format;
     auto info = vk::ImageCreateInfo()
