@@ -21,9 +21,6 @@ from .macros import NO_MACROS, Definitions, Expansion, Macro, Macros, Token, Too
 MAX_NESTED = 8
 """The maximum nesting of macros in a condition."""
 
-MAX_GROUPS = 200
-"""The maximum nesting of conditions."""
-
 BASE_LENGTH = 100_000
 """The number of characters that the expansions of macros may add to a text, besides its own length."""
 

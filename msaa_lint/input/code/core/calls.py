@@ -48,7 +48,7 @@ MAX_REPEATED_STEPS = 100_000
 
 
 class Calls(Resolution):
-    """Evaluates the calls of one file. `objects` is in creation order."""
+    """Evaluates the calls of a program. `objects` is in creation order."""
 
     def __init__(self, unit: Unit, library: Library, fragments: bool, is_cpp: bool, work: Work) -> None:
         super().__init__(unit, library, fragments, is_cpp, work)
@@ -265,12 +265,6 @@ class Calls(Resolution):
             chosen = 1 not in known and (name == "min" or bool(known))
             return (Alternative(Symbol(f"{name} at {place.start}", name, chosen), place),)
         return (Alternative(min(values) if name == "min" else max(values), place),)
-
-
-def _qualified_owner(function: Function) -> str:
-    """Returns the class of a function, or else its namespace, as a call of it may state it: without what tells files apart."""
-    owner = function.class_name or function.namespace.removesuffix("::")
-    return "::".join(part for part in owner.split("::") if part[:1] != "#") if "#" in owner else owner
 
 
 def _callee(function: Term) -> tuple[str, Term | None]:

@@ -6,6 +6,3 @@ import operator
 
 COMPARISONS = {"==": operator.eq, "!=": operator.ne, "<": operator.lt, ">": operator.gt, "<=": operator.le, ">=": operator.ge}
 """Comparison operators by their spelling."""
-
-ARITHMETIC = {"+": operator.add, "-": operator.sub, "*": operator.mul}
-"""Operators that are defined for all numbers."""

@@ -108,7 +108,7 @@ _STRUCTURE = re.compile(r"(?:::)?(?:Vk|vk::|VULKAN_HPP_NAMESPACE::)([A-Za-z0-9]+
 _COUNT = re.compile(r"VK_SAMPLE_COUNT_(1|2|4|8|16|32|64)_BIT$")
 _SCOPED = re.compile(r"(?:.*::)?([A-Z][A-Za-z0-9]+)::e([A-Z0-9][A-Za-z0-9]*)$")
 
-_TABLES = {
+TABLES = {
     "VkPipelineStageFlagBits": "VkPipelineStageFlagBits2",
     "VkAccessFlagBits": "VkAccessFlagBits2",
     "VkResolveModeFlagBitsKHR": "VkResolveModeFlagBits",
@@ -158,15 +158,15 @@ def constant(name: str) -> int | str | bool | None:
     enum = f"Vk{match[1]}"
     if enum == "VkSampleCountFlagBits":
         return int(match[2]) if match[2].isdecimal() and len(match[2]) < 3 else None
-    enum = _TABLES.get(enum, enum)
+    enum = TABLES.get(enum, enum)
     if enum not in VALUES:
         return None
-    return _squashed(enum).get(match[2].lower())
+    return squashed(enum).get(match[2].lower())
 
 
 @cache
-def _squashed(enum: str) -> dict[str, str]:
-    """Returns the values of an enum by their spelling in vulkan.hpp, in lower case."""
+def squashed(enum: str) -> dict[str, str]:
+    """Returns the values of an enum by their spelling in vulkan.hpp and in Rust: without underscores, in lower case."""
     return {value.replace("_", "").lower(): value for value in VALUES[enum]}
 
 

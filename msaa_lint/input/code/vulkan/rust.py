@@ -18,6 +18,7 @@ from .library import VulkanLibrary
 
 _CONSTANT = re.compile(r"(?:vk::)?([A-Z]\w*)::(_?\w+)$")
 _SUFFIX = re.compile(r"(?:_(?:KHR|EXT|NV|AMD))+$")
+_CAPITAL = re.compile(r"(?<!^)[A-Z]")
 _SETTER = re.compile(r"[a-z][a-z0-9_]*$")
 
 
@@ -25,9 +26,8 @@ _SETTER = re.compile(r"[a-z][a-z0-9_]*$")
 def _members() -> dict[str, str]:
     """Returns the names of members in descriptions by their names in Rust."""
     every = {name for members in names.MEMBERS.values() for name in members} | {"pNext"}
-    return {re.sub(r"(?<!^)([A-Z])", lambda match: "_" + match[1].lower(), name): names.member(name) for name in every} | {
-        re.sub(r"(?<!^)([A-Z])", lambda match: "_" + match[1].lower(), names.member(name)): names.member(name) for name in every
-    }
+    spellings = {spelling: names.member(name) for name in every for spelling in (name, names.member(name))}
+    return {_CAPITAL.sub(r"_\g<0>", spelling).lower(): member for spelling, member in spellings.items()}
 
 
 _RENAMED = {"color_resolve_attachments": "resolveAttachments"}
@@ -56,11 +56,11 @@ class RustLibrary(VulkanLibrary):
             f"Vk{enum.removesuffix('s')}FlagBits",
             f"Vk{enum}FlagBits",
         ):
-            table = _TABLES.get(table, table)
+            table = names.TABLES.get(table, table)
             if table in VALUES:
-                values = _squashed(table)
+                values = names.squashed(table)
                 short = value.removeprefix("TYPE_").removeprefix("Dim")
-                return next((values[name] for name in map(_squeezed, (short, _SUFFIX.sub("", short))) if name in values), None)
+                return next((values[key] for key in map(_squeezed, (short, _SUFFIX.sub("", short))) if key in values), None)
         return None
 
     def construction(self, type_text: str) -> Construction:
@@ -80,22 +80,8 @@ class RustLibrary(VulkanLibrary):
         return first + "".join(word.capitalize() for word in words)
 
 
-_TABLES = {
-    "VkPipelineStageFlagBits": "VkPipelineStageFlagBits2",
-    "VkAccessFlagBits": "VkAccessFlagBits2",
-    "VkPipelineStageFlags": "VkPipelineStageFlagBits2",
-    "VkAccessFlags": "VkAccessFlagBits2",
-}
-
-
 def _squeezed(name: str) -> str:
     return name.replace("_", "").lower()
-
-
-@cache
-def _squashed(enum: str) -> dict[str, str]:
-    """Returns the values of an enum by their spelling without underscores, in lower case."""
-    return {_squeezed(value): value for value in VALUES[enum]}
 
 
 class RustInterpreter(VulkanInterpreter):
