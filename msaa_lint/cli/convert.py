@@ -15,7 +15,7 @@ from msaa_lint.input.source_file import SourceFile
 
 from .common import UsageError, internal_errors_of, note, refuse_inputs, run_command, warn, write_output, writes
 from .options import Arguments
-from .programs import are_programs, names, place, read_programs
+from .programs import are_programs, assumed_values, names, place, read_programs
 from .report.escape import escape
 from .report.words import plural
 
@@ -74,7 +74,7 @@ def convert_programs(arguments: Arguments, output: str | None, force: bool) -> i
 
 def _convert_file(name: str, path: str, output: str | None, format: str | None, force: bool, frame_end: str | None) -> int:
     try:
-        data = load(path, Limits(), format=format, frame_end=frame_end)
+        data = load(path, Limits(), format=format, frame_end=frame_end, assumed=assumed_values(path))
         if isinstance(data, bytes):
             _write(_convert_text(name, data, format), {}, output, force)
         elif isinstance(data, SourceFile):

@@ -17,7 +17,7 @@ from msaa_lint.input.opening import load
 
 from .common import UsageError, internal_errors_of, run_command, warn
 from .options import Arguments
-from .programs import are_programs, names, place, read_programs
+from .programs import are_programs, assumed_values, names, place, read_programs
 from .report.data import dump_indented
 from .report.escape import escape
 
@@ -102,7 +102,7 @@ def print_facts(path: str, output: str, profile: str | None, frame_end: str | No
     analyses = ShaderAnalyses()
     with internal_errors_of(path):
         try:
-            data = load(path, Limits(), frame_end=frame_end)
+            data = load(path, Limits(), frame_end=frame_end, assumed=assumed_values(path))
             source = Source(path, decode(data)) if isinstance(data, bytes) else data.source
         except (OSError, Unreadable) as error:
             warn(f"{path}: {getattr(error, 'strerror', None) or error}")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from msaa_lint.core.finding import Finding
@@ -17,6 +17,8 @@ if TYPE_CHECKING:
     from msaa_lint.input.source_file import SourceFile
 
 _ENDINGS = tuple(ending for language, endings in LANGUAGES.items() if language not in PAGES for ending in endings)
+
+_PAGE_ENDINGS = tuple(ending for language in PAGES for ending in LANGUAGES[language])
 
 MAX_NAMED = 5
 """The number of files that are named of a program."""
@@ -63,6 +65,16 @@ def read_programs(arguments: Arguments) -> Programs:
                 files.append(alone.data)
     workspace.close()
     return Programs(files, [_line(finding) for finding in dict.fromkeys(workspace.findings) if finding.fatal], others)
+
+
+def assumed_values(path: str) -> Mapping[str, bool | int | str]:
+    """What the configuration states about the code of a page, by name; nothing for other inputs, which are no source code, or are read
+    by `read_programs`."""
+    if not path.lower().endswith(_PAGE_ENDINGS):
+        return {}
+    from msaa_lint.linter.workspace import Request, Workspace
+
+    return Workspace(Request([path])).resolve(path).settings.source
 
 
 def _line(finding: Finding) -> str:

@@ -137,3 +137,83 @@ def test_a_wrong_configuration_is_an_error_at_its_place(tmp_path: Path, text: st
     done = run(tmp_path, "check", "--output", "concise", "a.cpp")
     assert done.returncode == 2
     assert f"msaa-lint.toml:{place}: error[configuration] {message}" in done.stdout
+
+
+SWIFT = """\
+import Metal
+final class Renderer {
+    let settings: Settings
+    func draw(device: MTLDevice, commands: MTLCommandBuffer, target: MTLTexture) {
+        let description = MTLTextureDescriptor()
+        description.textureType = .type2DMultisample
+        description.usage = .renderTarget
+        description.sampleCount = settings.samples // msaa-lint: assume ASSUMED
+        let color = device.makeTexture(descriptor: description)!
+        let pass = MTLRenderPassDescriptor()
+        pass.colorAttachments[0].texture = color
+        pass.colorAttachments[0].resolveTexture = target
+        pass.colorAttachments[0].loadAction = .clear
+        pass.colorAttachments[0].storeAction = .storeAndMultisampleResolve
+        commands.makeRenderCommandEncoder(descriptor: pass)!.endEncoding()
+    }
+}
+"""
+OBJECTIVE_C = """\
+#import <Metal/Metal.h>
+@interface Renderer : NSObject
+@property (nonatomic) Settings *settings;
+@end
+@implementation Renderer
+- (void)draw:(id<MTLDevice>)device on:(id<MTLCommandBuffer>)commands to:(id<MTLTexture>)target {
+    MTLTextureDescriptor *description = [MTLTextureDescriptor new];
+    description.textureType = MTLTextureType2DMultisample;
+    description.usage = MTLTextureUsageRenderTarget;
+    description.sampleCount = self.settings.samples; // msaa-lint: assume ASSUMED
+    id<MTLTexture> color = [device newTextureWithDescriptor:description];
+    MTLRenderPassDescriptor *pass = [MTLRenderPassDescriptor renderPassDescriptor];
+    pass.colorAttachments[0].texture = color;
+    pass.colorAttachments[0].resolveTexture = target;
+    pass.colorAttachments[0].loadAction = MTLLoadActionClear;
+    pass.colorAttachments[0].storeAction = MTLStoreActionStoreAndMultisampleResolve;
+    [[commands renderCommandEncoderWithDescriptor:pass] endEncoding];
+}
+@end
+"""
+RUST = """\
+use ash::vk;
+pub fn create(device: &ash::Device, settings: &Settings) -> vk::RenderPass {
+    let attachments = [
+        vk::AttachmentDescription::default()
+            .samples(settings.samples) // msaa-lint: assume ASSUMED
+            .load_op(vk::AttachmentLoadOp::CLEAR)
+            .store_op(vk::AttachmentStoreOp::STORE),
+        vk::AttachmentDescription::default().samples(vk::SampleCountFlags::TYPE_1).store_op(vk::AttachmentStoreOp::STORE),
+    ];
+    let color = [vk::AttachmentReference::default().attachment(0)];
+    let resolve = [vk::AttachmentReference::default().attachment(1)];
+    let subpasses = [vk::SubpassDescription::default().color_attachments(&color).resolve_attachments(&resolve)];
+    let info = vk::RenderPassCreateInfo::default().attachments(&attachments).subpasses(&subpasses);
+    unsafe { device.create_render_pass(&info, None) }.unwrap()
+}
+"""
+LANGUAGES = {"a.swift": (SWIFT, "MSAA801"), "a.m": (OBJECTIVE_C, "MSAA801"), "a.mm": (OBJECTIVE_C, "MSAA801"), "a.rs": (RUST, "MSAA201")}
+
+
+@pytest.mark.parametrize("assumed", ["samples=8", "settings.samples=8", "Settings::samples=8"])
+@pytest.mark.parametrize("name", LANGUAGES)
+def test_every_language_can_state_it(tmp_path: Path, name: str, assumed: str) -> None:
+    text, code = LANGUAGES[name]
+    (tmp_path / name).write_text(text.replace("ASSUMED", assumed), encoding="utf-8")
+    done = run(tmp_path, "check", "--isolated", "--select", f"{code},MSAA915", "--output", "json", name)
+    (found,) = json.loads(done.stdout)["findings"]
+    assert (found["code"], "8x samples" in found["message"], found["confidence"]) == (code, True, "medium")
+
+
+@pytest.mark.parametrize("command", ["convert", "facts"])
+@pytest.mark.parametrize("name", ["pass.cpp", "page.md"])
+def test_other_commands_follow_the_configuration(tmp_path: Path, command: str, name: str) -> None:
+    (tmp_path / "msaa-lint.toml").write_text('[source.assume]\n"settings.samples" = 8\n', encoding="utf-8")
+    text = program(before=SETTINGS, samples=MEMBER)
+    (tmp_path / name).write_text(f"```cpp\n{text}```\n" if name.endswith(".md") else text, encoding="utf-8")
+    done = run(tmp_path, command, name)
+    assert ("samples: 8" if command == "convert" else "image.samples                              8") in done.stdout

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from functools import cache
 
+from msaa_lint.core.text.span import Span
 from msaa_lint.frame.vulkan.enums import VALUES
 from msaa_lint.input.code.core.library import Construction
 from msaa_lint.input.code.core.limits import Work
+from msaa_lint.input.code.core.lists import Receiver
 from msaa_lint.input.code.core.scope import Scope
 from msaa_lint.input.code.core.terms import Term, Unit
-from msaa_lint.input.code.core.values import Struct, Value, sole_value
+from msaa_lint.input.code.core.values import Struct, Value, pointee, sole_value
 
 from . import names
 from .creation import VulkanInterpreter
@@ -18,6 +21,7 @@ from .library import VulkanLibrary
 
 _CONSTANT = re.compile(r"(?:vk::)?([A-Z]\w*)::(_?\w+)$")
 _SUFFIX = re.compile(r"(?:_(?:KHR|EXT|NV|AMD))+$")
+_VENDOR = re.compile(r"(?:KHR|EXT|NV|AMD)$")
 _CAPITAL = re.compile(r"(?<!^)[A-Z]")
 _SETTER = re.compile(r"[a-z][a-z0-9_]*$")
 
@@ -49,12 +53,14 @@ class RustLibrary(VulkanLibrary):
         if enum.startswith("SampleCount"):
             count = re.fullmatch(r"(?:TYPE_|_|Sample)(1|2|4|8|16|32|64)", value)
             return int(count[1]) if count is not None else None
+        plain = _VENDOR.sub("", enum)
+        kind = plain.rstrip("2")
+        version = plain[len(kind) :]
         for table in (
-            f"Vk{enum}",
-            f"Vk{_SUFFIX.sub('', enum)}",
-            f"Vk{enum.removesuffix('s')}Bits",
-            f"Vk{enum.removesuffix('s')}FlagBits",
-            f"Vk{enum}FlagBits",
+            f"Vk{plain}",
+            f"Vk{kind.removesuffix('s')}Bits{version}",
+            f"Vk{kind.removesuffix('s')}FlagBits{version}",
+            f"Vk{kind}FlagBits{version}",
         ):
             table = names.TABLES.get(table, table)
             if table in VALUES:
@@ -89,6 +95,16 @@ class RustInterpreter(VulkanInterpreter):
 
     def __init__(self, unit: Unit, fragments: bool, is_cpp: bool, work: Work) -> None:
         super().__init__(unit, fragments, is_cpp, work, RustLibrary())
+
+    def method(self, receiver: Receiver, name: str, arguments: Sequence[Term], place: Span, scope: Scope) -> Value | None:
+        if name == "push_next" and len(arguments) == 1:
+            name = "next"
+            extended = pointee(sole_value(receiver.content))
+            first = pointee(sole_value(self.value(arguments[0], scope)))
+            if isinstance(extended, Struct) and "next" in extended.fields and isinstance(first, Struct):
+                # The structures that are there follow the new one.
+                first.cell("next").write(extended.fields["next"].writes, place, scope.guards)
+        return super().method(receiver, name, arguments, place, scope)
 
     def braced_value(self, term: Term, scope: Scope, kind: str) -> Value:
         """Returns the value of a structure. One of a type that the program declares sets the members of the type, as constructors do."""
