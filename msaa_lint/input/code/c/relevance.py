@@ -40,6 +40,10 @@ _DEFINITION = re.compile(r"#[ \t]*define[ \t]+(\w+)((?:[^\n\\]|\\\r?\n|\\.)*)")
 _VISIBLE = re.compile(r"[^\r\n]")
 
 
+_SHORT = re.compile(r"(?=[^{}]{0,160}\Z)\s*\w[^;]*;(?:[^;]*;){0,2}\s*\Z")
+"""The body of a function that returns or sets a member, appends to a list, or calls another one."""
+
+
 class Body(NamedTuple):
     """A function in a text: where its header starts, and the range of what is between its braces."""
 
@@ -109,6 +113,11 @@ def is_relevant(text: str) -> bool:
     return any(word in text for word in _WORDS) or text.count("sample") > text.count("sampler")
 
 
+def is_short(body: str) -> bool:
+    """Returns whether what is between the braces of a function is short: what an accessor returns may matter, whatever it is called."""
+    return _SHORT.match(body) is not None
+
+
 def _is_header(before: str) -> bool:
     """Returns whether a text that precedes a brace, without comments, is the header of a function."""
     tail = _TAIL.search(before.rstrip())
@@ -125,7 +134,7 @@ def without_irrelevant_bodies(text: str, macros: Macros) -> str:
     parts: list[str] = []
     last = 0
     for body, matters in zip(found, kept, strict=True):
-        if not matters:
+        if not matters and not is_short(text[body.start : body.end]):
             parts += (text[last : body.start], _VISIBLE.sub(" ", text[body.start : body.end]))
             last = body.end
     return "".join((*parts, text[last:]))

@@ -14,7 +14,7 @@ from msaa_lint.input.code.parsing import Code, SyntaxNode, fields, function_decl
 
 from .directives import Section, Sections
 from .kinds import CLASSES, MAX_DEPTH, NAMES
-from .relevance import relevant
+from .relevance import is_short, relevant
 from .statements import Statements
 
 VIRTUAL = re.compile(r"\b(?:virtual|override)\b")
@@ -58,8 +58,8 @@ class Reader(Statements):
 
     def unit(self, root: SyntaxNode) -> Unit:
         self.read_declarations(root)
-        functions = [self.function(node, namespace, class_name) for namespace, class_name, node in self.relevant_functions()]
-        read = [function for function in functions if function is not None]
+        functions = [(self.function(node, *names), matters) for (*names, node), matters in self.functions_to_read()]
+        read = [function._replace(only_called=not matters) for function, matters in functions if function is not None]
         return Unit(read, self.members, self.outside, self.prototypes, self.called_names, self.virtual, self.bases, self.visible)
 
     def read_declarations(self, root: SyntaxNode) -> None:
@@ -79,8 +79,10 @@ class Reader(Statements):
             elif kind in CLASSES:
                 name, body = fields(node, "name", "body")
                 if body is not None:
-                    self.note_bases(node, name, namespace)
-                    stack.append((namespace, f"{namespace}{self.text_of(name)}" if name is not None else class_name, body, depth + 1))
+                    full_name = f"{class_name}::" if class_name else namespace
+                    full_name = f"{full_name}{self.text_of(name)}" if name is not None else class_name
+                    self.note_bases(node, full_name if name is not None else "")
+                    stack.append((namespace, full_name, body, depth + 1))
             elif kind == "function_definition":
                 if node.child_by_field_name("body") is not None:
                     self.found.append((namespace, class_name, node))
@@ -131,11 +133,15 @@ class Reader(Statements):
         if kind is not None and (kind.type in CLASSES or kind.type == "enum_specifier"):
             stack.append((namespace, class_name, kind, depth + 1))
 
-    def relevant_functions(self) -> list[tuple[str, str, SyntaxNode]]:
-        """Returns the relevant functions: those that mention multisampling, and their callers, transitively."""
+    def functions_to_read(self) -> Iterator[tuple[tuple[str, str, SyntaxNode], bool]]:
+        """Yields the functions that mention multisampling, and their callers, transitively; and with False those that say something only
+        where they are called: accessors, and constructors that initialize members."""
         names = [(self.function_name(node),) for _, _, node in self.found]
         matters = relevant([self.text_of(node) for _, _, node in self.found], names)
-        return [item for item, kept in zip(self.found, matters, strict=True) if kept]
+        for found, kept in zip(self.found, matters, strict=True):
+            body = found[2].child_by_field_name("body")
+            if kept or is_initializing(found[2]) or (body is not None and is_short(self.text_of(body)[1:-1])):
+                yield found, kept
 
     def note_public_members(self, node: SyntaxNode) -> None:
         """Records which members of a class are public."""
@@ -147,12 +153,12 @@ class Reader(Statements):
             elif public:
                 self.public.add(child.start_byte)
 
-    def note_bases(self, node: SyntaxNode, name: SyntaxNode | None, namespace: str) -> None:
+    def note_bases(self, node: SyntaxNode, class_name: str) -> None:
         """Records the classes that a class derives from."""
-        for child in node.named_children if name is not None else ():
+        for child in node.named_children if class_name else ():
             if child.type == "base_class_clause":
                 bases = [self.type_text(base) for base in child.named_children if base.type in NAMES]
-                self.bases[f"{namespace}{self.text_of(name)}"] = bases
+                self.bases[class_name] = bases
 
     def note_virtual_methods(self, node: SyntaxNode, class_name: str) -> None:
         if VIRTUAL.search(self.text_of(node)):
@@ -201,7 +207,7 @@ class Reader(Statements):
         overridden = VIRTUAL.search(self.text, node.start_byte, body.start_byte) is not None or f"{owner}::{short}" in self.virtual
         returns = node.child_by_field_name("declarator")
         by_reference = returns is not None and returns.type == "reference_declarator"
-        return Function(short, owner, kind, parameters, statements, span(name), namespace, overridden, by_reference)
+        return Function(short, owner, kind, parameters, statements, span(name), namespace, overridden, by_reference=by_reference)
 
     def initializer(self, node: SyntaxNode) -> Iterator[Term]:
         """Yields the assignments of a constructor's initializer list."""
@@ -213,3 +219,8 @@ class Reader(Statements):
                 at = span(name)
                 term = items[0] if len(items) == 1 else (CALL, (NAME, "", at), tuple(items), at)
                 yield (DO, (ASSIGN, "=", (NAME, self.text_of(name), at), term, at), at)
+
+
+def is_initializing(node: SyntaxNode) -> bool:
+    """Returns whether a function is a constructor with initializers of members."""
+    return any(child.type == "field_initializer_list" for child in node.named_children)

@@ -66,6 +66,10 @@ class Calls(Resolution):
         """Returns the result of a function that the program does not define: the object that the structures among its arguments create."""
 
     @abstractmethod
+    def algorithm(self, name: str, arguments: Sequence[Term], place: Span, scope: Scope) -> bool:
+        """Executes an algorithm on a list. Returns False if it is not one, or if it has other arguments."""
+
+    @abstractmethod
     def result_of(self, function: Function, term: Term, value: Value, creates: bool, scope: Scope) -> Value:
         """Returns what the API knows of the result of a call that was executed; `creates` says whether that created anything."""
 
@@ -122,6 +126,8 @@ class Calls(Resolution):
             value = self.method(receiver, name, arguments, place, scope) if receiver is not None else None
             if value is not None:
                 return value
+        if self.algorithm(name, arguments, place, scope):
+            return UNKNOWN_VALUE
         if name in COPIES and len(arguments) == 3:
             self.copy_memory(*((arguments[0], arguments[1]) if name.startswith("mem") else (arguments[2], arguments[0])), scope)
             return UNKNOWN_VALUE
@@ -152,7 +158,7 @@ class Calls(Resolution):
     def construct_class(self, kind: str, term: Term, scope: Scope) -> Value | None:
         """Returns an object of a class of the program, built by its constructor; None for other types and if several constructors match."""
         owned = OWNED.match(kind)
-        class_name = self.class_of(owned[1] if owned is not None else kind, scope.namespace) if pointed(kind) == kind else None
+        class_name = self.class_of(owned[1] if owned is not None else kind, scope.enclosing) if pointed(kind) == kind else None
         if class_name is None:
             return None
         struct = self.new_object(class_name, term[3])
@@ -167,7 +173,7 @@ class Calls(Resolution):
         return (Alternative(struct, term[3]),)
 
     def construct_base(self, name: str, term: Term, scope: Scope) -> None:
-        class_name = self.class_of(name, scope.namespace) or ""
+        class_name = self.class_of(name, scope.enclosing) or ""
         every = self.classes.methods.get((class_name, class_name.rpartition("::")[2]), [])
         constructor = self.matching(self.taking(every, term[2]), term[2], scope)
         if constructor is not None and self.may_follow(constructor, term[3], scope):

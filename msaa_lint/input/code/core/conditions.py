@@ -12,7 +12,7 @@ from .guards import Guards, brief, either, negated
 from .operators import COMPARISONS
 from .scope import Scope
 from .terms import ADDRESS, BINARY, CALL, FIELD, INDEX, LABEL, LITERAL, NAME, TARGET, UNARY, Term
-from .values import MAX_ALTERNATIVES, ApiObject, Instance, Symbol, Value, sole_value
+from .values import MAX_ALTERNATIVES, ApiObject, Flags, Instance, Symbol, Value, sole_value
 
 _DEFINED = re.compile(r"(!?)\s*defined\s*(?:\(\s*(\w+)\s*\)|(\w+))")
 
@@ -89,7 +89,7 @@ class ConditionEvaluator(Elements):
                 return way
         if constant is None and value:
             return False
-        if isinstance(constant, (ApiObject, Instance)):
+        if isinstance(constant, (ApiObject, Instance, Flags)):
             return True
         present = [a for a in value if isinstance(a.value, (ApiObject, Instance))]
         if present and all(a.value is None for a in value if a not in present) and len({a.guards for a in present}) == 1:

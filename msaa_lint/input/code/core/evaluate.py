@@ -69,7 +69,7 @@ class Evaluator(ConditionEvaluator):
             return self.choice(term, scope, kind)
         if tag == CALL:
             name = term[1][1] if term[1][0] == NAME else ""
-            if name in ALLOCATORS and kind and (self.library.structure(kind) or self.class_of(kind, scope.namespace) is not None):
+            if name in ALLOCATORS and kind and (self.library.structure(kind) or self.class_of(kind, scope.enclosing) is not None):
                 return self.allocated(name, term[2], kind, place, scope)
             return self.without_aliases(self.call(term, scope), scope)
         if tag == BRACES:
@@ -281,7 +281,7 @@ class Evaluator(ConditionEvaluator):
         """Returns whether a name is that of a class from which the class of the scope derives."""
         if not scope.class_name or not self.classes.has_bases(scope.class_name):
             return False
-        base = self.class_of(name, scope.namespace)
+        base = self.class_of(name, scope.enclosing)
         return base is not None and base != scope.class_name and base in self.classes.chain(scope.class_name)
 
     @abstractmethod
@@ -344,6 +344,11 @@ def _calculated(sign: str, left: Alternative, right: Alternative, place: Span) -
         if first is not None and second is not None and not (isinstance(a, int) and isinstance(b, int)):
             names = {name for name, _ in first}
             return Flags((*first, *(bit for bit in second if bit[0] not in names)))
+    if sign == "&" and (isinstance(a, Flags) or isinstance(b, Flags) or (isinstance(a, str) and isinstance(b, str))):
+        first, second = _bits(a, left.at), _bits(b, right.at)
+        if first is not None and second is not None:
+            names = {name for name, _ in second}
+            return Flags(tuple(bit for bit in first if bit[0] in names)) if not names.isdisjoint(name for name, _ in first) else 0
     if type(a) is int and type(b) is int and abs(a) < 2**40 and abs(b) < 2**40:
         if sign == "<<":
             return a << b if 0 <= b < 40 else UNKNOWN

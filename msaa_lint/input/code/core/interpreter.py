@@ -15,7 +15,7 @@ from typing import Any
 from msaa_lint.core.text.span import Span
 from msaa_lint.input.code.parsing import Unread
 
-from .calls import Calls
+from .algorithms import Algorithms
 from .conditions import canonical_text
 from .escapes import mark_escaped
 from .evaluate import ALLOCATORS
@@ -60,7 +60,7 @@ from .values import (
 )
 
 
-class Interpreter(Calls):
+class Interpreter(Algorithms):
     """Executes one program. The library of an API derives from it."""
 
     unread: Unread | None = None
@@ -83,17 +83,19 @@ class Interpreter(Calls):
             for _ in range(MAX_PASSES):
                 self.begin()
                 writes_by_key: dict[str, dict[tuple[Any, ...], Alternative]] = {}
+                writers: dict[str, set[Span]] = {}
                 for function in self.reached_functions():
-                    self.overlay, self.initial = {}, {}
+                    self.overlay, self.initial, self.started, self.entry = {}, {}, {}, function.at
                     self.run_entry_point(function)
                     for key, cell in self.overlay.items():
                         before = {id(write) for write in self.initial.get(key, ())}
                         for write in (write for write in cell.writes if id(write) not in before):
-                            if write.value is UNKNOWN:
-                                write = Alternative(Symbol(key, key.rpartition("::")[2]), write.at, write.guards)
+                            writers.setdefault(key, set()).add(function.at)
+                            write = self.summarized(write, key)
                             writes_by_key.setdefault(key, {}).setdefault(_mark(write), write)
                 if self.fragments:
                     self.create_from_fragments(self.overlay)
+                self.writers = writers
                 last, self.summary = self.summary, {key: _joined(key, list(writes.values())) for key, writes in writes_by_key.items()}
                 last_objects, self.object_summary = self.object_summary, self.members_of_objects()
                 if _marks(last) == _marks(self.summary) and _marks(last_objects) == _marks(self.object_summary):
@@ -104,6 +106,16 @@ class Interpreter(Calls):
             self.unread = Unread(self.work.message(error), function.at if function is not None else Span(0, 0))
         finally:
             sys.setrecursionlimit(depth)
+
+    def summarized(self, write: Alternative, key: str) -> Alternative:
+        """Returns what an entry point writes to a member as others find it. A list that it appends to may have other elements, too."""
+        if write.value is UNKNOWN:
+            return write._replace(value=Symbol(key, key.rpartition("::")[2]))
+        if isinstance(write.value, Array) and self.started.get(key) is write.value:
+            array = self.copies.value(write.value)
+            array.complete = False
+            return write._replace(value=array)
+        return write
 
     def members_of_objects(self) -> dict[str, Value]:
         """Returns the values of members of the objects that were created, which methods of an unknown object may find in them."""
@@ -123,7 +135,7 @@ class Interpreter(Calls):
         yield from entry_points
         known = {function.at for function in entry_points}
         for function in self.unit.functions:
-            if function.at not in known and function.at not in self.followed:
+            if function.at not in known and function.at not in self.followed and not function.only_called:
                 yield function
 
     def entry_points(self) -> list[Function]:
@@ -132,7 +144,9 @@ class Interpreter(Calls):
         constructors = {
             f.name for f in self.unit.functions if f.class_name.rpartition("::")[2] == f.name and f.parameters and f.name in types
         }
-        entry_points = [f for f in self.unit.functions if f.name not in self.unit.called and f.name not in constructors]
+        entry_points = [
+            f for f in self.unit.functions if not f.only_called and f.name not in self.unit.called and f.name not in constructors
+        ]
         return [*entry_points, Function("", "", "", (), tuple(self.unit.outside), Span(0, 0))] if self.fragments else entry_points
 
     def entry_scope(self, function: Function) -> Scope:

@@ -9,7 +9,7 @@ from msaa_lint.core.text.span import Span
 
 from .escapes import forget
 from .guards import ALWAYS
-from .scope import Scope
+from .scope import MEMBER, Scope
 from .structures import Structures
 from .terms import CALL, FIELD, INDEX, LITERAL, NAME, Term
 from .types import element_type
@@ -27,6 +27,9 @@ from .values import (
 )
 
 APPEND = frozenset({"push_back", "emplace_back", "append", "add", "pushBack", "Add", "PushBack", "push"})
+
+STARTS = APPEND | {"resize", "assign", "clear"}
+"""Methods that fill a list or empty it."""
 
 COUNTED = frozenset({"size", "count", "length", "Num", "Size", "Count", "Length", "getSize", "GetSize", "ssize"})
 
@@ -49,6 +52,10 @@ class ListMethods(Structures):
     def method(self, receiver: Receiver, name: str, arguments: Sequence[Term], place: Span, scope: Scope) -> Value | None:
         """Returns the result of a method of a structure or list, or None for other objects."""
         owner, cell, content = receiver
+        if cell is not None and cell.kind == MEMBER and name in STARTS and cell.writes is self.initial.get(cell.key):
+            # What the list holds before is known only if nothing else fills it.
+            content = self.started_list(cell) or content
+            cell.writes = content
         value = pointee(sole_value(content))
         if len(content) > 1 and any(isinstance(pointee(item.value), Array) for item in content):
             return self.on_alternatives(content, name, place)
@@ -74,6 +81,10 @@ class ListMethods(Structures):
                 target.write(self.value(arguments[0], scope), place, scope.guards)
                 return content
         if isinstance(value, Array):
+            if cell is not None and name in ("resize", "assign", "clear") and self.started.get(cell.key) is value:
+                # Whatever the list held before, its length is known now.
+                value.complete = value.complete or not scope.guards
+                del self.started[cell.key]
             return self.on_list(value, cell, name, arguments, place, scope)
         if name in SELF and not arguments:
             return content
@@ -115,13 +126,7 @@ class ListMethods(Structures):
                 value = self.construct(kind, [(None, item) for item in arguments], place, scope)
             else:
                 value = self.value(arguments[0], scope, kind) if arguments else UNKNOWN_VALUE
-            array.complete = array.complete and not scope.unknown_loops and len(array.items) < 64
-            if len(array.items) >= 64:
-                return UNKNOWN_VALUE
-            item = Cell(kind)
-            item.write(tuple(self.named_copy(a, arguments) for a in value), place, scope.guards)
-            array.items.append(item)
-            return (Alternative(Ref(item, True), place),)
+            return self.append(array, tuple(self.named_copy(a, arguments) for a in value), place, scope)
         if name in DATA:
             return (Alternative(Ref(cell if cell is not None else Cell(writes=(Alternative(array, place),))), place),)
         if name in COUNTED:
@@ -153,6 +158,16 @@ class ListMethods(Structures):
                 array.complete = type(count) is int and 0 <= count <= 64
                 array.items += [self.unset_element(array.kind, place, True) for _ in range(count if array.complete else 0)]
         return UNKNOWN_VALUE
+
+    def append(self, array: Array, value: Value, place: Span, scope: Scope) -> Value:
+        """Appends an element to a list and returns a reference to it."""
+        array.complete = array.complete and not scope.unknown_loops and len(array.items) < 64
+        if len(array.items) >= 64:
+            return UNKNOWN_VALUE
+        item = Cell(array.kind)
+        item.write(self.copies.alternatives(value), place, scope.guards)
+        array.items.append(item)
+        return (Alternative(Ref(item, True), place),)
 
     def refilled(self, array: Array, name: str, arguments: Sequence[Term], place: Span, scope: Scope) -> bool:
         """Executes a method that appends or replaces elements. Returns False if its effect is unknown."""

@@ -45,7 +45,7 @@ class ClassObjects(Variables):
         _, kind, name, initializer, indirect, _, place = term
         if initializer is None:
             is_scalar = indirect or (
-                self.class_of(kind, scope.namespace) is None and not self.library.structure(kind) and not element_type(kind)
+                self.class_of(kind, scope.enclosing) is None and not self.library.structure(kind) and not element_type(kind)
             )
             value = UNKNOWN_VALUE if is_scalar else self.default_value(kind, name, place, scope)
             for alternative in value:

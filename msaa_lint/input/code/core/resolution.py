@@ -58,7 +58,7 @@ class Resolution(ListMethods):
             return self.find_method(name, arguments, receiver, scope)
         qualifier = str(function[1]).rpartition("::")[0] if function[0] == NAME else ""
         if qualifier:
-            owner = self.class_of(qualifier, scope.namespace)
+            owner = self.class_of(qualifier, scope.enclosing)
             if owner is not None and (methods := self.taking(self.methods(owner, name), arguments)):
                 return self.matching(methods, arguments, scope)
             self.work.spend(1 + len(group.every) // 16)
@@ -134,7 +134,7 @@ class Resolution(ListMethods):
         """Returns whether a parameter may take an argument, by their types; one of a class of the program does not take another one."""
         if parameter == argument or "auto" in (parameter, argument):
             return True
-        left, right = self.class_of(parameter, scope.namespace), self.class_of(argument, scope.namespace)
+        left, right = self.class_of(parameter, scope.enclosing), self.class_of(argument, scope.enclosing)
         if left is not None and right is not None:
             return left in self.classes.chain(right)
         if (left is None) != (right is None):

@@ -43,6 +43,8 @@ class Scope:
         self.class_name = class_name
         self.namespace = namespace
         """The namespace, with a trailing `::`."""
+        self.enclosing = class_name or namespace
+        """Where names of classes are looked up first."""
         self.scopes = scopes or ({},)
         self.guards = guards
         self.calls = calls

@@ -29,7 +29,7 @@ class StaticTypes(ClassObjects):
         if term[:2] == (NAME, "this"):
             return scope.class_name or None
         kind = self.type_of_term(term, scope, 0)
-        return self.class_of(kind, scope.namespace or self.classes.namespace(scope.class_name)) if kind else None
+        return self.class_of(kind, scope.enclosing) if kind else None
 
     def type_of_term(self, term: Term, scope: Scope, depth: int = 0) -> str:
         """Returns the declared type of an expression without pointers and references, or an empty string."""
@@ -43,7 +43,7 @@ class StaticTypes(ClassObjects):
             cell = self.variable(term[1], scope)
             return self.type_of(cell) if cell is not None else ""
         if tag == FIELD:
-            owner = self.class_of(self.type_of_term(term[1], scope, depth + 1), scope.namespace)
+            owner = self.class_of(self.type_of_term(term[1], scope, depth + 1), scope.enclosing)
             member = self.classes.member(owner, term[2]) if owner is not None else None
             return str(member[1]) if member is not None else ""
         if tag == INDEX:
@@ -60,14 +60,14 @@ class StaticTypes(ClassObjects):
         if function[0] == NAME:
             if match := OWNED.match(function[1]):
                 return match[1]
-            if self.class_of(function[1], scope.namespace) is not None:
+            if self.class_of(function[1], scope.enclosing) is not None:
                 return str(function[1])
             qualifier, _, name = function[1].rpartition("::")
-            owner = self.class_of(qualifier, scope.namespace) if qualifier else scope.class_name
+            owner = self.class_of(qualifier, scope.enclosing) if qualifier else scope.class_name
             return _common_type(self.methods(owner, name) if owner else []) or _common_type(self.free_functions(name, len(term[2])))
         if function[0] != FIELD:
             return ""
-        owner = self.class_of(self.type_of_term(function[1], scope, depth + 1), scope.namespace)
+        owner = self.class_of(self.type_of_term(function[1], scope, depth + 1), scope.enclosing)
         if owner is not None and (kind := _common_type(self.methods(owner, function[2]))):
             return kind
         return self.type_of_term(function[1], scope, depth + 1) if function[2] in SAME else ""

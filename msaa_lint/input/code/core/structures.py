@@ -144,11 +144,11 @@ class Structures(Evaluator):
             # `{}` stands for no flags.
             return (Alternative(Array("", place), place),)
         if inner is None and kind and kind != "auto":
-            if len(items) == 1 and items[0][0] is None and self.library.is_scalar(kind) and self.class_of(kind, scope.namespace) is None:
+            if len(items) == 1 and items[0][0] is None and self.library.is_scalar(kind) and self.class_of(kind, scope.enclosing) is None:
                 return self.value(items[0][1], scope, kind)
             if not items and (self.library.is_type(kind) or kind.startswith(("bool", "int", "uint", "float"))):
                 return UNKNOWN_VALUE
-            if not items or not self.library.is_scalar(kind) or self.class_of(kind, scope.namespace) is not None:
+            if not items or not self.library.is_scalar(kind) or self.class_of(kind, scope.enclosing) is not None:
                 return self.class_value(kind, items, place, scope)
         made_list = self.list_value(inner or "", items, place, scope)
         if inner is not None and isinstance(made_list[0].value, Array):
@@ -241,7 +241,7 @@ class Structures(Evaluator):
         built = self.construct_class(kind, (CALL, (NAME, kind, place), arguments, place), scope)
         if built is not None:
             return built
-        class_name = self.class_of(kind, scope.namespace) or ""
+        class_name = self.class_of(kind, scope.enclosing) or ""
         struct = self.new_object(class_name, place)
         members = self.members.get(class_name, {})
         for name, (path, term) in zip(members, items, strict=False):

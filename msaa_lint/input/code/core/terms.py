@@ -74,6 +74,8 @@ class Function(NamedTuple):
     """Whether reading a member of its name calls it."""
     by_reference: bool = False
     """Whether it returns a reference."""
+    only_called: bool = False
+    """Whether it says nothing on its own, only where the program calls it."""
 
 
 class Unit(NamedTuple):

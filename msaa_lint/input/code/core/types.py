@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import re
 
-_LISTED = re.compile(r"(?:\w+::)*(?:array|vector|span|initializer_list|\w*(?:_vector|_array|Vector|Array|Span|List|Slice))<([^,<>]+)[,>]")
+_LISTED = re.compile(
+    r"(?:\w+::)*(?:array|vector|span|deque|list|initializer_list|\w*(?:_vector|_array|Vector|Array|Span|List|Slice))"
+    r"<((?:[^,<>]|<(?:[^<>]|<[^<>]*>)*>)+)[,>]"
+)
 _FIXED = re.compile(r"(?:std::|eastl::)?array<[^,<>]+,([^<>]+)>$")
 
 

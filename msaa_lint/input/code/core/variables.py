@@ -70,6 +70,12 @@ class Variables(ABC):
         """Whether the cells of an expression are only read."""
         self.callable_names: set[str] = set()
         """The variables and members to which functions are assigned."""
+        self.writers: dict[str, set[Span]] = {}
+        """The entry points that write each member."""
+        self.entry = Span(0, 0)
+        """The current entry point."""
+        self.started: dict[str, Array] = {}
+        """The lists in members that start empty in the current entry point, because no other one writes them."""
         self.parts: dict[str, dict[str, None]] = {}
         """The names of members used with each member."""
 
@@ -188,7 +194,7 @@ class Variables(ABC):
         term = term or self.globals.get(name.removeprefix("::"))
         kind = _element(str(term[1]), first) if term is not None else ""
         for part in rest:
-            owner = self.class_of(kind, self.classes.namespace(class_name)) if kind else None
+            owner = self.class_of(kind, class_name) if kind else None
             term = self.classes.member(owner, part.partition("[")[0]) if owner is not None else None
             if term is None:
                 return ""
@@ -198,7 +204,7 @@ class Variables(ABC):
     def member_key(self, name: str, scope: Scope) -> str:
         """Returns the key of a name that is not a local variable: a class member or a global variable."""
         qualifier, _, short = name.rpartition("::")
-        owner = self.class_of(qualifier, scope.namespace) if qualifier else None
+        owner = self.class_of(qualifier, scope.enclosing) if qualifier else None
         if owner is not None and self.classes.member(owner, short) is not None:
             return f"{self.classes.owner(owner, short)}::{short}"
         namespace = scope.namespace
@@ -222,11 +228,23 @@ class Variables(ABC):
             owner, _, name = key.rpartition(".")
             if owner and "[" not in name:
                 self.parts.setdefault(owner, {})[name] = None
+            if self.writers.get(key) == {self.entry} and (started := self.started_list(cell)):
+                cell.writes, self.initial[key] = started, UNKNOWN_VALUE
+                return cell
             writes = self.summary.get(key) or self.object_summary.get(key) or self.declared(key)
             if len(writes) > 1:
                 writes = tuple(Alternative(w.value, w.at, w.guards | {(f"{key}={n}", True)}) for n, w in enumerate(writes))
             cell.writes = self.initial[key] = writes
         return cell
+
+    def started_list(self, cell: Cell) -> Value:
+        """Returns an empty list for a member that is one, and that the current entry point fills; nothing for other members."""
+        kind = element_type(self.type_of_key(cell.key))
+        if kind is None or array_size(self.type_of_key(cell.key)) or self.declared(cell.key):
+            return UNKNOWN_VALUE
+        array = self.started[cell.key] = Array(kind, self.entry, self.writers.get(cell.key, {self.entry}) == {self.entry})
+        array.name = cell.key.rpartition("::")[2].rpartition(".")[2]
+        return (Alternative(array, self.entry),)
 
     def is_held(self, cell: Cell) -> bool:
         """Returns whether the object that a member points to is the one that is created for it."""
@@ -324,7 +342,7 @@ class Variables(ABC):
         elsewhere = bool(cell.key) or cell.kind.endswith("*")
         if elsewhere and not self.library.structure(cell.kind):
             kind = cell.kind.rstrip("*&")
-            return self.class_member(self.class_of(kind, scope.namespace) or kind, name)
+            return self.class_member(self.class_of(kind, scope.enclosing) or kind, name)
         struct = Struct(self.library.structure(cell.kind), Span(0, 0) if elsewhere else at(operand), False, cell.name)
         cell.writes = (Alternative(struct, struct.at),)
         return struct.cell(name)
@@ -365,7 +383,7 @@ class Variables(ABC):
         term = self.classes.member(class_name, name) if class_name else self.globals.get(name)
         if not kind or not ((term is not None and term[4]) or pointed(kind) != kind):
             return ""
-        target = self.class_of(kind, self.classes.namespace(class_name))
+        target = self.class_of(kind, class_name)
         return f"{target}::" if target is not None else ""
 
     def fill_array(self, array: Array, kind: str, scope: Scope) -> None:
@@ -391,7 +409,7 @@ class Variables(ABC):
             array.name, array.zeroed = name, zeroed
             self.fill_array(array, kind, scope)
             return (Alternative(array, place),)
-        class_name = self.class_of(kind, scope.namespace) if pointed(kind) == kind else None
+        class_name = self.class_of(kind, scope.enclosing) if pointed(kind) == kind else None
         if class_name is not None or (kind[:1].isupper() and not self.library.is_type(kind)):
             return (Alternative(self.new_object(class_name or "", place, name), place),)
         return UNKNOWN_VALUE

@@ -285,7 +285,7 @@ class MetalInterpreter(MetalInstances):
                 return self.texture_descriptor(last, arguments, place, scope)
             if last in _TRANSFERS and len(values) == 1:
                 return values[0]
-            class_name = self.class_of(str(function[1]), scope.namespace)
+            class_name = self.class_of(str(function[1]), scope.enclosing)
             if class_name is not None:
                 return self.class_object(class_name, arguments, values, place, scope)
         if name in _HARMLESS:

@@ -56,7 +56,7 @@ class MetalInstances(MetalObjects):
 
     def construct_class(self, kind: str, term: Term, scope: Scope) -> Value | None:
         """Returns an object of a class of the program after its constructor; None where there is none, or several match."""
-        class_name = self.class_of(kind, scope.namespace)
+        class_name = self.class_of(kind, scope.enclosing)
         if class_name is None and not kind_of(kind):
             return None
         owner = class_name or kind

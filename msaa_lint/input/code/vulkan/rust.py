@@ -109,7 +109,7 @@ class RustInterpreter(VulkanInterpreter):
     def braced_value(self, term: Term, scope: Scope, kind: str) -> Value:
         """Returns the value of a structure. One of a type that the program declares sets the members of the type, as constructors do."""
         value = super().braced_value(term, scope, kind)
-        owner = self.class_of(term[1] or kind, scope.namespace) if term[2] else None
+        owner = self.class_of(term[1] or kind, scope.enclosing) if term[2] else None
         if owner is not None and len(value) == 1 and isinstance(value[0].value, Struct):
             for name, cell in value[0].value.fields.items():
                 if sole_value(cell.writes) is None:

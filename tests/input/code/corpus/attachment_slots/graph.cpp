@@ -10,7 +10,7 @@ RenderPass makeScenePass(vk::Device device, vk::Format format) {
             format,
             vk::ImageLayout::eColorAttachmentOptimal,
             vk::AttachmentLoadOp::eClear,
-            vk::AttachmentStoreOp::eStore,  // expect-later: MSAA201
+            vk::AttachmentStoreOp::eStore,  // expect: MSAA201
             vk::SampleCountFlagBits::e4,
         },
         AttachmentSlot{

@@ -18,7 +18,7 @@ public:
         targets.addAttachment(info);
 
         info.format = VK_FORMAT_D32_SFLOAT;
-        info.usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;  // expect-later: MSAA401
+        info.usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;  // expect: MSAA401
         targets.addAttachment(info);
         targets.createRenderPass();
     }

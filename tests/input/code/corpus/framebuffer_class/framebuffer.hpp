@@ -26,6 +26,8 @@ struct AttachmentInfo {
 struct Framebuffer {
     VkDevice device = VK_NULL_HANDLE;
     VkRenderPass renderPass = VK_NULL_HANDLE;
+    VkFramebuffer framebuffer = VK_NULL_HANDLE;
+    uint32_t width = 0, height = 0;
     std::vector<Attachment> attachments;
 
     uint32_t addAttachment(const AttachmentInfo& info) {
@@ -43,6 +45,13 @@ struct Framebuffer {
         image.tiling = VK_IMAGE_TILING_OPTIMAL;
         image.usage = info.usage;
         vkCreateImage(device, &image, nullptr, &attachment.image);
+
+        VkImageViewCreateInfo view{};
+        view.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
+        view.image = attachment.image;
+        view.viewType = VK_IMAGE_VIEW_TYPE_2D;
+        view.format = info.format;
+        vkCreateImageView(device, &view, nullptr, &attachment.view);
 
         attachment.description = {};
         attachment.description.samples = info.count;
@@ -90,6 +99,20 @@ struct Framebuffer {
         info.subpassCount = 1;
         info.pSubpasses = &subpass;
         vkCreateRenderPass(device, &info, nullptr, &renderPass);
+
+        std::vector<VkImageView> views;
+        for (const auto& attachment : attachments) {
+            views.push_back(attachment.view);
+        }
+        VkFramebufferCreateInfo frame{};
+        frame.sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO;
+        frame.renderPass = renderPass;
+        frame.pAttachments = views.data();
+        frame.attachmentCount = static_cast<uint32_t>(views.size());
+        frame.width = width;
+        frame.height = height;
+        frame.layers = 1;
+        vkCreateFramebuffer(device, &frame, nullptr, &framebuffer);
     }
 };
 

@@ -15,7 +15,7 @@ int main() {
                                                        VK_SAMPLE_COUNT_1_BIT);
     cookbook::RenderPass pass(device, {color, depth}, {surface},
                               {VK_ATTACHMENT_LOAD_OP_CLEAR, VK_ATTACHMENT_LOAD_OP_CLEAR, VK_ATTACHMENT_LOAD_OP_DONT_CARE},
-                              {VK_ATTACHMENT_STORE_OP_STORE,  // expect-later: MSAA201
+                              {VK_ATTACHMENT_STORE_OP_STORE,  // expect: MSAA201
                                VK_ATTACHMENT_STORE_OP_DONT_CARE, VK_ATTACHMENT_STORE_OP_STORE},
                               {VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL,
                                VK_IMAGE_LAYOUT_PRESENT_SRC_KHR});

@@ -29,12 +29,21 @@ public:
         info.usage = usage;
         info.samples = count;
         vkCreateImage(device_.handle(), &info, nullptr, &image_);
+
+        VkImageViewCreateInfo view{};
+        view.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
+        view.image = image_;
+        view.viewType = VK_IMAGE_VIEW_TYPE_2D;
+        view.format = format;
+        vkCreateImageView(device_.handle(), &view, nullptr, &view_);
     }
     VkImage handle() const { return image_; }
+    VkImageView view() const { return view_; }
 
 private:
     Device& device_;
     VkImage image_ = VK_NULL_HANDLE;
+    VkImageView view_ = VK_NULL_HANDLE;
 };
 
 }  // namespace engine

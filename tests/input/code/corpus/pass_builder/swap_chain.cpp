@@ -1,3 +1,5 @@
+#include <array>
+
 #include "device.hpp"
 #include "render_pass.hpp"
 
@@ -5,9 +7,11 @@ namespace engine {
 
 class SwapChainRenderer {
 public:
-    SwapChainRenderer(Device& device, VkFormat format, uint32_t width, uint32_t height) : device_{device}, width_{width}, height_{height} {
+    SwapChainRenderer(Device& device, VkFormat format, uint32_t width, uint32_t height, VkImageView window)
+        : device_{device}, width_{width}, height_{height} {
         createImages(format);
         createRenderPass(format);
+        createFramebuffer(window);
     }
 
 private:
@@ -15,7 +19,7 @@ private:
         color_ = std::make_shared<Image>(device_, width_, height_, device_.samples(), format,
                                          VK_IMAGE_USAGE_TRANSIENT_ATTACHMENT_BIT | VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT);
         depth_ = std::make_shared<Image>(device_, width_, height_, device_.samples(), VK_FORMAT_D32_SFLOAT,
-                                         VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT);  // expect-later: MSAA401
+                                         VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT);  // expect: MSAA401
     }
 
     void createRenderPass(VkFormat format) {
@@ -25,7 +29,7 @@ private:
         color.format = format;
         color.samples = samples;
         color.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
-        color.storeOp = VK_ATTACHMENT_STORE_OP_STORE;  // expect-later: MSAA201  // may: MSAA403
+        color.storeOp = VK_ATTACHMENT_STORE_OP_STORE;  // expect: MSAA201  // may: MSAA403
         color.finalLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
 
         VkAttachmentDescription depth{};
@@ -38,7 +42,7 @@ private:
         VkAttachmentDescription resolve{};
         resolve.format = format;
         resolve.samples = VK_SAMPLE_COUNT_1_BIT;
-        resolve.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;  // expect-later: MSAA205
+        resolve.loadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
         resolve.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
         resolve.finalLayout = VK_IMAGE_LAYOUT_PRESENT_SRC_KHR;
 
@@ -68,12 +72,26 @@ private:
                     .build();
     }
 
+    void createFramebuffer(VkImageView window) {
+        const std::array<VkImageView, 3> views = {color_->view(), depth_->view(), window};
+        VkFramebufferCreateInfo info{};
+        info.sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO;
+        info.renderPass = pass_->handle();
+        info.attachmentCount = static_cast<uint32_t>(views.size());
+        info.pAttachments = views.data();
+        info.width = width_;
+        info.height = height_;
+        info.layers = 1;
+        vkCreateFramebuffer(device_.handle(), &info, nullptr, &framebuffer_);
+    }
+
     Device& device_;
     uint32_t width_;
     uint32_t height_;
     std::shared_ptr<Image> color_;
     std::shared_ptr<Image> depth_;
     std::unique_ptr<RenderPass> pass_;
+    VkFramebuffer framebuffer_ = VK_NULL_HANDLE;
 };
 
 }  // namespace engine
