@@ -12,6 +12,8 @@ MAX_DEPTH = 60
 MAX_LINKS = 64
 """The maximum number of conditions in an `if` chain."""
 
+_ENDS = ("return_statement", "throw_statement")
+_LABELS = ("labeled_statement", "case_statement")
 _SPLICED = ("preproc_if", "preproc_ifdef", "preproc_else", "preproc_elif", "ERROR")
 
 
@@ -32,7 +34,11 @@ def unwrapped(node: SyntaxNode | None) -> SyntaxNode | None:
 
 
 def live_children(node: SyntaxNode) -> list[SyntaxNode]:
-    """Returns the children of a node; of `#if 0` those of its `#else`, and of `#if 1` all but those."""
+    """Returns the children of a node without dead code: what follows a `return` or `throw`, `#if 0`, and the `#else` of `#if 1`."""
+    if node.type == "compound_statement":
+        children = node.named_children
+        end = next((n for n, child in enumerate(children, 1) if child.type in _ENDS), len(children))
+        return children if any(child.type in _LABELS for child in children[end:]) else children[:end]
     condition, alternative = fields(node, "condition", "alternative") if node.type in ("preproc_if", "preproc_elif") else (None, None)
     holds = {b"0": False, b"1": True}.get(condition.text or b"") if condition is not None else None
     if holds is None:

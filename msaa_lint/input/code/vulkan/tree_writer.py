@@ -104,8 +104,8 @@ class DescriptionWriter(Passes, Commands):
         members: list[Item] = []
         if obj.kind == "pipeline":
             target = self.dereference(self.get(info, "renderPass")[0])
-            # The listings of a page need not belong to one program.
-            if isinstance(target, ApiObject) and id(target) in passes and not self.fragments:
+            # The listings of a page need not belong to one program, and a count that may be 1 need not be that of this pass.
+            if isinstance(target, ApiObject) and id(target) in passes and not self.fragments and not self.may_be_single_sampled(state):
                 at = self.get(info, "renderPass")[1]
                 members.append(("renderPass", at, scalar(passes[id(target)], at)))
                 subpass, place = self.get(info, "subpass")
@@ -123,6 +123,12 @@ class DescriptionWriter(Passes, Commands):
         """Returns whether the sample count of a pipeline is assumed."""
         cell = state.fields.get("rasterizationSamples")
         return cell is not None and any(isinstance(item.value, Symbol) for item in self.settle(cell.writes))
+
+    def may_be_single_sampled(self, state: Struct) -> bool:
+        """Returns whether the sample count of a pipeline is assumed where the program also writes 1 to it."""
+        cell = state.fields.get("rasterizationSamples")
+        has_one = cell is not None and any(type(item.value) is int and item.value == 1 for item in cell.writes)
+        return has_one and self.has_assumed_count(state)
 
     def mask(self, state: Struct) -> Iterator[Item]:
         """Yields the sample mask if all its words are known."""
