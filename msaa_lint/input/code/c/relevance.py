@@ -8,12 +8,31 @@ from typing import NamedTuple
 
 from .macros import Macros
 
+_API = ("Vk", "VK_", "vk::", "vkC", "MTL")
+"""What names of a graphics API start with."""
+
 _WORDS = (
-    "attachment", "msaa", "resolve", "framebuffer", "renderpass", "createimage", "imagecreateinfo", "transient", "imageview",
-    "copyimage", "blitimage", "descriptor", "addtexture",
-    "vk_format_d", "vk_format_s", "vk_format_x8_d", "format::ed", "format::es", "format::ex8d",
+    "attachment", "msaa", "multisampl", "multi_sampl", "renderpass", "render_pass", "createimage", "create_image", "imagecreateinfo",
+    "imageview", "image_view", "imageusage", "image_usage", "textureusage",
 )  # fmt: skip
-"""Functions without any of these words, or `sample`, in any case, are irrelevant unless they call one that is relevant."""
+"""Words in a function, in any case, that make it relevant, and its file one about graphics."""
+
+_WEAK = (
+    "resolve", "copyimage", "blitimage", "addtexture", "vk_format_d", "vk_format_s", "vk_format_x8_d", "format::ed", "format::es",
+    "format::ex8d",
+)  # fmt: skip
+"""Words that make a function of such a file relevant."""
+
+_PARTS = {
+    "sampl": re.compile(r"(?<!up)(?<!down)(?<!re)(?<!over)(?<!sub)sampl(?:es?(?!r|d|_?rate(?!_?shading)|_?type|_?format)|ing)"),
+    "transient": re.compile(r"transient(?!_?(?:command|cmd|buffer|pool|memory|heap))"),
+    "frame": re.compile(r"frame_?buffer(?!_?(?:scale|size|width|height|dim|resiz))"),
+    "descriptor": re.compile(r"image|view|texture"),
+}
+"""Words that do, too, if the text also matches a pattern."""
+
+_DRAWING = re.compile(r"texture|image|render|frame_?buffer|swap_?chain")
+"""What a file mentions whose sample counts are not those of sound."""
 
 MAX_ROUNDS = 4
 """The maximum length of a chain of calls that ends in a relevant function and whose functions are all relevant."""
@@ -108,9 +127,20 @@ def bodies(text: str) -> list[Body]:
 
 
 def is_relevant(text: str) -> bool:
-    """Returns whether a text mentions multisampling, or what it takes part in. Samplers alone do not."""
+    """Returns whether a text mentions multisampling, or what it takes part in, other than in comments. Samplers alone do not."""
+    text = _COMMENT.sub(" ", text).lower()
+    if any(word in text for word in _WORDS) or any(word in text for word in _WEAK):
+        return True
+    return any(word in text and pattern.search(text) is not None for word, pattern in _PARTS.items())
+
+
+def is_about_graphics(text: str) -> bool:
+    """Returns whether a file mentions a graphics API or multisampling. If not, words such as `resolve` mean something else in it."""
+    text = _COMMENT.sub(" ", text)
+    if any(word in text for word in _API):
+        return True
     text = text.lower()
-    return any(word in text for word in _WORDS) or text.count("sample") > text.count("sampler")
+    return any(word in text for word in _WORDS) or (("samplecount" in text or "sample_count" in text) and _DRAWING.search(text) is not None)
 
 
 def is_short(body: str) -> bool:
@@ -130,7 +160,8 @@ def without_irrelevant_bodies(text: str, macros: Macros) -> str:
     """Returns a text in which the bodies of irrelevant functions are blank; offsets stay. `macros` are defined elsewhere."""
     found = bodies(text)
     texts = [text[body.header : body.end] for body in found]
-    kept = relevant(texts, [_CALLED.findall(text, body.header, body.start) for body in found], _relevant_macros(text, macros))
+    names = [_CALLED.findall(text, body.header, body.start) for body in found]
+    kept = relevant(texts, names, is_about_graphics(text), _relevant_macros(text, macros))
     parts: list[str] = []
     last = 0
     for body, matters in zip(found, kept, strict=True):
@@ -152,15 +183,15 @@ def _relevant_macros(text: str, macros: Macros) -> set[str]:
     return known
 
 
-def relevant(texts: Sequence[str], names: Sequence[Iterable[str]], words: Set[str] = frozenset()) -> list[bool]:
+def relevant(texts: Sequence[str], names: Sequence[Iterable[str]], graphics: bool, words: Set[str] = frozenset()) -> list[bool]:
     """Returns whether functions are relevant: those that mention multisampling or one of some words, and their callers, transitively.
 
-    `names` are what each function may be called by.
+    `names` are what each function may be called by; `graphics` says whether their file is about graphics.
     """
-    kept = [is_relevant(text) or (bool(words) and not words.isdisjoint(_WORD.findall(text))) for text in texts]
+    kept = [(graphics and is_relevant(text)) or (bool(words) and not words.isdisjoint(_WORD.findall(text))) for text in texts]
     fresh = {name for n, matters in enumerate(kept) if matters for name in names[n]}
     called = {n: set(_CALLED.findall(texts[n])) for n, matters in enumerate(kept) if not matters}
-    for _ in range(MAX_ROUNDS):
+    for _ in range(MAX_ROUNDS if fresh else 0):
         callers = [n for n, those in called.items() if not those.isdisjoint(fresh)]
         if not callers:
             break

@@ -14,7 +14,7 @@ from msaa_lint.input.code.parsing import Code, SyntaxNode, fields, function_decl
 
 from .directives import Section, Sections
 from .kinds import CLASSES, MAX_DEPTH, NAMES
-from .relevance import is_short, relevant
+from .relevance import is_about_graphics, is_short, relevant
 from .statements import Statements
 
 VIRTUAL = re.compile(r"\b(?:virtual|override)\b")
@@ -137,7 +137,7 @@ class Reader(Statements):
         """Yields the functions that mention multisampling, and their callers, transitively; and with False those that say something only
         where they are called: accessors, and constructors that initialize members."""
         names = [(self.function_name(node),) for _, _, node in self.found]
-        matters = relevant([self.text_of(node) for _, _, node in self.found], names)
+        matters = relevant([self.text_of(node) for _, _, node in self.found], names, is_about_graphics(self.text))
         for found, kept in zip(self.found, matters, strict=True):
             body = found[2].child_by_field_name("body")
             if kept or is_initializing(found[2]) or (body is not None and is_short(self.text_of(body)[1:-1])):

@@ -156,7 +156,7 @@ def nothing(_program: Interpreter) -> None:
 
 def assuming(assumptions: Assumptions | None, original: Callable[[Span], Span] = lambda at: at) -> Assume:
     """Returns what states assumptions; `original` returns the place in the files of a place in the program."""
-    return nothing if assumptions is None else lambda program: AssumedValues(program, assumptions, original)
+    return nothing if assumptions is None or not assumptions.entries else lambda program: AssumedValues(program, assumptions, original)
 
 
 def _start(entry: Assumed) -> int:

@@ -26,6 +26,8 @@ class Classes:
 
     def __init__(self, unit: Unit) -> None:
         self.members = {name: {term[2]: term for term in terms if term[0] == DECLARE} for name, terms in unit.members.items()}
+        self._of_type: dict[tuple[str, str], str | None] = {}
+        self._owners: dict[tuple[str, str], str] = {}
         self._names: dict[str, list[str]] = {}
         """The classes by the last part of their names."""
         for name in dict.fromkeys(
@@ -50,7 +52,12 @@ class Classes:
 
     def of_type(self, kind: str, namespace: str = "") -> str | None:
         """Returns the class that a type refers to, or None."""
-        kind = pointed(kind)
+        key = (kind, namespace)
+        if key not in self._of_type:
+            self._of_type[key] = self._find(pointed(kind), namespace)
+        return self._of_type[key]
+
+    def _find(self, kind: str, namespace: str) -> str | None:
         named = self._names.get(kind.rpartition("::")[2], ())
         if not named and kind.endswith(">"):
             # An instance of a template.
@@ -100,7 +107,10 @@ class Classes:
 
     def owner(self, class_name: str, member: str) -> str:
         """Returns the class that declares a member of a class; the class itself if none does."""
-        return next((name for name in self.chain(class_name) if member in self.members.get(name, ())), class_name)
+        key = (class_name, member)
+        if key not in self._owners:
+            self._owners[key] = next((name for name in self.chain(class_name) if member in self.members.get(name, ())), class_name)
+        return self._owners[key]
 
     def member(self, class_name: str, member: str) -> Term | None:
         """Returns the declaration of a member of a class or of its bases, or None."""

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
+from functools import lru_cache
 from hashlib import blake2b
 
 Guards = frozenset[tuple[str, bool]]
@@ -18,6 +19,9 @@ MAX_PARTS = 16
 
 MAX_SPLITS = 64
 """The maximum number of cases that are distinguished to determine whether conditions cover all of them."""
+
+MAX_KEPT = 1 << 12
+"""The number of answers about conditions that are kept, since the same ones are asked for many times."""
 
 
 class Conjunction(str):
@@ -103,7 +107,14 @@ def excluded(guards: Guards, configuration: Mapping[str, bool]) -> bool:
     return len(guards) > 1 and configuration.get(brief(str(sorted(guards)))) is False
 
 
-def covers(alternatives: Iterable[Guards]) -> bool:
+@lru_cache(MAX_KEPT)
+def configuration(guards: Guards) -> Mapping[str, bool]:
+    """Returns the values of conditions where guards hold."""
+    return dict(guards)
+
+
+@lru_cache(MAX_KEPT)
+def covers(alternatives: tuple[Guards, ...]) -> bool:
     """Returns whether one of several conditions always holds. If that takes too many cases to find out, it is not concluded."""
     terms: list[Guards] = []
     for guards in alternatives:

@@ -16,6 +16,7 @@ from msaa_lint.core.text.span import Span
 from msaa_lint.input.code.parsing import Unread
 
 from .algorithms import Algorithms
+from .classes import pointed
 from .conditions import canonical_text
 from .escapes import mark_escaped
 from .evaluate import ALLOCATORS
@@ -140,7 +141,7 @@ class Interpreter(Algorithms):
 
     def entry_points(self) -> list[Function]:
         # The constructor of a member runs where the object is created; no call of it appears.
-        types = {term[1] for terms in self.members.values() for term in terms.values()}
+        types = {pointed(term[1]) for terms in self.members.values() for term in terms.values()}
         constructors = {
             f.name for f in self.unit.functions if f.class_name.rpartition("::")[2] == f.name and f.parameters and f.name in types
         }

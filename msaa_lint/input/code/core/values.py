@@ -11,7 +11,7 @@ from typing import Any, NamedTuple, Protocol
 
 from msaa_lint.core.text.span import Span
 
-from .guards import ALWAYS, Conjunction, Guards, chosen, covers, excluded
+from .guards import ALWAYS, Conjunction, Guards, chosen, configuration, covers, excluded
 from .limits import Work
 
 MAX_ALTERNATIVES = 12
@@ -74,7 +74,10 @@ class Cell:
 
     def read(self, guards: Guards) -> Value:
         """Returns the possible values under some conditions."""
-        return possible_writes(self.writes, dict(guards)) if self.writes else UNKNOWN_VALUE
+        if not self.writes or not self.writes[-1].guards:
+            # Nothing shows through an unconditional write.
+            return self.writes[-1:]
+        return possible_writes(self.writes, configuration(guards))
 
 
 class Unknown:
@@ -97,27 +100,27 @@ def limited(writes: Value, at: Span) -> Value:
     return (*first, Alternative(value, at, frozenset({(f"a write before {at.start}", True)})))
 
 
-def possible_writes(writes: Value, configuration: Mapping[str, bool]) -> Value:
-    """Returns the writes that are visible in a configuration: from the last back to the first from which on one certainly happens."""
-    if len(writes) == 1 and not writes[0].guards:
-        return writes
+def possible_writes(writes: Value, conditions: Mapping[str, bool]) -> Value:
+    """Returns the writes that are visible under conditions: from the last back to the first from which on one certainly happens."""
+    if writes and not writes[-1].guards:
+        return writes[-1:]
     alternatives: list[Alternative] = []
     tests: set[tuple[str, bool]] = set()
     for write in reversed(writes):
         rest = []
         for guard in write.guards:
-            way = chosen(guard[0], configuration)
+            way = chosen(guard[0], conditions)
             if way is None:
                 rest.append(guard)
             elif way is not guard[1]:
                 break
         else:
-            if excluded(frozenset(rest), configuration):
+            if excluded(frozenset(rest), conditions):
                 continue
             alternatives.append(Alternative(write.value, write.at, frozenset(rest)) if len(rest) < len(write.guards) else write)
             opposite = any((text, not way) in tests or isinstance(text, Conjunction) for text, way in (*rest, *tests))
             tests.update(rest)
-            if not rest or (opposite and covers(a.guards for a in alternatives)):
+            if not rest or (opposite and covers(tuple(a.guards for a in alternatives))):
                 break
     return tuple(reversed(alternatives))
 

@@ -9,7 +9,7 @@ from msaa_lint.core.text.span import Span
 
 from .classes import Classes, pointed
 from .library import Library
-from .limits import Work
+from .limits import Work, WorkLimitExceeded
 from .scope import MEMBER, Scope
 from .terms import CALL, DECLARE, FIELD, INDEX, NAME, TARGET, Term, Unit, at
 from .types import array_size, element_type
@@ -76,6 +76,8 @@ class Variables(ABC):
         """The current entry point."""
         self.started: dict[str, Array] = {}
         """The lists in members that start empty in the current entry point, because no other one writes them."""
+        self._member_keys: dict[tuple[str, str, str], str] = {}
+        self._types_of_keys: dict[str, str] = {}
         self.parts: dict[str, dict[str, None]] = {}
         """The names of members used with each member."""
 
@@ -97,7 +99,10 @@ class Variables(ABC):
 
     def step(self, scope: Scope) -> None:
         """Counts the evaluation of a term, which takes longer under many conditions. Raises WorkLimitExceeded."""
-        self.work.spend(1 + len(scope.guards) // 4)
+        work = self.work
+        work.left -= 1 + len(scope.guards) // 4
+        if work.left < 0:
+            raise WorkLimitExceeded
 
     def unset_element(self, kind: str, place: Span, zeroed: bool) -> Cell:
         """Returns an element of a list that is not initialized."""
@@ -187,6 +192,11 @@ class Variables(ABC):
 
     def type_of_key(self, key: str) -> str:
         """Returns the declared type of a member by its path, or an empty string."""
+        if key not in self._types_of_keys:
+            self._types_of_keys[key] = self._type_of_key(key)
+        return self._types_of_keys[key]
+
+    def _type_of_key(self, key: str) -> str:
         first, *rest = key.split(".")
         name = first.partition("[")[0]
         class_name, _, short = name.rpartition("::")
@@ -203,6 +213,12 @@ class Variables(ABC):
 
     def member_key(self, name: str, scope: Scope) -> str:
         """Returns the key of a name that is not a local variable: a class member or a global variable."""
+        key = (name, scope.namespace, scope.class_name)
+        if key not in self._member_keys:
+            self._member_keys[key] = self._member_key(name, scope)
+        return self._member_keys[key]
+
+    def _member_key(self, name: str, scope: Scope) -> str:
         qualifier, _, short = name.rpartition("::")
         owner = self.class_of(qualifier, scope.enclosing) if qualifier else None
         if owner is not None and self.classes.member(owner, short) is not None:

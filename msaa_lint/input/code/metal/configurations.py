@@ -97,7 +97,7 @@ def is_certain(guards: list[Guards]) -> bool:
     # What several functions assign is numbered; one of them is the value.
     numbered = [{text.rpartition("=")[0] for text, way in one if way and _NUMBERED.search(text)} for one in guards]
     keys = set.intersection(*numbered) if numbered else set()
-    return covers(frozenset(guard for guard in one if guard[0].rpartition("=")[0] not in keys) for one in guards)
+    return covers(tuple(frozenset(guard for guard in one if guard[0].rpartition("=")[0] not in keys) for one in guards))
 
 
 def members_of(struct: Struct) -> Iterator[tuple[str, Value]]:

@@ -72,7 +72,7 @@ class VulkanConfiguration(Configuration):
             is_zero = struct.zeroed and cell is None and all(need in struct.fields for need in needs)
             return (None if is_zero else UNKNOWN), struct.at
         value = self.settle(cell.writes)
-        if struct.zeroed and value and not covers(a.guards for a in value):
+        if struct.zeroed and value and not covers(tuple(a.guards for a in value)):
             return UNKNOWN, struct.at
         constant = sole_value(value)
         return constant, value[-1].at if value else struct.at

@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from typing import Any
+from functools import lru_cache
+from typing import Any, NamedTuple
 
 from msaa_lint.core.text.span import Span
 from msaa_lint.frame.vulkan.enums import VALUES
@@ -39,7 +40,7 @@ from msaa_lint.input.code.core.values import (
 )
 
 from .library import VulkanLibrary
-from .names import first_version, vulkan_struct
+from .names import MAX_NAMES, first_version, vulkan_struct
 
 CREATE_INFOS = {
     "ImageCreateInfo": "image",
@@ -78,6 +79,31 @@ _VIEW = re.compile(r"view", re.IGNORECASE)
 _MOVES = frozenset({"swap", "exchange", "tie", "iter_swap", "forward"})
 
 _IMAGE = re.compile(r"(?:Vk|vk::|vk::raii::)Image[&*]*$")
+
+
+class _Traits(NamedTuple):
+    """What a function outside the program does, by its name."""
+
+    copies: bool
+    sets_samples: bool
+    queries: bool
+    finds_memory: bool
+    makes_views: bool
+    uses: bool
+    """Whether it may use the objects passed to it."""
+
+
+@lru_cache(MAX_NAMES)
+def _traits(name: str) -> _Traits:
+    return _Traits(
+        _COPIES.search(name) is not None,
+        "etRasterizationSamples" in name,
+        _QUERIES.search(name) is not None,
+        _MEMORY.search(name) is not None,
+        _VIEW.search(name) is not None,
+        name != "" and not name.startswith(("vk", "vma")) and not name.isupper() and _HARMLESS.search(name) is None,
+    )
+
 
 _TYPED = {
     "SampleCountFlagBits": "samples",
@@ -138,11 +164,12 @@ class VulkanInterpreter(Interpreter):
         if name in _RESOLVES:
             self.record_resolve(name, values, place)
             return UNKNOWN_VALUE
-        if _COPIES.search(name):
+        traits = _traits(name)
+        if traits.copies:
             info = next((v for v in (pointee(sole_value(value)) for value in values) if isinstance(v, Struct)), None)
             ends = values[1:] if name.startswith("vk") else values
             self.copied.append(info.cell("srcImage").writes if info is not None else ends[0] if ends else UNKNOWN_VALUE)
-        if "etRasterizationSamples" in name:
+        if traits.sets_samples:
             self.names.has_dynamic_samples = True
         if name in ("vkBindImageMemory2", "vkBindImageMemory2KHR", "bindImageMemory2"):
             infos = (struct for value in values for struct in structures_in(pointee(sole_value(value))))
@@ -152,18 +179,18 @@ class VulkanInterpreter(Interpreter):
         if name in ("vkBindImageMemory", "bindImageMemory", "bindMemory"):
             self.bind_memory(values, owner, scope)
             return UNKNOWN_VALUE
-        if not _QUERIES.search(name):
+        if not traits.queries:
             for n, value in enumerate(values):
                 target = pointee(sole_value(value))
                 if isinstance(target, Array) and len(target.items) == 1:
                     target = pointee(sole_value(target.items[0].writes))
                 if isinstance(target, Struct) and first_version(target.kind) in CREATE_INFOS:
                     return self.create_from_call(target, n, term, name, values, scope)
-        if _MEMORY.search(name):
+        if traits.finds_memory:
             for value in values:
                 if value and all(_of_memory(a.value) for a in value):
                     return value
-        if _VIEW.search(name):
+        if traits.makes_views:
             view = self.view_of_argument(values, term, scope)
             if view is not None:
                 return view
@@ -182,7 +209,7 @@ class VulkanInterpreter(Interpreter):
                     cell.write((Alternative(UNKNOWN, place),), place, scope.guards)
             elif not name.startswith(("vk", "vma")):
                 self.escape_argument(name, values[position], position)
-        if name and not name.startswith(("vk", "vma")) and not name.isupper() and not _HARMLESS.search(name):
+        if traits.uses:
             for value in values:
                 mark_escaped(value, self.work)
         if not name or (name[0].isupper() and owner is None and vulkan_struct(name)):

@@ -7,7 +7,7 @@ Members are in the order of the Vulkan registry (vk.xml); a test checks that.
 from __future__ import annotations
 
 import re
-from functools import cache
+from functools import cache, lru_cache
 
 from msaa_lint.frame.vulkan.enums import VALUES
 
@@ -108,6 +108,9 @@ _STRUCTURE = re.compile(r"(?:::)?(?:Vk|vk::|VULKAN_HPP_NAMESPACE::)([A-Za-z0-9]+
 _COUNT = re.compile(r"VK_SAMPLE_COUNT_(1|2|4|8|16|32|64)_BIT$")
 _SCOPED = re.compile(r"(?:.*::)?([A-Z][A-Za-z0-9]+)::e([A-Z0-9][A-Za-z0-9]*)$")
 
+MAX_NAMES = 1 << 14
+"""The number of names of which is kept what they stand for; a program asks for most of its names many times."""
+
 TABLES = {
     "VkPipelineStageFlagBits": "VkPipelineStageFlagBits2",
     "VkAccessFlagBits": "VkAccessFlagBits2",
@@ -115,6 +118,7 @@ TABLES = {
 }
 
 
+@lru_cache(MAX_NAMES)
 def vulkan_struct(type_text: str) -> str:
     """Returns the name of a Vulkan structure type without `Vk` and vendor suffix, or an empty string for other types."""
     match = _STRUCTURE.match(type_text.removeprefix("VULKAN_HPP_NAMESPACE::"))
@@ -124,6 +128,7 @@ def vulkan_struct(type_text: str) -> str:
     return name if name in MEMBERS else ""
 
 
+@lru_cache(MAX_NAMES)
 def is_scalar(type_text: str) -> bool:
     """Returns whether a Vulkan type is an enum, flags, or a number, whose braces contain a single value."""
     return _SCALAR.search(type_text) is not None or not type_text.startswith(("Vk", "vk::", "VULKAN"))
@@ -134,6 +139,7 @@ def first_version(kind: str) -> str:
     return VERSIONED.get(kind, kind)
 
 
+@lru_cache(MAX_NAMES)
 def constant(name: str) -> int | str | bool | None:
     """Returns the value of a Vulkan constant: a sample count as a number, a boolean, or an enumerant as descriptions spell it;
 
@@ -170,6 +176,7 @@ def squashed(enum: str) -> dict[str, str]:
     return {value.replace("_", "").lower(): value for value in VALUES[enum]}
 
 
+@lru_cache(MAX_NAMES)
 def member(name: str) -> str:
     """Returns the name that descriptions give a member: without the `p` of pointers. `pNext` is `next`."""
     return name[1].lower() + name[2:] if len(name) > 1 and name[0] == "p" and name[1].isupper() else name
