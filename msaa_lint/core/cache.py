@@ -39,7 +39,7 @@ class Cache:
 
     def __init__(self, folder: str, version: str) -> None:
         self.folder = folder
-        self.version = version
+        self._version = digest(version.encode()).encode()
         self._written = False
 
     def read(self, kind: str, name: str) -> bytes | None:
@@ -87,7 +87,7 @@ class Cache:
                     return
 
     def _path(self, kind: str, name: str) -> str:
-        return os.path.join(self.folder, f"{kind}-{digest(self.version.encode(), name.encode())}")
+        return os.path.join(self.folder, f"{kind}-{digest(self._version, name.encode())}")
 
 
 def user_cache(version: str) -> Cache | None:

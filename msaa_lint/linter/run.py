@@ -1,24 +1,26 @@
 """Runs `check`: lints every input of a request, and fixes it if asked to. The command line and `msaa_lint.lint` both use it."""
 
-import gc
 import os
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from msaa_lint.core.diagnostics import diagnostic
-from msaa_lint.core.finding import Finding, InputSummary, Result, Savings, Suppressed, Undecided, Unread, is_confident, rank
+from msaa_lint.core.finding import Finding, InputSummary, Result, Savings, Suppressed, Undecided, is_confident, rank
+from msaa_lint.core.garbage import collect_garbage
 from msaa_lint.core.text.source import Source
 from msaa_lint.input.file_types import STDIN
 
 from .engine import rule_infos
 from .input_summary import input_summaries
 from .results import FileResult, can_try_fixes, finding_kind
+from .run_part import RunPart
 from .settings.settings import Settings
 from .source_programs import ProgramInput
 from .workspace import InputFile, Request, Workspace
 
 if TYPE_CHECKING:
     from .fixes.file_fixes import FixedText
+    from .program_runs import ProgramRuns
     from .suppress.baseline import Baseline
 
 Progress = Callable[[int, int, str], None]
@@ -29,10 +31,6 @@ PRICED_FORMATS = frozenset({"full", "json", "sarif", "github", "gitlab", "junit"
 
 SUMMARIZED_FORMATS = PRICED_FORMATS - {"gitlab", "junit"} | {"concise"}
 """The outputs that say what fixes save; for the others fixes are not tried."""
-
-MAX_GARBAGE = 200_000
-"""Container objects allocated since the last collection before another one runs: the command line disables the garbage collector, and the
-passes and attachments of a frame refer to each other."""
 
 
 class Outcome(NamedTuple):
@@ -89,23 +87,26 @@ class _Run:
 
     def run(self, progress: Progress | None) -> Outcome:
         discovered = self.workspace.discover(sources=True)
-        programs = {path: program for program in self.workspace.programs(discovered) for path in program.inputs}
-        done: set[str] = set()
-        for number, path in enumerate(discovered.files):
-            if progress is not None:
-                progress(number, len(discovered.files), path)
-            if path in programs and path not in done:
-                done.update(programs[path].inputs)
-                with self.workspace.guard(path):
-                    self._run_program(programs[path])
-            name = self.request.input_name(path)
-            if name not in self.summaries and path not in self.workspace.failed:
-                with self.workspace.guard(path):
-                    self._run_input(path)
-            self.summaries.setdefault(name, InputSummary(name, failed=True))
-            if gc.get_count()[0] > MAX_GARBAGE and number + 1 < len(discovered.files):
-                # Not the oldest generation: the results so far are no garbage, and are not gone through again after each input.
-                gc.collect(1)
+        programs = self.workspace.programs(discovered)
+        numbers = {path: number for number, program in enumerate(programs) for path in program.inputs}
+        done: set[int] = set()
+        runs = self._program_runs(programs)
+        try:
+            for number, path in enumerate(discovered.files):
+                if progress is not None:
+                    progress(number, len(discovered.files), path)
+                if runs is not None and path in numbers and numbers[path] not in done:
+                    done.add(numbers[path])
+                    self._add(runs.part(numbers[path]))
+                name = self.request.input_name(path)
+                if name not in self.summaries and path not in self.workspace.failed:
+                    with self.workspace.guard(path):
+                        self._run_input(path)
+                self.summaries.setdefault(name, InputSummary(name, failed=True))
+                collect_garbage()
+        finally:
+            if runs is not None:
+                runs.close()
         self.workspace.close()
         files = [self.request.input_name(path) for path in discovered.files]
         notes = [*discovered.notes, *self.notes, *self._stale_entries(files)]
@@ -134,23 +135,38 @@ class _Run:
         )
         return Outcome(result, self.settings, notes, self.fixed, self.failing)
 
-    def _run_program(self, program: ProgramInput) -> None:
+    def _program_runs(self, programs: Sequence[ProgramInput]) -> "ProgramRuns | None":
+        """The results for programs; None if there are none."""
+        if not programs:
+            return None
+        from .program_runs import ProgramRuns
+
+        return ProgramRuns(self.workspace, programs, self._lint_program, self._result_depends_on())
+
+    def _result_depends_on(self) -> str | None:
+        """What the result for an input depends on besides its content and settings; None if it has other effects, or depends on other
+        inputs."""
+        if self.request.fix is not None or self.settings.fail_on_cost is not None or self.request.log or self.request.traceback:
+            return None
+        return repr((self.with_prices, self.with_savings, self.request.ignores, self.settings.min_severity))
+
+    def _lint_program(self, program: ProgramInput) -> RunPart:
+        """Lints a program; empty if it cannot be read."""
         file = self.workspace.open_program(program)
-        if file is not None:
-            self._run_file(file)
+        return self._lint(file) if file is not None else RunPart()
 
     def _run_input(self, path: str) -> None:
         file = self.workspace.open(path)
         if file is not None:
-            self._run_file(file)
+            self._add(self._lint(file))
 
-    def _run_file(self, file: InputFile) -> None:
+    def _lint(self, file: InputFile) -> RunPart:
         result = file.lint(prices=self.with_prices)
         if not isinstance(file.data, bytes):
             self.notes.extend(file.data.notes)
         if self.request.fix is not None:
             result = self._fix(file, result)
-        self._add(file, result)
+        return self._part(file, result)
 
     def _fix(self, file: InputFile, result: FileResult) -> FileResult:
         """Fixes an input; the result for its new contents, or the old result if it was not written."""
@@ -182,54 +198,63 @@ class _Run:
             return file.lint(fixed.data, prices=True) if self.with_prices else fixed.result
         return result
 
-    def _add(self, file: InputFile, result: FileResult) -> None:
-        """Adds the result of an input to the run's, after settings and baseline."""
-        for summary in input_summaries(file.data, result):
-            self.summaries[summary.file] = summary
+    def _part(self, file: InputFile, result: FileResult) -> RunPart:
+        """What an input adds to the result of the run, after settings and before the baseline."""
+        summaries = input_summaries(file.data, result)
+        sources = _sources_shown(result)
+        diagnostics: list[Finding] = []
+        for summary in summaries:
             if summary.unread is not None:
-                self._add_unread(summary.unread, summary.file, result, file.resolved.settings.strict_inputs)
-        self.workspace.sources |= _sources_shown(result)
-        settled = [found for found in map(file.resolved.selection.settle, result.findings) if found is not None]
-        if self.with_savings and any(found.fix is not None for found in settled):
-            if can_try_fixes(result) or self.settings.fail_on_cost is not None:
-                settled = self._try_fixes(file, result, settled)
-            else:
-                self.untried[result.file] = not isinstance(file.data, bytes)
-        findings, accepted = self._apply_baseline(settled)
-        self.findings.extend(findings)
-        self.suppressed.extend(result.suppressed)
+                # The text of an input that creates something multisampled but shows no pass to check.
+                source = result.sources.get(summary.file, result.source)
+                sources |= {summary.file: source} if source is not None else {}
+                if file.resolved.settings.strict_inputs:
+                    help = "check a capture or a description of its frame instead, or exclude the file"
+                    diagnostics.append(diagnostic("MSAA931", summary.unread.message, summary.file, summary.unread.span, help=help))
+        findings = [found for found in map(file.resolved.selection.settle, result.findings) if found is not None]
+        part = RunPart(diagnostics, findings, result.undecided, result.suppressed, summaries, sources)
+        if not self.with_savings or all(found.fix is None for found in findings):
+            return part
+        if can_try_fixes(result) or self.settings.fail_on_cost is not None:
+            return self._try_fixes(file, result, part)
+        return part._replace(untried={result.file: not isinstance(file.data, bytes)})
+
+    def _add(self, part: RunPart) -> None:
+        """Adds what an input adds to the result of the run, after the baseline."""
+        findings, accepted = self._apply_baseline(part.findings)
+        self.findings.extend([*part.diagnostics, *findings])
         self.accepted.extend(accepted)
-        self.undecided.extend(result.undecided)
+        self.undecided.extend(part.undecided)
+        self.suppressed.extend(part.suppressed)
+        self.summaries.update((summary.file, summary) for summary in part.summaries)
+        self.workspace.sources.update(part.sources)
+        self.workspace.findings.extend(part.problems)
+        self.workspace.failed.update(part.failed)
+        self.savings.update(part.savings)
+        self.failing.update(part.failing)
+        self.untried.update(part.untried)
 
-    def _add_unread(self, unread: Unread, name: str, result: FileResult, strict: bool) -> None:
-        """Keeps the text of an input that creates something multisampled but shows no pass to check; if `strict`, that is a finding."""
-        source = result.sources.get(name, result.source)
-        if source is not None:
-            self.workspace.sources[name] = source
-        if strict:
-            help = "check a capture or a description of its frame instead, or exclude the file"
-            self.findings.append(diagnostic("MSAA931", unread.message, name, unread.span, help=help))
-
-    def _try_fixes(self, file: InputFile, result: FileResult, settled: list[Finding]) -> list[Finding]:
-        """Determines what fixes of an input save; returns its findings with the reasons why fixes are not made."""
+    def _try_fixes(self, file: InputFile, result: FileResult, part: RunPart) -> RunPart:
+        """Determines what fixes of an input save, and adds to its findings the reasons why fixes are not made."""
         from .savings import savings, try_fixes
 
         description, lint = file.description(result)
         converted = not isinstance(file.data, bytes)
         fixable = file.fixable(result)
         trials = try_fixes(description, lint, fixable)
-        self.savings[result.file] = savings(description, trials, self.with_prices, converted)
+        part = part._replace(savings={result.file: savings(description, trials, self.with_prices, converted)})
         if self.settings.fail_on_cost is not None:
-            findings, _ = self._apply_baseline(settled)
+            findings, _ = self._apply_baseline(part.findings)
             failing = {finding_kind(found) for found in findings if is_confident(found, self.settings.fail_confidence)}
-            if len(failing) < len({finding_kind(found) for found in settled}):
+            if len(failing) < len({finding_kind(found) for found in part.findings}):
                 trials = try_fixes(description, lint, lambda found: finding_kind(found) in failing and fixable(found))
-            self.failing[result.file] = savings(description, trials, True, converted)
+            part = part._replace(failing={result.file: savings(description, trials, True, converted)})
         refusals = {finding_kind(failed.finding): failed.reason for failed in trials.all.failed_fixes}
-        return [
+        findings = [
             found._replace(fix=found.fix._replace(refusal=refusals.get(finding_kind(found), ""))) if found.fix else found
-            for found in settled
+            for found in part.findings
         ]
+        return part._replace(findings=findings)
 
     def _is_shown(self, found: Finding) -> bool:
         return found.fatal or rank(found.severity) >= rank(self.settings.min_severity)

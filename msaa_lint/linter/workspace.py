@@ -22,6 +22,7 @@ from msaa_lint.input.file_types import STDIN
 from .engine import Engine, LintOptions, load_rules
 from .fixes.fixer import Lint
 from .results import FileResult, finding_kind, unmerged
+from .rules.registry import folder as pages_folder
 from .rules.rule import EDITIONS
 from .run_limits import RunLimits
 from .settings.config import Configurations, Loaded
@@ -161,6 +162,8 @@ class Workspace:
         self._programs: list[ProgramInput] | None = None
         self.failed: set[str] = set()
         """The inputs that could not be read as part of a program."""
+        self.contents: dict[str, str] | None = None
+        """Names for the contents of the files of the program that was read last, if they are asked for."""
         self._limits = RunLimits()
         self._keys = Allowance() if request.keys is None else Allowance(request.keys)
         self.current = self.resolve(os.curdir)
@@ -212,6 +215,11 @@ class Workspace:
             self._engines[key] = Engine(registry, self._limits)
         return self._engines[key]
 
+    @property
+    def has_own_rules(self) -> bool:
+        """Whether a configuration names rule pages of the user, which have one budget for all inputs."""
+        return any(resolved.settings.rules for resolved in self._resolved.values())
+
     def broken_pages(self) -> list[str]:
         """The files of the custom rules that cannot be used."""
         return [page.page for engine in self._engines.values() for page in engine.registry.broken]
@@ -255,31 +263,31 @@ class Workspace:
         return InputFile(path, name, data, resolved, options, self.current.settings.min_severity, request.log)
 
     @cached_property
-    def _index(self) -> "Index":
+    def index(self) -> "Index":
         """The words of source files."""
         from msaa_lint.input.code.project.index import Index
 
-        return Index(os.getcwd(), lambda: self._cache)
+        return Index("\n".join([os.getcwd(), *self.request.paths]), lambda: self.cache)
 
     @cached_property
-    def _cache(self) -> "Cache | None":
+    def cache(self) -> "Cache | None":
         """What is kept between runs, if the request permits."""
         if not self.request.cache:
             return None
         from msaa_lint.core.cache import user_cache
         from msaa_lint.input.code.project.version import version
 
-        return user_cache(version())
+        return user_cache(version(pages_folder()))
 
     def close(self) -> None:
         """Keeps what the cache is for."""
-        if "_index" in self.__dict__:
-            self._index.close()
-        if (cache := self.__dict__.get("_cache")) is not None:
+        if "index" in self.__dict__:
+            self.index.close()
+        if (cache := self.__dict__.get("cache")) is not None:
             cache.close()
 
     def _speaks(self, path: str) -> bool:
-        return self._index.of_entry(path).speaks
+        return self.index.of_entry(path).speaks
 
     def _inputs_among(self, files: Mapping[str, str | None], related: Mapping[str, str]) -> list[str]:
         """The inputs among source files of folders: those of the programs that use multisampling."""
@@ -306,7 +314,7 @@ class Workspace:
                 else:
                     others[path] = related[path]
         projects = {path: project for path, project in files.items() if project is not None}
-        return [program for inputs, others in by_settings.values() for program in programs(inputs, others, projects, self._index)]
+        return [program for inputs, others in by_settings.values() for program in programs(inputs, others, projects, self.index)]
 
     def open_program(self, program: ProgramInput) -> InputFile | None:
         """Reads the files of a program, with a finding for each input that cannot be read; None if they cannot be read together."""
@@ -315,6 +323,10 @@ class Workspace:
             text._replace(definitions=definitions) if (text := self._text(path, path in inputs, root)) is not None else None
             for path, root, definitions in zip(program.paths, program.roots, program.definitions, strict=True)
         ]
+        if self.contents is not None:
+            from msaa_lint.core.cache import digest
+
+            self.contents = {path: digest(text.data) for path, text in zip(program.paths, texts, strict=True) if text is not None}
         kept = [number for number, text in enumerate(texts) if text is not None]
         position = {number: at for at, number in enumerate(kept)}
         read = [text for text in texts if text is not None]
@@ -329,7 +341,7 @@ class Workspace:
                 data = read_source_text(first)
             else:
                 includes = [[position[other] for other in program.includes[number] if other in position] for number in kept]
-                data = read_program(read, includes, [program.headers[number] for number in kept], self._cache)
+                data = read_program(read, includes, [program.headers[number] for number in kept], self.cache)
         except Unreadable:
             return None
         resolved = self.resolve(name)

@@ -11,48 +11,71 @@ from .languages import unread
 MAX_BYTES = 1 << 20
 """The number of bytes of a file that are searched."""
 
-_API = re.compile(
-    r"AttachmentDescription|AttachmentInfo|ImageCreateInfo|RenderPassCreateInfo|MultisampleStateCreateInfo|ResolveImage|SampleCounts"
-    r"|MTLRenderPass|MTLTexture|MTLRenderPipeline|[rR]asterSampleCount|TextureSampleCount|2DMS|subpassInputMS|gl_(?:Sample|NumSamples)"
-)
+Words = tuple[tuple[str, str], ...]
+"""Words, and the patterns of those that only count in some contexts: to search a text for a word takes far less time than for a pattern."""
+
+_API: Words = (
+    ("AttachmentDescription", ""), ("AttachmentInfo", ""), ("ImageCreateInfo", ""), ("RenderPassCreateInfo", ""),
+    ("MultisampleStateCreateInfo", ""), ("ResolveImage", ""), ("SampleCounts", ""), ("MTLRenderPass", ""), ("MTLTexture", ""),
+    ("MTLRenderPipeline", ""), ("asterSampleCount", ""), ("TextureSampleCount", ""), ("2DMS", ""), ("subpassInputMS", ""),
+    ("gl_Sample", ""), ("gl_NumSamples", ""),
+)  # fmt: skip
 """Structures, functions, and types that the rules check, from Vulkan, vulkan.hpp, Metal, and GLSL."""
 
-_MULTISAMPLING = re.compile(
-    r"msaa|multi[-_ ]?sampl(?!e_?state|ing_?state)|sample_?counts?(?!(?:flagbits)?(?:::e1\b|_1_bit))|(?:num|raster)_?samples|resolve_?image"
-    r"|2DMS|subpassInputMS|gl_(?:sample|numsamples)",
-    re.IGNORECASE,
+_MULTISAMPLING: Words = (
+    ("msaa", ""), ("multi", "multi[-_ ]?sampl(?!e_?state|ing_?state)"), ("2dms", ""), ("subpassinputms", ""), ("gl_sample", ""),
+    ("gl_numsamples", ""), ("sample", r"sample_?counts?(?!(?:flagbits)?(?:::e1\b|_1_bit))"), ("samples", "num_?samples"),
+    ("samples", "raster_?samples"), ("resolve", "resolve_?image"),
+)  # fmt: skip
+"""Words about multisampling, in lower case, except for the state that every pipeline has and the one sample that every image states."""
+
+_COUNT: Words = (
+    ("SAMPLE_COUNT_", "SAMPLE_COUNT_(?:2|4|8|16|32|64)_BIT"),
+    ("SampleCountFlagBits", r"SampleCountFlagBits::e(?:2|4|8|16|32|64)\b"),
 )
-"""Words about multisampling, except for the state that every pipeline has and the one sample that every image states."""
-
-
-_COUNT = re.compile(r"SAMPLE_COUNT_(?:2|4|8|16|32|64)_BIT|SampleCountFlagBits::e(?:2|4|8|16|32|64)\b")
 """A sample count above one."""
 
-
-_STATED = re.compile(
-    r"SAMPLE_COUNT_|SampleCountFlag|IMAGE_USAGE_|ImageUsageFlag|ATTACHMENT_(?:LOAD|STORE)_OP_|Attachment(?:Load|Store)Op|MTL(?:Load|Store)Action"
-)
+_STATED: Words = (
+    ("SAMPLE_COUNT_", ""), ("SampleCountFlag", ""), ("IMAGE_USAGE_", ""), ("ImageUsageFlag", ""), ("ATTACHMENT_LOAD_OP_", ""),
+    ("ATTACHMENT_STORE_OP_", ""), ("AttachmentLoadOp", ""), ("AttachmentStoreOp", ""), ("MTLLoadAction", ""), ("MTLStoreAction", ""),
+)  # fmt: skip
 """Counts, flags, and operations, which a program may state in one file and use in another."""
+
+_RELATED: Words = (
+    ("VK_", ""), ("MTL", ""), ("sampl", ""), ("Sampl", ""), ("SAMPL", ""), ("msaa", ""), ("Msaa", ""), ("MSAA", ""), ("multis", ""),
+    ("multiS", ""), ("Multis", ""), ("MultiS", ""), ("MULTIS", ""), ("vk::", r"\bvk::"), ("Vk", r"\bVk[A-Z]"),
+)  # fmt: skip
+"""What a file has that can matter to another one that uses multisampling."""
+
+
+def _has(text: str, words: Words) -> bool:
+    """Returns whether a text has one of some words."""
+    return any(word in text and (not pattern or re.search(pattern, text) is not None) for word, pattern in words)
+
+
+def is_related(text: str) -> bool:
+    """Returns whether a file can matter to others that use multisampling."""
+    return _has(text, _RELATED)
 
 
 def mentions_api(text: str) -> bool:
     """Returns whether a text mentions an API that the rules check."""
-    return _API.search(text) is not None
+    return _has(text, _API)
 
 
 def may_have_findings(text: str) -> bool:
     """Returns whether a text states what rules check in a program, such as a usage that it passes to a function of another file."""
-    return mentions_api(text) or _STATED.search(text) is not None
+    return mentions_api(text) or _has(text, _STATED)
 
 
 def mentions_multisampling(text: str) -> bool:
     """Returns whether a text mentions multisampling."""
-    return _MULTISAMPLING.search(text) is not None or _COUNT.search(text) is not None
+    return _has(text.lower(), _MULTISAMPLING) or _has(text, _COUNT)
 
 
 def speaks(text: str) -> bool:
     """Returns whether a text mentions both an API that the rules check and multisampling."""
-    return _API.search(text) is not None and _MULTISAMPLING.search(text) is not None
+    return mentions_api(text) and _has(text.lower(), _MULTISAMPLING)
 
 
 def file_speaks(path: str) -> bool:

@@ -7,7 +7,8 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Callable, Iterator
+import time
+from collections.abc import Callable, Iterator, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -25,6 +26,10 @@ MAX_BYTES = (4 << 20) + 1
 
 MIN_KEPT = 50
 """The number of files of a run whose words are not kept in a cache."""
+
+MIN_AGE = 2_000_000_000
+"""The age of a file in nanoseconds from which on another time of its last change shows that it was written: that of some file systems has a
+resolution of two seconds."""
 
 HEADERS = (".h", ".hpp", ".hh", ".hxx", ".h++", ".inl", ".ipp", ".tpp", ".inc")
 """The endings of files that sources include."""
@@ -48,6 +53,9 @@ _MAIN = re.compile(
 )
 """Where a program starts, also by the macro of a framework."""
 
+_MAINS = (b"main", b"Main", b"MAIN", b"SDL_AppInit")
+"""What files have in which a program starts: to search for it takes far less time."""
+
 _CLASS = re.compile(
     rb"\b(?:class|struct|@interface|@implementation)[ \t]+(?:[A-Z_0-9]+[ \t]+)?([A-Za-z_]\w*)(?=[ \t]*(?:final\b|:|\{|\r?$))", re.MULTILINE
 )
@@ -59,9 +67,6 @@ _API = re.compile(
     r"|_extension_inspection|_hpp_macros)?\.(?:h|hpp|cppm)|vk_(?:platform|layer|icd|mem_alloc|enum_string_helper)\.h|volk\.[ch]"
 )
 """The names of files of Vulkan itself and of its allocator, whose definitions are known."""
-
-_RELATED = re.compile(rb"VK_|\bVk[A-Z]|\bvk::|MTL|[sS]ampl|SAMPL|[mM]saa|MSAA|[mM]ulti[sS]|MULTIS")
-"""What a file has that can matter to another one that uses multisampling."""
 
 
 class Words(NamedTuple):
@@ -89,11 +94,12 @@ def words(data: bytes) -> Words:
     includes = dict.fromkeys(name.decode("utf-8", "replace").replace("\\", "/") for name in _INCLUDE.findall(data))
     if b"fn " in data:
         includes.update(dict.fromkeys(_modules(data)))
-    has_main = _MAIN.search(data) is not None
-    if _RELATED.search(data) is None:
+    has_main = any(word in data for word in _MAINS) and _MAIN.search(data) is not None
+    text = data.decode("latin-1")
+    if not mentions.is_related(text):
         return Words(length, tuple(includes), frozenset(), has_main, False, False, False, False)
     names = {name.decode() for pattern in (_CLASS, _FUNCTION) for name in pattern.findall(data)}
-    text = data[: mentions.MAX_BYTES].decode("latin-1")
+    text = text[: mentions.MAX_BYTES]
     has_api = mentions.may_have_findings(text)
     speaks = has_api and mentions.speaks(text)
     multisampled = speaks or mentions.mentions_multisampling(text)
@@ -110,78 +116,146 @@ def _modules(data: bytes) -> Iterator[str]:
 
 
 class Index:
-    """The words of the files of a run. With a cache, files that are as they were in an earlier run are not searched again, apart from the
-    first `MIN_KEPT`: a few files take less time than what they were kept in. `cache` opens it, when it is needed."""
+    """The words of the files of a run. With a cache, files that are as they were in an earlier run are not read again, apart from the
+    first `MIN_KEPT`: a few files take less time than what they were kept in. `cache` opens it, when it is needed, and `name` is that of
+    the run."""
 
-    def __init__(self, folder: str, cache: Callable[[], Cache | None]) -> None:
-        self.folder = folder
+    def __init__(self, name: str, cache: Callable[[], Cache | None]) -> None:
+        self.name = name
         self.by_path: dict[str, Words] = {}
         self._open = cache
-        self._used: dict[str, list[Any]] = {}
+        self._start = time.time_ns()
+        self._used = _Kept({}, {})
+        self._contents: dict[str, str] = {}
 
     @cached_property
     def _cache(self) -> Cache | None:
         return self._open()
 
     @cached_property
-    def _known(self) -> dict[str, list[Any]]:
-        """The words of the files of an earlier run in the folder."""
-        data = self._cache.read("words", self.folder) if self._cache is not None else None
+    def _known(self) -> _Kept:
+        """What an earlier run kept."""
+        data = self._cache.read("words", self.name) if self._cache is not None else None
         if data is None:
-            return {}
+            return _Kept({}, {})
         import orjson
 
         try:
-            known: dict[str, list[Any]] = orjson.loads(data)
-        except ValueError:
-            return {}
-        return known
+            return _Kept(*orjson.loads(data))
+        except (TypeError, ValueError):
+            return _Kept({}, {})
 
     def close(self) -> None:
         """Keeps the words of the files of this run."""
-        if self._used and self._cache is not None and self._used.keys() != self._known.keys():
+        if self._used.files and self._cache is not None and self._used != self._known:
             import orjson
 
-            self._cache.write("words", self.folder, orjson.dumps(self._used))
+            self._cache.write("words", self.name, orjson.dumps(list(self._used)))
+
+    def length(self, path: str) -> int:
+        """The number of bytes of a file whose words are known, or 0."""
+        return self.by_path[path].length if path in self.by_path else 0
+
+    def content(self, path: str, project: str | None) -> str | None:
+        """A name for the content of a file; None if it cannot be read."""
+        if path not in self._contents:
+            from msaa_lint.core.cache import digest
+
+            data = _content(path, project)
+            if data is None:
+                return None
+            self._contents[path] = digest(data)
+        return self._contents[path]
 
     def of_entry(self, path: str) -> Words:
         """The words of a regular file, according to the listing of its folder. Raises OSError if it cannot be read."""
+        known = self._unchanged(path)
+        if known is not None:
+            return known
         with open_entry(path) as file:
+            status = os.fstat(file.fileno())
             # Python allocates as much memory as it is asked to read.
-            return self.add(shown(path), file.read(min(os.fstat(file.fileno()).st_size, MAX_BYTES)))
+            return self._add(shown(path), file.read(min(status.st_size, MAX_BYTES)), status)
 
     def of(self, path: str, project: str | None) -> Words | None:
         """The words of a file; None if it cannot be read. A pipe is not read twice."""
         if path not in self.by_path:
-            try:
-                file, size = open_file(path, project)
-                with file:
-                    if size is not None:
-                        self.add(path, file.read(min(size, MAX_BYTES)))
-            except OSError:
-                return None
+            data = _content(path, project)
+            if data is not None:
+                self._add(path, data)
         return self.by_path.get(path)
 
-    def add(self, path: str, data: bytes) -> Words:
+    def _unchanged(self, path: str) -> Words | None:
+        """The words of a file that has not been written since an earlier run."""
+        if len(self.by_path) < MIN_KEPT or os.name != "posix" or self._cache is None:
+            return None
+        name = shown(path)
+        known = self._known.files.get(name)
+        if known is None or known[1:] != _state(os.lstat(path)):
+            return None
+        members = self._known.words.get(known[0])
+        found = _words(members) if members is not None else None
+        if found is not None and members is not None:
+            self._contents[name] = known[0]
+            self._used.files[name] = known
+            self._used.words[known[0]] = members
+            self.by_path[name] = found
+        return found
+
+    def _add(self, path: str, data: bytes, status: os.stat_result | None = None) -> Words:
         if unread(path, data[:HEAD_BYTES].decode("latin-1")) is not None:
             found = Words(len(data), (), frozenset(), False, False, False, False, False)
+        elif len(self.by_path) < MIN_KEPT or self._cache is None:
+            found = words(data)
         else:
-            found = words(data) if len(self.by_path) < MIN_KEPT or self._cache is None else self._kept(data)
+            found = self._kept(path, data, status)
         self.by_path[path] = found
         return found
 
-    def _kept(self, data: bytes) -> Words:
+    def _kept(self, path: str, data: bytes, status: os.stat_result | None) -> Words:
         """The words of a file, from the cache if it has them."""
         from msaa_lint.core.cache import digest
 
-        key = digest(data)
-        members = self._known.get(key)
-        try:
-            found = Words(members[0], tuple(members[1]), frozenset(members[2]), *members[3:]) if members is not None else words(data)
-        except (TypeError, IndexError):
+        key = self._contents[path] = digest(data)
+        members = self._known.words.get(key)
+        found = _words(members) if members is not None else None
+        if found is None or members is None:
             found = words(data)
-        self._used[key] = members if members is not None else [found.length, found.includes, sorted(found.names), *found[3:]]
+            members = [found.length, list(found.includes), sorted(found.names), *found[3:]]
+        self._used.words[key] = members
+        if status is not None and max(status.st_mtime_ns, status.st_ctime_ns) < self._start - MIN_AGE:
+            self._used.files[path] = [key, *_state(status)]
         return found
+
+
+class _Kept(NamedTuple):
+    """What is kept of files between runs: by path, a name for the content and the state, and by these names, the members of the words."""
+
+    files: dict[str, list[Any]]
+    words: dict[str, list[Any]]
+
+
+def _state(status: os.stat_result) -> list[int]:
+    """What differs for a file if it has been written: nobody can set when its state changed last."""
+    return [status.st_mode, status.st_size, status.st_mtime_ns, status.st_ctime_ns, status.st_ino]
+
+
+def _words(members: Sequence[Any]) -> Words | None:
+    """The words that have some members."""
+    try:
+        return Words(members[0], tuple(members[1]), frozenset(members[2]), *members[3:])
+    except (TypeError, IndexError):
+        return None
+
+
+def _content(path: str, project: str | None) -> bytes | None:
+    """The bytes of a file; None if it cannot be read."""
+    try:
+        file, size = open_file(path, project)
+        with file:
+            return file.read(min(size, MAX_BYTES)) if size is not None else None
+    except OSError:
+        return None
 
 
 def is_api(path: str) -> bool:

@@ -5,10 +5,7 @@ The files of a program are read as if they were one text: each place in a file h
 
 from __future__ import annotations
 
-import io
-import pickle
-from typing import Any
-
+from msaa_lint.core import serialized
 from msaa_lint.core.text.node import Node
 from msaa_lint.core.text.span import Span
 from msaa_lint.frame.description.document import Basis
@@ -17,20 +14,17 @@ from msaa_lint.input.code.parsing import Read, Unread
 from msaa_lint.input.code.places import Piece
 from msaa_lint.input.code.programs import FileSyntax
 
-PROTOCOL = 5
-"""The version of the format, so that it does not depend on that of Python."""
-
-_TYPES = {(kind.__module__, kind.__name__): kind for kind in (Basis, FileSyntax, Function, Node, Parameter, Piece, Read, Unit, Unread)}
+_TYPES = serialized.by_name(Basis, FileSyntax, Function, Node, Parameter, Piece, Read, Span, Unit, Unread)
 
 
 def dumps(content: FileSyntax | list[Read]) -> bytes:
     """Returns the syntax of a file, or what a program creates, as bytes. Raises RecursionError if it nests too deeply."""
-    return pickle.dumps(content, PROTOCOL)
+    return serialized.dumps(content)
 
 
 def loads(data: bytes, offset: int) -> FileSyntax:
     """Returns the syntax of a file that bytes hold, with an offset added to each place. Raises ValueError for other bytes."""
-    syntax = _load(data, offset)
+    syntax = serialized.loads(data, {**_TYPES, (Span.__module__, Span.__name__): _span_type(offset)} if offset else _TYPES)
     if not isinstance(syntax, FileSyntax):
         raise ValueError("not the syntax of a file")
     for _, _, node in syntax.choices if offset else ():
@@ -40,38 +34,13 @@ def loads(data: bytes, offset: int) -> FileSyntax:
 
 def loads_reads(data: bytes) -> list[Read]:
     """Returns what a program creates that bytes hold. Raises ValueError for other bytes."""
-    reads = _load(data, 0)
+    reads = serialized.loads(data, _TYPES)
     if not isinstance(reads, list) or not all(isinstance(read, Read) for read in reads):
         raise ValueError("not what a program creates")
     return reads
 
 
-def _load(data: bytes, offset: int) -> object:
-    try:
-        return _Reader(data, offset).load()
-    except RecursionError:
-        raise
-    except Exception as error:
-        raise ValueError(str(error)) from None
-
-
-class _Reader(pickle.Unpickler):
-    """Reads tuples of the known types. It looks no other name up, so that nothing that the bytes state is executed."""
-
-    def __init__(self, data: bytes, offset: int) -> None:
-        super().__init__(io.BytesIO(data))
-        self.span = _span_type(offset) if offset else Span
-
-    def find_class(self, module: str, name: str) -> Any:
-        if (module, name) == (Span.__module__, Span.__name__):
-            return self.span
-        kind = _TYPES.get((module, name))
-        if kind is None:
-            raise ValueError(f"unexpected type {module}.{name}")
-        return kind
-
-
-def _span_type(offset: int) -> type:
+def _span_type(offset: int) -> type[Span]:
     class Moved(Span):
         """Creates places with the offset added."""
 

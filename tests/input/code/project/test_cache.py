@@ -9,6 +9,8 @@ import pytest
 
 from msaa_lint.core import cache
 from msaa_lint.core.cache import Cache, user_cache
+from msaa_lint.core.text.files import open_entry
+from msaa_lint.input.code.project.index import MIN_KEPT
 from msaa_lint.input.code.project.serialized import loads, loads_reads
 from tests.command import Done, run
 from tests.input.code.project.test_folders import PASS, settings, write
@@ -36,7 +38,7 @@ def entries(kept: Path) -> list[Path]:
 def test_a_second_run_says_the_same(project: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     first = check(project, tmp_path / "kept")
     assert "MSAA201" in first.stdout
-    assert [entry.stat().st_mode & 0o777 for entry in entries(tmp_path / "kept")] == [0o600]
+    assert {entry.stat().st_mode & 0o777 for entry in entries(tmp_path / "kept")} == {0o600}
 
     def read(*_: object) -> None:
         raise AssertionError("the program is read again")
@@ -44,6 +46,65 @@ def test_a_second_run_says_the_same(project: Path, tmp_path: Path, monkeypatch: 
     monkeypatch.setattr("msaa_lint.input.code.project.reading.file_syntax", read)
     second = check(project, tmp_path / "kept")
     assert (second.stdout, second.returncode) == (first.stdout, first.returncode)
+
+
+def test_a_second_run_lints_nothing(project: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    first = check(project, tmp_path / "kept")
+
+    def lint(*_: object) -> None:
+        raise AssertionError("the program is linted again")
+
+    with monkeypatch.context() as patch:
+        patch.setattr("msaa_lint.linter.engine.Engine.lint", lint)
+        second = check(project, tmp_path / "kept")
+        other = check(project, tmp_path / "kept", "--ignore", "MSAA201")
+    assert (second.stdout, second.returncode) == (first.stdout, first.returncode)
+    assert "MSAA941" in other.stdout
+    assert "MSAA201" not in check(project, tmp_path / "kept", "--ignore", "MSAA201").stdout
+
+
+def test_a_run_of_many_programs_says_the_same_as_their_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Above `MIN_DIVIDED`, processes divide the programs."""
+    filler = "".join(f"void unrelated_{number}(int a) {{ work(a + {number}); }}\n" for number in range(4000))
+    for name in "abc":
+        write(tmp_path / name, {"pass.cpp": PASS + filler, "settings.h": settings(4)})
+    divided = run(tmp_path, "check", "a", "b", "c", "--isolated", "--no-cache", "--output", "json")
+    monkeypatch.setattr("msaa_lint.linter.program_runs.MIN_DIVIDED", 1 << 40)
+    assert divided.stdout == run(tmp_path, "check", "a", "b", "c", "--isolated", "--no-cache", "--output", "json").stdout
+    assert divided.stdout.count("MSAA201") == 3
+
+
+@pytest.fixture
+def many(tmp_path: Path) -> Path:
+    """A project with more files than are read in any case, all of them old."""
+    folder = tmp_path / "many"
+    write(folder, {f"other{number:03}.cpp": f"int other{number};\n" for number in range(MIN_KEPT + 10)})
+    write(folder, {"pass.cpp": PASS + FILLER, "settings.h": settings(4)})
+    for path in folder.iterdir():
+        os.utime(path, (1, 1))
+    return folder
+
+
+def test_files_that_have_not_been_written_are_not_opened(many: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("msaa_lint.input.code.project.index.MIN_AGE", -(10**12))
+    first = check(many, tmp_path / "kept")
+    opened = []
+    monkeypatch.setattr("msaa_lint.input.code.project.index.open_entry", lambda path: opened.append(path) or open_entry(path))
+    assert check(many, tmp_path / "kept").stdout == first.stdout
+    assert len(opened) == MIN_KEPT
+    # Neither the size nor the time of modification shows it.
+    write(many, {"settings.h": settings(1)})
+    os.utime(many / "settings.h", (1, 1))
+    assert "MSAA201" not in check(many, tmp_path / "kept").stdout
+
+
+def test_files_that_are_too_young_are_read_again(many: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Within the resolution of times, another content may have the same."""
+    check(many, tmp_path / "kept")
+    opened = []
+    monkeypatch.setattr("msaa_lint.input.code.project.index.open_entry", lambda path: opened.append(path) or open_entry(path))
+    check(many, tmp_path / "kept")
+    assert len(opened) == len(list(many.iterdir()))
 
 
 def test_a_file_that_changes_is_read_again(project: Path, tmp_path: Path) -> None:
@@ -62,18 +123,17 @@ def test_no_cache_keeps_nothing(project: Path, tmp_path: Path) -> None:
 @pytest.mark.parametrize("damage", [b"", b"\x00" * 40, None])
 def test_a_damaged_entry_is_ignored(project: Path, tmp_path: Path, damage: bytes | None) -> None:
     first = check(project, tmp_path / "kept")
-    (entry,) = entries(tmp_path / "kept")
-    entry.write_bytes(entry.read_bytes()[:-1] if damage is None else damage)
+    for entry in entries(tmp_path / "kept"):
+        entry.write_bytes(entry.read_bytes()[:-1] if damage is None else damage)
     assert check(project, tmp_path / "kept").stdout == first.stdout
 
 
 def test_entries_that_others_could_have_written_are_ignored(project: Path, tmp_path: Path) -> None:
     check(project, tmp_path / "kept")
-    (entry,) = entries(tmp_path / "kept")
-    name = entry.name
+    names = {entry.name for entry in entries(tmp_path / "kept")}
     kept = Cache(str(tmp_path / "kept" / "msaa-lint"), "1")
     kept.write("program", "x", b"content")
-    (own,) = (each for each in entries(tmp_path / "kept") if each.name != name)
+    (own,) = (each for each in entries(tmp_path / "kept") if each.name not in names)
     assert kept.read("program", "x") == b"content"
     own.chmod(0o666)
     assert kept.read("program", "x") is None

@@ -1,0 +1,13 @@
+"""When garbage is collected: the command line disables the collector, but the passes and attachments of a frame refer to each other."""
+
+import gc
+
+MAX_GARBAGE = 200_000
+"""Container objects allocated since the last collection before another one runs."""
+
+
+def collect_garbage() -> None:
+    """Collects garbage between inputs, if there is much of it."""
+    if gc.get_count()[0] > MAX_GARBAGE:
+        # Not the oldest generation: the results so far are no garbage, and are not gone through again after each input.
+        gc.collect(1)
