@@ -9,9 +9,11 @@ import pytest
 
 from msaa_lint.core.text.node import Node
 from msaa_lint.frame.description.models import SampleCountChoice, SampleCountLimit
-from msaa_lint.input.code.parsing import Code, tree
-from msaa_lint.input.code.sample_counts.choices import choices
+from msaa_lint.input.code.c import description_trees as c_trees
+from msaa_lint.input.code.parsing import Code
+from msaa_lint.input.code.rust import description_trees as rust_trees
 from msaa_lint.input.code.sample_counts.masks import LIMITS
+from msaa_lint.input.code.sample_counts.program_formats import with_formats
 from msaa_lint.input.source_file import read_source_file
 from msaa_lint.linter.engine import LintOptions
 from tests.test_rules import ENGINE, as_written, lint
@@ -29,8 +31,9 @@ def plain(node: Node) -> Any:
 
 
 def read(text: str, language: str = "cpp") -> dict[str, dict[str, Any]]:
-    code = Code(text, language)
-    return {name: plain(node) for name, _, node in choices(tree(code).root_node, code)}
+    trees = rust_trees if language == "rust" else c_trees
+    syntax = trees.file_syntax(Code(text, language))
+    return {name: plain(node) for name, _, node in with_formats(syntax.choices, syntax.unit)}
 
 
 def only(text: str, language: str = "cpp") -> dict[str, Any]:
@@ -276,7 +279,8 @@ def test_a_format_beside_the_count(use: str) -> None:
 
 def test_a_count_that_a_constructor_keeps() -> None:
     kept = "App::App(Gpu& gpu) : samples(gpu.pick(p)), depth(gpu, gpu.findDepthFormat(), samples) {}"
-    assert only(function(chain([(4, 4)])) + DEPTH_FORMAT + kept)["formats"] == ["D32_SFLOAT", "D24_UNORM_S8_UINT"]
+    formats = DEPTH_FORMAT.replace("findDepthFormat", "Gpu::findDepthFormat")
+    assert only(function(chain([(4, 4)]), "Gpu::pick") + formats + kept)["formats"] == ["D32_SFLOAT", "D24_UNORM_S8_UINT"]
 
 
 def test_stencil_that_is_asked_or_not_there() -> None:
@@ -292,7 +296,12 @@ def test_caps() -> None:
     assert fired(from_above + "void f() { samples = std::min(pick(p), VK_SAMPLE_COUNT_4_BIT); }") == []
     assert fired(from_above + "void f() { auto most = pick(p); samples = std::min(most, VK_SAMPLE_COUNT_2_BIT); }") == []
     assert only(from_above + "void f() { auto most = pick(p); samples = MIN(settings.msaa, most); }").get("chosen") is None
-    assert only(from_above + "void f() { m_max = pick(p); } void g(int n) { if (n > m_max) n = m_max; }").get("chosen") is None
+    assert (
+        only(from_above + "void f() { m_max = pick(p); } void g(int sampleCount) { if (sampleCount > m_max) sampleCount = m_max; }").get(
+            "chosen"
+        )
+        is None
+    )
     assert only(from_above + "void f() { m_max = pick(p); if (m_max > VK_SAMPLE_COUNT_1_BIT) resolve(); }")["chosen"] == "MAXIMUM"
 
 
@@ -375,3 +384,100 @@ def test_hostile_code_ends_soon(n: int) -> None:
     begun = time.process_time()
     read(HOSTILE[n])
     assert time.process_time() - begun < 5
+
+
+RUST_MASK = """let limits = instance.get_physical_device_properties(device).limits;
+let counts = limits.framebuffer_color_sample_counts & limits.framebuffer_depth_sample_counts;
+"""
+RUST_TEST = "if counts.contains(vk::SampleCountFlags::TYPE_{0}) {{ return vk::SampleCountFlags::TYPE_{1}; }}"
+RUST_STYLES = {
+    "ifs": chain(DESCENDING, RUST_TEST) + "vk::SampleCountFlags::TYPE_1",
+    "else if": " else ".join(
+        f"if counts.contains(vk::SampleCountFlags::TYPE_{n}) {{ vk::SampleCountFlags::TYPE_{n} }}" for n, _ in DESCENDING
+    )
+    + " else { vk::SampleCountFlags::TYPE_1 }",
+    "a variable": "let best = "
+    + " else ".join(f"if counts.contains(vk::SampleCountFlags::TYPE_{n}) {{ vk::SampleCountFlags::TYPE_{n} }}" for n, _ in DESCENDING)
+    + " else { vk::SampleCountFlags::TYPE_1 }; best",
+    "intersects": chain(DESCENDING, RUST_TEST.replace("contains", "intersects")) + "vk::SampleCountFlags::TYPE_1",
+    "is_empty": chain(
+        DESCENDING, "if !(counts & vk::SampleCountFlags::TYPE_{0}).is_empty() {{ return vk::SampleCountFlags::TYPE_{1}; }}"
+    ),
+    "equal": chain(
+        DESCENDING,
+        "if (counts & vk::SampleCountFlags::TYPE_{0}) == vk::SampleCountFlags::TYPE_{0} {{ return vk::SampleCountFlags::TYPE_{1}; }}",
+    ),
+    "not empty": chain(
+        DESCENDING,
+        "if counts & vk::SampleCountFlags::TYPE_{0} != vk::SampleCountFlags::empty() {{ return vk::SampleCountFlags::TYPE_{1}; }}",
+    ),
+    "vulkanalia": "[" + ", ".join(f"vk::SampleCountFlags::_{n}" for n, _ in DESCENDING) + "]"
+    ".iter().cloned().find(|c| counts.contains(*c)).unwrap_or(vk::SampleCountFlags::_1)",
+    "filtered": "[" + ", ".join(f"vk::SampleCountFlags::TYPE_{n}" for n, _ in DESCENDING) + "]"
+    ".into_iter().filter(|&c| counts.contains(c)).next().unwrap()",
+    "reversed": "[" + ", ".join(f"vk::SampleCountFlags::TYPE_{n}" for n, _ in reversed(DESCENDING)) + "]"
+    ".into_iter().rev().find(|&c| counts.contains(c)).unwrap()",
+    "a loop": "for count in [" + ", ".join(f"vk::SampleCountFlags::TYPE_{n}" for n, _ in DESCENDING) + "]"
+    " { if counts.contains(count) { return count; } } vk::SampleCountFlags::TYPE_1",
+    "halved": "let mut count = 64; while count > 1 { if counts.as_raw() & count != 0 { return count; } count >>= 1; } 1",
+    "vulkano": chain(DESCENDING, "if counts.intersects(SampleCounts::SAMPLE_{0}) {{ return SampleCount::Sample{1}; }}"),
+}  # fmt: skip
+
+
+def rust(body: str) -> str:
+    return f"use ash::vk;\nfn pick(instance: &Instance, device: vk::PhysicalDevice) -> vk::SampleCountFlags {{\n{RUST_MASK}{body}\n}}\n"
+
+
+@pytest.mark.parametrize("style", RUST_STYLES)
+def test_a_choice_in_rust(style: str) -> None:
+    found = only(rust(RUST_STYLES[style]), "rust")
+    assert (found["limits"], found["combined"]) == ([COLOR, DEPTH], "AND")
+    assert (found["chosen"], found["atMost"]) == ("MAXIMUM", 64)
+    assert asked(found) == DESCENDING
+
+
+@pytest.mark.parametrize(
+    ("masks", "combined", "at"),
+    [
+        ("limits.framebuffer_color_sample_counts.min(limits.framebuffer_depth_sample_counts)", "MIN", "min"),
+        ("std::cmp::min(limits.framebuffer_color_sample_counts, limits.framebuffer_depth_sample_counts)", "MIN", "std::cmp::min"),
+        ("limits.framebuffer_color_sample_counts.max(limits.framebuffer_depth_sample_counts)", "MAX", "max"),
+        ("limits.framebuffer_color_sample_counts | limits.framebuffer_depth_sample_counts", "OR", "|"),
+    ],
+)
+def test_masks_that_rust_compares(masks: str, combined: str, at: str) -> None:
+    text = rust(f"let counts = {masks};\n{chain([(4, 4), (2, 2)], RUST_TEST)}\nvk::SampleCountFlags::TYPE_1")
+    assert only(text, "rust")["combined"] == combined
+    name = "example.rs"
+    linted = ENGINE.lint(read_source_file(text.encode(), name, "rust"), name, LintOptions(as_written))
+    (found,) = [item for item in linted.findings if item.code[:6] == "MSAA85"]
+    assert found.span is not None
+    assert (found.code, text[found.span.start : found.span.end]) == ("MSAA852", at)
+
+
+RUST_CLEAN = {
+    "from four": chain([(4, 4), (2, 2)], RUST_TEST),
+    "by the user": "if counts.contains(wanted) { wanted } else { vk::SampleCountFlags::TYPE_1 }",
+    "by the user, listed": "[vk::SampleCountFlags::TYPE_8, vk::SampleCountFlags::TYPE_4].into_iter()"
+    ".find(|&c| c <= wanted && counts.contains(c)).unwrap_or(vk::SampleCountFlags::TYPE_1)",
+    "by a setting": "if counts.contains(vk::SampleCountFlags::TYPE_8) && wanted >= 8 { return vk::SampleCountFlags::TYPE_8; }",
+    "capped": f"let best = {{ {chain(DESCENDING, RUST_TEST.replace('return ', '').replace('; }}', ' }}'))} }}; best.min(wanted)",
+}
+
+
+@pytest.mark.parametrize("name", RUST_CLEAN)
+def test_what_must_not_be_found_in_rust(name: str) -> None:
+    text = rust(RUST_CLEAN[name])
+    linted = ENGINE.lint(read_source_file(text.encode(), "example.rs", "rust"), "example.rs", LintOptions(as_written))
+    assert [item.code for item in linted.findings if item.code[:6] == "MSAA85"] == []
+
+
+def test_a_depth_format_of_a_count_that_rust_chooses() -> None:
+    use = """
+fn create(device: &ash::Device, samples: vk::SampleCountFlags) {
+    let info = vk::ImageCreateInfo::default().format(vk::Format::D24_UNORM_S8_UINT).samples(samples);
+}
+fn main() { let samples = pick(&instance, physical); create(&device, samples); }
+"""
+    text = rust(chain([(4, 4)], RUST_TEST) + "vk::SampleCountFlags::TYPE_1") + use
+    assert only(text, "rust")["formats"] == ["D24_UNORM_S8_UINT"]

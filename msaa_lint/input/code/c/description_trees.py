@@ -54,8 +54,8 @@ def syntax_of(code: Code, whole: str, unit: Unit, root: SyntaxNode, calls_metal:
     """Returns what is known of a file of any of the languages that C is a part of. `whole` is its text as written."""
     return FileSyntax(
         unit,
-        # Sample count masks have this in their name, whatever their source.
-        choices(root, code) if "ampleCounts" in code.text else (),
+        # Sample count masks have this in their name or type, whatever their source.
+        choices(unit, code.text) if "ampleCounts" in code.text or "ampleCountFlags" in code.text else (),
         _VULKAN.search(whole) is not None,
         _WAITS.search(whole) is not None,
         _FRAMES.search(whole) is not None,

@@ -48,12 +48,13 @@ class Statements(Declarations):
         if kind in ("for_statement", "while_statement", "do_statement"):
             first, test, update, body = fields(node, "initializer", "condition", "update", "body")
             terms = self.declared(first, depth) if first is not None and first.type == "declaration" else []
+            before = [(DO, self.expression(first, depth), at)] if first is not None and not terms else []
             nested = self.nested_statements(body, depth)
             if update is not None:
                 nested.append((DO, self.expression(update, depth), at))
             if test is not None:
                 nested.insert(0, (DO, self.expression(test, depth), at))
-            return nested if kind == "do_statement" else [(LOOP, tuple(terms), None, tuple(nested), at)]
+            return nested if kind == "do_statement" else [*before, (LOOP, tuple(terms), None, tuple(nested), at)]
         if kind == "for_range_loop":
             over, body, type_node, declarator = fields(node, "right", "body", "type", "declarator")
             name, _, indirect = self.declarator(declarator)

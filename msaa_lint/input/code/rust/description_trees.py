@@ -7,6 +7,7 @@ import re
 from msaa_lint.input.code.core.assumed_values import assuming
 from msaa_lint.input.code.parsing import Code, Read, tree
 from msaa_lint.input.code.programs import FileSyntax, executed
+from msaa_lint.input.code.sample_counts.choices import choices
 
 from .syntax import prepared, unit
 
@@ -17,7 +18,8 @@ def file_syntax(code: Code) -> FileSyntax:
     """Returns what is known of a file or of a page's fragments. Raises `Missing` if the grammar is not installed."""
     code = prepared(code)
     known = unit(code, tree(code).root_node)
-    return FileSyntax(known, (), _VULKAN.search(code.text) is not None, True, False, len(code.text), language=code.language)
+    counts = choices(known, code.text) if "ample_counts" in code.text else ()
+    return FileSyntax(known, counts, _VULKAN.search(code.text) is not None, True, False, len(code.text), language=code.language)
 
 
 def trees(code: Code) -> list[Read]:

@@ -307,7 +307,8 @@ class Expressions(SyntaxReader, ABC):
             calls = tuple((CALL, self.expression(node, depth), (term,), span(node)) for node in nodes if node.type == "closure_expression")
             return (BINARY, ",", calls[0], (UNPARSED, "", at), at)
         if name in ("min", "max") and len(nodes) == 1:
-            return (CALL, (NAME, name, at), (term, self.expression(nodes[0], depth)), at)
+            called = (NAME, name, span(member) if member is not None else at)
+            return (CALL, called, (term, self.expression(nodes[0], depth)), at)
         short = {"len": "size"}.get(name, name)
         self.note_call(short)
         return (CALL, (FIELD, term, short, span(member) if member is not None else at), tuple(self.expression(n, depth) for n in nodes), at)

@@ -1,1 +1,1 @@
-"""How C and C++ choose a sample count."""
+"""How programs choose a sample count."""

@@ -1,13 +1,16 @@
-"""Loops in C and C++ over known sample counts: over a list, or halving a count until its bit is set."""
+"""Loops over known sample counts: over a list, or halving a count until its bit is set."""
+
+from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from msaa_lint.core.text.span import Span
-from msaa_lint.input.code.parsing import SyntaxNode, fields, span, without_comments
+from msaa_lint.input.code.core.terms import ASSIGN, BINARY, DECLARE, DO, UNARY, Term
 
 from .arithmetic import arithmetic
-from .masks import Bindings, Expressions, Mask, Order, Value
+from .masks import Bindings, Expressions, Mask, Order, name_of
+from .statements import statements
 
 MAX_ROUNDS = 16
 """The maximum number of iterations; there are seven counts."""
@@ -15,138 +18,111 @@ MAX_ROUNDS = 16
 _TO_THE_END = re.compile(r"size|Size|count|Count|_countof|end\b|ARRAY")
 
 
-def loop_iterations(node: SyntaxNode, expressions: Expressions, bindings: Bindings) -> Iterator[Bindings]:
+def parts_of(loop: Term) -> tuple[Term | None, Term | None, Sequence[Term]]:
+    """Returns the condition of a loop, its step, and what it repeats between them."""
+    body = list(loop[3])
+    test = body.pop(0)[1] if body and body[0][0] == DO and not _is_step(body[0][1]) else None
+    step = body.pop()[1] if body and body[-1][0] == DO and _is_step(body[-1][1]) else None
+    inner = list(statements(body))
+    if step is None and inner and inner[-1][0] == DO and _is_step(inner[-1][1]):
+        step = inner.pop()[1]
+    return test, step, inner
+
+
+def loop_iterations(loop: Term, expressions: Expressions, bindings: Bindings) -> Iterator[Bindings]:
     """Yields the values of variables in each iteration of a loop over counts; nothing if its bounds are unknown."""
-    if node.type == "for_range_loop":
-        order = expressions.value(node.child_by_field_name("right"), bindings)
-        name = expressions.name(_declared_name(node.child_by_field_name("declarator")))
+    declared, over = loop[1], loop[2]
+    if over is not None:
+        order = expressions.value(over, bindings)
+        name = declared[0][2] if len(declared) == 1 else ""
         for count in order.counts[:MAX_ROUNDS] if isinstance(order, Order) and name else ():
             yield {**bindings, name: count}
         return
-    start = _loop_start(node, expressions, bindings)
-    update, condition = fields(node, "update", "condition")
-    if start is None or update is None:
+    condition, step, _ = parts_of(loop)
+    start = _start(loop, step, expressions, bindings)
+    if start is None or step is None:
         return
     name, value = start
     for _ in range(MAX_ROUNDS):
         inner = {**bindings, name: value}
         holds = expressions.value(condition, inner) if condition is not None else 1
-        if holds == 0 or not (isinstance(holds, int) or (condition is not None and _TO_THE_END.search(expressions.text_of(condition)))):
+        if holds == 0 or not (isinstance(holds, int) or (condition is not None and _TO_THE_END.search(expressions.written(condition)))):
             return
         yield inner
-        step = _loop_step(update, expressions, inner)
-        if step is None or step[0] != name or step[1] < 0:
+        next_step = _stepped(step, expressions, inner)
+        if next_step is None or next_step[0] != name or next_step[1] < 0:
             return
-        value = step[1]
+        value = next_step[1]
 
 
-def halving_loop(node: SyntaxNode, expressions: Expressions, bindings: Bindings) -> tuple[str, list[tuple[Mask, int, Span]]] | None:
+def halving_loop(loop: Term, expressions: Expressions, bindings: Bindings) -> tuple[str, list[tuple[Mask, int, Span]]] | None:
     """Returns the variable of `while (!(counts & c)) c >>= 1;` and the tested counts in order, or None."""
-    condition, body = fields(node, "condition", "body")
-    update = node.child_by_field_name("update") if node.type == "for_statement" else _only(body)
-    if condition is None or update is None or (node.type == "for_statement" and _only(body) is not None):
+    condition, step, inner = parts_of(loop)
+    if condition is None or step is None or inner:
         return None
-    start = _loop_start(node, expressions, bindings) if node.type == "for_statement" else None
-    name = start[0] if start is not None else expressions.name(_target(update))
-    value = start[1] if start is not None else bindings.get(name)
+    start = _start(loop, step, expressions, bindings)
+    if start is None:
+        return None
+    name, value = start
     tests: list[tuple[Mask, int, Span]] = []
     for _ in range(MAX_ROUNDS):
-        if not isinstance(value, int):
-            return None
-        inner = {**bindings, name: value}
+        values = {**bindings, name: value}
         count = len(tests)
         for part in _conjuncts(condition):
-            negated = _negated(part, expressions)
-            mask = expressions.value(negated, inner)
+            negated = expressions.negated(part)
+            mask = expressions.value(negated, values)
             if isinstance(mask, Mask) and mask.bit is not None and negated is not None:
-                tests.append((mask, value, span(negated)))
+                tests.append((mask, value, negated[-1]))
                 continue
-            holds = expressions.value(part, inner)
+            holds = expressions.value(part, values)
             if holds == 0:
                 return (name, tests) if tests else None
             if not isinstance(holds, int):
                 return None
-        step = _loop_step(update, expressions, inner)
-        if len(tests) == count or step is None or step[0] != name or step[1] < 1:
+        after = _stepped(step, expressions, values)
+        if len(tests) == count or after is None or after[0] != name or after[1] < 1:
             break
-        value = step[1]
+        value = after[1]
     return (name, tests) if tests else None
 
 
-def _declared_name(node: SyntaxNode | None) -> SyntaxNode | None:
-    while node is not None and node.type in ("reference_declarator", "pointer_declarator"):
-        node = node.named_children[-1] if node.named_child_count else None
-    return node
+def _is_step(term: Term) -> bool:
+    return bool(term[0] == ASSIGN or (term[0] == UNARY and term[1][-2:] in ("++", "--")))
 
 
-def _loop_start(node: SyntaxNode, expressions: Expressions, bindings: Bindings) -> tuple[str, int] | None:
-    """Returns the variable of a `for` loop and its initial value."""
-    first = node.child_by_field_name("initializer")
-    declarator = first.child_by_field_name("declarator") if first is not None and first.type == "declaration" else first
-    if declarator is None or declarator.type not in ("init_declarator", "assignment_expression"):
-        return None
-    target, source = ("declarator", "value") if declarator.type == "init_declarator" else ("left", "right")
-    value: Value | None = expressions.value(declarator.child_by_field_name(source), bindings)
-    name = expressions.name(declarator.child_by_field_name(target))
+def _start(loop: Term, step: Term | None, expressions: Expressions, bindings: Bindings) -> tuple[str, int] | None:
+    """Returns the variable that a loop counts with, and its value before the loop."""
+    declared = loop[1]
+    if len(declared) == 1 and declared[0][0] == DECLARE and declared[0][3] is not None:
+        name, value = declared[0][2], expressions.value(declared[0][3], bindings)
+    else:
+        name = name_of(step[2]) if step is not None else ""
+        value = bindings.get(name)
     return (name, value) if isinstance(value, int) and name else None
 
 
-def _target(node: SyntaxNode) -> SyntaxNode | None:
-    return node.child_by_field_name("left" if node.type == "assignment_expression" else "argument")
-
-
-def _loop_step(node: SyntaxNode, expressions: Expressions, bindings: Bindings) -> tuple[str, int] | None:
+def _stepped(step: Term, expressions: Expressions, bindings: Bindings) -> tuple[str, int] | None:
     """Returns the variable that a step changes, and its new value."""
-    name = expressions.name(_target(node))
+    name = name_of(step[2])
     value = bindings.get(name)
-    operator = expressions.text_of(node.child_by_field_name("operator"))
     if not isinstance(value, int):
         return None
-    if node.type == "update_expression":
-        return name, value + (1 if operator == "++" else -1)
-    step = expressions.value(node.child_by_field_name("right"), bindings) if node.type == "assignment_expression" else None
-    if not isinstance(step, int):
+    if step[0] == UNARY:
+        return name, value + (1 if step[1].endswith("++") else -1)
+    operand = expressions.value(step[3], bindings)
+    if not isinstance(operand, int):
         return None
-    if operator == "=":
-        return name, step
-    number = arithmetic(operator.removesuffix("="), value, step)
+    number = operand if step[1] == "=" else arithmetic(step[1].removesuffix("="), value, operand)
     return (name, number) if number is not None and number < 1 << 16 else None
 
 
-def _only(body: SyntaxNode | None) -> SyntaxNode | None:
-    """Returns the only expression in the body of a loop."""
-    if body is not None and body.type == "compound_statement":
-        statements = without_comments(body)
-        body = statements[0] if len(statements) == 1 else None
-    if body is None or body.type != "expression_statement" or not body.named_child_count:
-        return None
-    return body.named_children[0] if body.named_children[0].type in ("assignment_expression", "update_expression") else None
-
-
-def _conjuncts(node: SyntaxNode) -> list[SyntaxNode]:
-    stack = [node]
-    nodes: list[SyntaxNode] = []
-    while stack and len(nodes) < MAX_ROUNDS:
+def _conjuncts(term: Term) -> list[Term]:
+    stack = [term]
+    terms: list[Term] = []
+    while stack and len(terms) < MAX_ROUNDS:
         inner = stack.pop()
-        if inner.type in ("condition_clause", "parenthesized_expression"):
-            stack += inner.named_children
-        elif inner.type == "binary_expression" and any(child.type in ("&&", "and") for child in inner.children):
-            stack += reversed(inner.named_children)
+        if inner[0] == BINARY and inner[1] in ("&&", "and"):
+            stack += (inner[3], inner[2])
         else:
-            nodes.append(inner)
-    return nodes
-
-
-def _negated(node: SyntaxNode, expressions: Expressions) -> SyntaxNode | None:
-    """Returns the operand of a negated condition."""
-    if node.type == "unary_expression" and expressions.text_of(node)[:1] == "!":
-        inner = node.child_by_field_name("argument")
-    elif (
-        node.type == "binary_expression" and expressions.text_of(node.children[1]) == "==" and expressions.value(node.children[2], {}) == 0
-    ):
-        inner = node.child_by_field_name("left")
-    else:
-        return None
-    while inner is not None and inner.type == "parenthesized_expression" and inner.named_child_count:
-        inner = inner.named_children[0]
-    return inner
+            terms.append(inner)
+    return terms

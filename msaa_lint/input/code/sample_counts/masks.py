@@ -1,14 +1,29 @@
-"""Evaluates C and C++ expressions of sample count masks: the limits that they come from and how they are combined."""
+"""Evaluates expressions of sample count masks: the limits that they come from and how they are combined."""
 
 import re
 from collections.abc import Iterable
 from typing import NamedTuple
 
 from msaa_lint.core.text.span import Span
-from msaa_lint.input.code.parsing import SyntaxNode, SyntaxReader, fields, span, without_comments
+from msaa_lint.input.code.core.terms import (
+    ADDRESS,
+    ASSIGN,
+    BINARY,
+    BRACES,
+    CALL,
+    CHOICE,
+    FIELD,
+    INDEX,
+    LITERAL,
+    NAME,
+    TARGET,
+    UNARY,
+    Term,
+    at,
+)
 
-from .arithmetic import arithmetic, whole
-from .statements import MAX_DEPTH, unwrapped
+from .arithmetic import arithmetic
+from .names import last
 
 LIMITS = frozenset({
     "framebufferColorSampleCounts", "framebufferDepthSampleCounts", "framebufferStencilSampleCounts",
@@ -16,6 +31,11 @@ LIMITS = frozenset({
     "sampledImageIntegerSampleCounts", "sampledImageDepthSampleCounts", "sampledImageStencilSampleCounts", "storageImageSampleCounts",
 })  # fmt: skip
 """The members of VkPhysicalDeviceLimits and VkPhysicalDeviceVulkan12Properties that are sample count masks."""
+
+_LIMITS = {limit.lower(): limit for limit in LIMITS}
+
+MAX_DEPTH = 60
+"""The maximum nesting of expressions."""
 
 COUNTS = (64, 32, 16, 8, 4, 2, 1)
 EVERY = 127
@@ -26,16 +46,23 @@ RANK = ("NONE", "AND", "LOGICAL_AND", "LOGICAL_OR", "OR", "MAX", "MIN")
 
 _ENUMERANT = re.compile(r"VK_SAMPLE_COUNT_(\d{1,2})_BIT")
 _HPP = re.compile(r"(?:(?:vk::)?SampleCountFlagBits::)?e(1|2|4|8|16|32|64)")
+_RUST = re.compile(r"(?:\w+::)*(?:SampleCountFlags::(?:TYPE)?_|SampleCounts?::(?:SAMPLE_|Sample))(1|2|4|8|16|32|64)")
 _TYPE = re.compile(r"SampleCountFlag|^(?:u?int(?:8|16|32|64)?(?:_t)?|unsigned|size_t|VkFlags|u32|Uint32|uint|to_underlying|move)$")
-_CASTS = frozenset({"static_cast", "reinterpret_cast", "const_cast", "bit_cast"})
 _LESSER = frozenset({"min", "MIN", "Min", "qMin", "fmin", "SDL_min", "ImMin"})
 _GREATER = frozenset({"max", "MAX", "Max", "qMax", "fmax", "SDL_max", "ImMax"})
 _FORMS = {
     "bit_floor": "COUNT", "highestBitValue": "COUNT", "highest_one_bit": "COUNT", "prevPowerOfTwo": "COUNT",
     "__builtin_clz": "ZEROS", "__builtin_clzl": "ZEROS", "countl_zero": "ZEROS", "__lzcnt": "ZEROS", "_lzcnt_u32": "ZEROS", "clz": "ZEROS",
     "findMSB": "INDEX", "log2": "INDEX", "ilog2": "INDEX", "log2i": "INDEX", "log2f": "INDEX", "bit_width": "WIDTH",
+    "leading_zeros": "ZEROS", "max_count": "COUNT",
 }  # fmt: skip
 """What functions return of the highest bit of a mask."""
+
+_TESTS = frozenset({"contains", "intersects", "contains_enum"})
+"""Methods that test the bits of a mask."""
+
+_NUMBERS = frozenset({"as_raw", "bits"})
+"""Methods that return the number of a mask."""
 
 _POWERS = frozenset({"pow", "exp2", "ldexp"})
 
@@ -92,7 +119,7 @@ def combine(masks: Iterable[Mask], how: str, at: Span) -> Mask:
     return Mask(tuple(limits.items()), worst, worst_at, allowed, all(mask.known for mask in every))
 
 
-class Expressions(SyntaxReader):
+class Expressions:
     """Evaluates the expressions of one file. `returns` are the results of functions, `members` the values kept outside of functions."""
 
     def __init__(self, text: str) -> None:
@@ -100,65 +127,61 @@ class Expressions(SyntaxReader):
         self.returns: Bindings = {}
         self.members: Bindings = {}
 
-    def name(self, node: SyntaxNode | None) -> str:
-        """Returns the last part of a name, without object, scope, and template arguments."""
-        while node is not None and node.type in ("field_expression", "template_function", "qualified_identifier", "template_method"):
-            node = node.child_by_field_name("field") or node.child_by_field_name("name")
-        return self.text_of(node) if node is not None and node.end_byte - node.start_byte < 200 else ""
+    def written(self, term: Term) -> str:
+        """Returns the text of a term."""
+        return self.text[term[-1].start : term[-1].end]
 
-    def value(self, node: SyntaxNode | None, bindings: Bindings, depth: int = 0) -> Value | None:
+    def value(self, term: Term | None, bindings: Bindings, depth: int = 0) -> Value | None:
         """Returns the value of an expression, or None if it is unknown."""
-        if node is None or depth > MAX_DEPTH:
+        if term is None or depth > MAX_DEPTH:
             return None
-        kind, deeper = node.type, depth + 1
-        if kind == "number_literal":
-            return whole(self.text_of(node))
-        if kind in ("identifier", "qualified_identifier", "field_expression", "field_identifier"):
-            return self._named(node, bindings)
-        inner = unwrapped(node)
-        if inner is not None and inner != node:
-            return self.value(inner, bindings, deeper)
-        if kind == "binary_expression":
-            return self._binary(node, bindings, deeper)
-        if kind == "unary_expression":
-            return self._unary(node, bindings, deeper)
-        if kind == "conditional_expression":
-            return self._choice(node, bindings, deeper)
-        if kind == "subscript_expression":
-            return self._item(node, bindings, deeper)
-        if kind in ("assignment_expression", "compound_literal_expression"):
-            return self.value(node.child_by_field_name("right") or node.child_by_field_name("value"), bindings, deeper)
-        if kind == "initializer_list":
-            return self._list(node, bindings, deeper)
-        return self._call(node, bindings, deeper) if kind == "call_expression" else None
+        kind, deeper = term[0], depth + 1
+        if kind == LITERAL:
+            return term[1] if type(term[1]) is int else None
+        if kind in (NAME, FIELD):
+            return self._named(term, bindings)
+        if kind in (ADDRESS, TARGET):
+            return self.value(term[1], bindings, deeper)
+        if kind == BINARY:
+            return self._binary(term, bindings, deeper)
+        if kind == UNARY:
+            return self._unary(term, bindings, deeper)
+        if kind == CHOICE:
+            return self._choice(term, bindings, deeper)
+        if kind == INDEX:
+            return self._item(term, bindings, deeper)
+        if kind == ASSIGN:
+            return self.value(term[3], bindings, deeper)
+        if kind == BRACES:
+            return self._list(term, bindings, deeper)
+        return self._call(term, bindings, deeper) if kind == CALL else None
 
-    def _named(self, node: SyntaxNode, bindings: Bindings) -> Value | None:
-        text = self.text_of(node)
-        if len(text) < 60:
-            match = _ENUMERANT.fullmatch(text) or _HPP.fullmatch(text)
-            if match is not None and int(match[1]) in COUNTS and text not in bindings:
+    def _named(self, term: Term, bindings: Bindings) -> Value | None:
+        text = str(term[1]) if term[0] == NAME else ""
+        if 0 < len(text) < 60 and text not in bindings:
+            match = _ENUMERANT.fullmatch(text) or _HPP.fullmatch(text) or _RUST.fullmatch(text)
+            if match is not None and int(match[1]) in COUNTS:
                 return int(match[1])
-        name = self.name(node)
-        if name in bindings and node.type != "field_expression":
+        name = name_of(term)
+        if name in bindings and term[0] == NAME:
             return bindings[name]
-        if name in LIMITS:
-            at = span(node)
-            return Mask(((name, at),), "NONE", at)
+        limit = _LIMITS.get(name.replace("_", "").lower())
+        if limit is not None:
+            return Mask(((limit, place := whole(term)),), "NONE", place)
         value = bindings[name] if name in bindings else self.members.get(name)
-        if value is None and name == "sampleCounts" and node.type == "field_expression":
-            return Mask((), "NONE", span(node), known=False)
+        if value is None and name in ("sampleCounts", "sample_counts") and term[0] == FIELD:
+            return Mask((), "NONE", term[-1], known=False)
         return value
 
-    def _binary(self, node: SyntaxNode, bindings: Bindings, depth: int) -> Value | None:
-        sign, *sides = fields(node, "operator", "left", "right")
-        operator = self.text_of(sign)
-        left, right = (self.value(side, bindings, depth) for side in sides)
-        if sign is None or left is None or right is None:
+    def _binary(self, term: Term, bindings: Bindings, depth: int) -> Value | None:
+        operator = term[1]
+        left, right = (self.value(side, bindings, depth) for side in term[2:4])
+        if left is None or right is None:
             return None
         if isinstance(left, int) and isinstance(right, int):
             return arithmetic(operator, left, right)
-        at = span(sign)
         if isinstance(left, Mask) and isinstance(right, Mask):
+            at = self.sign(term)
             if operator in ("&", "bitand"):
                 return combine((left, right), "AND", at)
             if operator in ("|", "bitor"):
@@ -178,32 +201,46 @@ class Expressions(SyntaxReader):
             return left if same else None
         return _highest_bit_arithmetic(operator, left, right)
 
-    def _unary(self, node: SyntaxNode, bindings: Bindings, depth: int) -> Value | None:
-        inner = node.child_by_field_name("argument")
-        operator = self.text_of(node)[:1]
-        if operator == "!" and inner is not None and inner.type == "unary_expression" and self.text_of(inner)[:1] == "!":
-            return self.value(inner.child_by_field_name("argument"), bindings, depth)
+    def sign(self, term: Term) -> Span:
+        """Returns the place of the operator of a binary expression."""
+        start = self.text.find(term[1], term[2][-1].end, term[3][-1].start)
+        return Span(start, start + len(term[1])) if start >= 0 else at(term)
+
+    def _unary(self, term: Term, bindings: Bindings, depth: int) -> Value | None:
+        operator, inner = term[1], term[2]
+        if operator == "!":
+            negated = self.negated(term)
+            if negated is not None and negated[0] == UNARY and negated[1] == "!":
+                return self.value(negated[2], bindings, depth)
+            empty = empty_of(inner)
+            if empty is not None:
+                return self.value(empty, bindings, depth)
         value = self.value(inner, bindings, depth)
         if operator == "!" and isinstance(value, int):
             return int(not value)
         return EVERY & ~value if operator == "~" and isinstance(value, int) else None
 
-    def comparison(self, node: SyntaxNode | None, bindings: Bindings, depth: int = 0) -> tuple[Mask, Mask, bool, Span] | None:
+    def negated(self, term: Term) -> Term | None:
+        """Returns the operand of a negated condition."""
+        if term[0] == UNARY and term[1] == "!":
+            operand: Term = term[2]
+            return operand
+        if term[0] == BINARY and term[1] == "==" and self.value(term[3], {}) == 0:
+            compared: Term = term[2]
+            return compared
+        return empty_of(term)
+
+    def comparison(self, term: Term | None, bindings: Bindings, depth: int = 0) -> tuple[Mask, Mask, bool, Span] | None:
         """Returns two masks that a condition compares as numbers, whether it holds if the first is less, and its location;
 
         None for other conditions.
         """
-        node = unwrapped(node)
-        if node is None or node.type != "binary_expression":
+        if term is None or term[0] != BINARY or term[1] not in ("<", ">", "<=", ">="):
             return None
-        sign, *sides = fields(node, "operator", "left", "right")
-        operator = self.text_of(sign)
-        if operator not in ("<", ">", "<=", ">="):
-            return None
-        left, right = (self.value(side, bindings, depth + 1) for side in sides)
+        left, right = (self.value(side, bindings, depth + 1) for side in term[2:4])
         if not (isinstance(left, Mask) and isinstance(right, Mask)):
             return None
-        return left, right, operator[0] == "<", span(node)
+        return left, right, term[1][0] == "<", term[-1]
 
     def minimum(self, compared: tuple[Mask, Mask, bool, Span], then: Value | None, other: Value | None) -> Mask | None:
         """Returns the minimum or maximum of two compared masks, by the branch that is taken; None for other values."""
@@ -215,51 +252,47 @@ class Expressions(SyntaxReader):
             return None
         return combine((left, right), "MIN" if (names[2] == names[0]) == less else "MAX", at)
 
-    def _choice(self, node: SyntaxNode, bindings: Bindings, depth: int) -> Value | None:
-        then, other = (self.value(node.child_by_field_name(side), bindings, depth) for side in ("consequence", "alternative"))
+    def _choice(self, term: Term, bindings: Bindings, depth: int) -> Value | None:
+        then, other = (self.value(side, bindings, depth) for side in term[2:4])
         if not (isinstance(then, Mask) and isinstance(other, Mask)):
             return None
-        compared = self.comparison(node.child_by_field_name("condition"), bindings, depth)
+        compared = self.comparison(term[1], bindings, depth)
         if compared is not None:
             return self.minimum(compared, then, other)
         more = then if len(then.limits) >= len(other.limits) else other
         both = combine((then, other), more.combined, more.at)
         return both._replace(allowed=then.allowed | other.allowed)
 
-    def _item(self, node: SyntaxNode, bindings: Bindings, depth: int) -> Value | None:
-        operand, index_node, list_node = fields(node, "argument", "index", "indices")
-        if list_node is not None:
-            index_node = next(iter(list_node.named_children), None)
-        order, index = self.value(operand, bindings, depth), self.value(index_node, bindings, depth)
+    def _item(self, term: Term, bindings: Bindings, depth: int) -> Value | None:
+        order, index = self.value(term[1], bindings, depth), self.value(term[2], bindings, depth)
         if isinstance(order, Order) and isinstance(index, int) and 0 <= index < len(order.counts):
             return order.counts[index]
         return None
 
-    def _list(self, node: SyntaxNode, bindings: Bindings, depth: int) -> Value | None:
-        items = without_comments(node)
-        if len(items) > 64:
+    def _list(self, term: Term, bindings: Bindings, depth: int) -> Value | None:
+        if len(term[2]) > 64:
             return None
-        values = [self.value(item, bindings, depth) for item in items]
-        if len(values) == 1 and not isinstance(values[0], int):
+        values = [self.value(item, bindings, depth) for _, item in term[2]]
+        if len(values) == 1 and (not isinstance(values[0], int) or _TYPE.search(last(term[1])) is not None):
             return values[0]
         counts = tuple(value for value in values if isinstance(value, int))
         return Order(counts) if counts and len(counts) == len(values) else None
 
-    def _call(self, node: SyntaxNode, bindings: Bindings, depth: int) -> Value | None:
-        function, list_node = fields(node, "function", "arguments")
-        name = self.name(function)
-        arguments = without_comments(list_node)
-        if len(arguments) == 1 and arguments[0].type == "initializer_list" and name in _LESSER | _GREATER:
-            arguments = without_comments(arguments[0])
-        if function is None or len(arguments) > 8:
+    def _call(self, term: Term, bindings: Bindings, depth: int) -> Value | None:
+        function, arguments = term[1], term[2]
+        name = name_of(function)
+        if function[0] == FIELD and (name in _TESTS or name in _NUMBERS or (name in _FORMS and not arguments)):
+            return self._method(function[1], name, arguments, bindings, depth)
+        if len(arguments) == 1 and arguments[0][0] == BRACES and name in _LESSER | _GREATER:
+            arguments = tuple(item for _, item in arguments[0][2])
+        if len(arguments) > 8:
             return None
         values = [self.value(item, bindings, depth) for item in arguments]
-        if len(arguments) == 1 and (name in _CASTS or _TYPE.search(name) is not None):
+        if len(arguments) == 1 and _TYPE.search(name) is not None:
             return values[0]
         if name in _LESSER or name in _GREATER:
             masks = [value for value in values if isinstance(value, Mask)]
-            at = span(function)
-            return combine(masks, "MIN" if name in _LESSER else "MAX", at) if len(masks) == len(values) > 1 else None
+            return combine(masks, "MIN" if name in _LESSER else "MAX", at(function)) if len(masks) == len(values) > 1 else None
         if name in _POWERS and isinstance(values[-1] if values else None, Highest) and values[:-1] in ([], [2], [1]):
             highest = values[-1]
             return highest._replace(form="COUNT") if isinstance(highest, Highest) and highest.form == "INDEX" else None
@@ -268,7 +301,42 @@ class Expressions(SyntaxReader):
             return Highest(first, _FORMS[name])
         if isinstance(first, Highest) and name == "floor":
             return first
-        return self.returns.get(name) if function.type in ("identifier", "field_expression", "qualified_identifier") else None
+        return self.returns.get(name) if function[0] in (NAME, FIELD) else None
+
+    def _method(self, receiver: Term, name: str, arguments: tuple[Term, ...], bindings: Bindings, depth: int) -> Value | None:
+        """Returns the result of a method of a mask or a number."""
+        value = self.value(receiver, bindings, depth)
+        if name in _NUMBERS:
+            return value if not arguments else None
+        if not isinstance(value, Mask):
+            return None
+        if name in _FORMS:
+            return Highest(value, _FORMS[name])
+        bit = self.value(arguments[0], bindings, depth) if len(arguments) == 1 else None
+        return value._replace(allowed=value.allowed & bit) if isinstance(bit, int) else None
+
+
+def name_of(term: Term | None) -> str:
+    """Returns the last part of a name, without object, scope, and template arguments."""
+    if term is None or term[0] not in (NAME, FIELD):
+        return ""
+    return last(str(term[1])) if term[0] == NAME else str(term[2])
+
+
+def whole(term: Term) -> Span:
+    """Returns the place of an expression with the object that it is a member of."""
+    first = term
+    while first[0] == FIELD:
+        first = first[1]
+    return Span(first[-1].start, term[-1].end)
+
+
+def empty_of(term: Term) -> Term | None:
+    """Returns the mask of which a call tells whether it is empty, or None."""
+    if term[0] == CALL and term[1][0] == FIELD and term[1][2] == "is_empty" and not term[2]:
+        mask: Term = term[1][1]
+        return mask
+    return None
 
 
 def _highest_bit_arithmetic(operator: str, left: Value, right: Value) -> Value | None:

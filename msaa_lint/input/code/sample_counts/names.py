@@ -17,7 +17,7 @@ MAX_OVERLOADS = 8
 Identity = tuple[Hashable, ...]
 """A variable or function: its kind, and its class or the number of its function, and its name."""
 
-LOCAL, PARAMETER, MEMBER, GLOBAL, FUNCTION = "local", "parameter", "member", "global", "function"
+LOCAL, PARAMETER, MEMBER, GLOBAL, FUNCTION, UNDECLARED = "local", "parameter", "member", "global", "function", "undeclared"
 
 _ARGUMENT = re.compile(r"<\s*(?:const\s+)?([\w:]+(?:<.*>)?)")
 _CONSTRUCTING = re.compile(r"make_(?:unique|shared)$")
@@ -77,7 +77,10 @@ class Names:
             scope, _, name = term[1].rpartition("::")
             owner = self._class(scope) if scope else self.functions[function].class_name
             found = self._member(owner, name) if owner else None
-            return found or ((GLOBAL, name) if name in self.globals else None)
+            if found is None and name not in self.globals:
+                # A member of a class that is declared in a file that is not read.
+                return (UNDECLARED, self.functions[function].class_name, name) if not scope and not name.isupper() else None
+            return found or (GLOBAL, name)
         if term[0] != FIELD:
             return None
         owner = self._class_of(term[1], function)

@@ -8,6 +8,7 @@ from collections.abc import Iterator, Sequence
 from msaa_lint.core.text.node import Node
 from msaa_lint.core.text.node_builder import mapping, scalar, sequence
 from msaa_lint.core.text.span import Span
+from msaa_lint.frame.vulkan.enums import VALUES
 from msaa_lint.frame.vulkan.formats import format_of
 from msaa_lint.input.code.core.terms import (
     ADDRESS,
@@ -28,8 +29,7 @@ from msaa_lint.input.code.core.terms import (
 )
 
 from .flow import Flow
-from .names import FUNCTION, GLOBAL, MEMBER, PARAMETER, Identity
-from .uses import format_name
+from .names import FUNCTION, GLOBAL, MEMBER, PARAMETER, UNDECLARED, Identity
 
 MAX_DEPTH = 6
 """The maximum number of variables and functions that a format is followed through."""
@@ -39,6 +39,9 @@ MAX_STEPS = 100_000
 
 MAX_HOLDERS = 64
 """The maximum number of variables and functions that a count is followed through."""
+
+_FORMATS = {name.replace("_", "").lower(): name for name in VALUES["VkFormat"]}
+"""The formats by their spelling in vulkan.hpp, in lower case: `D24UnormS8Uint` is D24_UNORM_S8_UINT."""
 
 Choice = tuple[str, Span, Node]
 """A sample count choice: its name, place, and entry."""
@@ -158,14 +161,14 @@ class _Formats:
         """Yields the formats that a variable receives."""
         values = self.flow.sources.get(variable, ())
         received = [list(self._formats(value, function, doubtful, depth + 1, seen)) for function, value in values]
-        if doubtful and variable[0] == MEMBER:
+        if doubtful and variable[0] in (MEMBER, UNDECLARED):
             # Which of the values an object with the count has is unknown, unless all of them are known.
             known = all(found or _is_undefined(value) for found, (_, value) in zip(received, values, strict=True))
             yield from (item for found in received for item in found if known)
             return
         for found in received:
             # Another call or object has another format.
-            if variable[0] not in (PARAMETER, MEMBER) or not any(_is_color(name) for name, _ in found):
+            if variable[0] not in (PARAMETER, MEMBER, UNDECLARED) or not any(_is_color(name) for name, _ in found):
                 yield from found
 
     def _returned(self, call: Term, function: int, doubtful: bool, depth: int, seen: set[Identity]) -> Iterator[tuple[str, Span]]:
@@ -202,6 +205,17 @@ class _Formats:
             if term and isinstance(term[-1], Span):
                 yield term
             stack += [part for part in term if isinstance(part, tuple) and not isinstance(part, Span)]
+
+
+def format_name(text: str) -> str | None:
+    """Returns the format that a name denotes in C, vulkan.hpp, or Rust."""
+    if text.startswith("VK_FORMAT_"):
+        name = text.removeprefix("VK_FORMAT_")
+        return name if name in VALUES["VkFormat"] else None
+    if "Format::e" in text:
+        return _FORMATS.get(text.rpartition("Format::e")[2].lower())
+    name = text.rpartition("Format::")[2]
+    return name if name != text and name in VALUES["VkFormat"] else None
 
 
 def _is_undefined(value: Term) -> bool:
