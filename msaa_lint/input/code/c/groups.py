@@ -7,6 +7,11 @@ from typing import NamedTuple
 
 _BLANKED = re.compile(r"//[^\n]*|/\*.*?(?:\*/|\Z)|\\\r?\n", re.DOTALL)
 _FIRST_BRACE = re.compile(r"[{}]")
+_CUT_START = re.compile(r"\s*(?:\|\|?|&&|[?+/^=<>]|==)")
+_CUT_END = re.compile(r"(?:(?:^|[;{}]|\belse)\s*(?:if|while|switch)\b[^;{}]*\)|\belse|&&|[|=(?+])\s*\Z")
+MAX_CUT = 400
+"""The number of characters at the ends of a text that tell whether it cuts a statement."""
+
 _NEGATED = re.compile(r"!\s*defined\s*(?:\(\s*(\w+)\s*\)|(\w+))")
 
 Balance = tuple[int, int, int, bool]
@@ -22,6 +27,12 @@ def balance(text: str) -> Balance:
         text.count("[") - text.count("]"),
         first is not None and first[0] == "}",
     )
+
+
+def cuts_statement(text: str) -> bool:
+    """Returns whether a text begins or ends within a statement: with an operator, or after the condition of an `if`."""
+    start, end = _BLANKED.sub(" ", text[:MAX_CUT]), _BLANKED.sub(" ", text[-MAX_CUT:])
+    return _CUT_START.match(start) is not None or _CUT_END.search(end) is not None
 
 
 class Line(NamedTuple):

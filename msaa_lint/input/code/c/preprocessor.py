@@ -15,7 +15,7 @@ from msaa_lint.input.code.parsing import Code, Unread
 from msaa_lint.input.code.places import Piece, Places
 from msaa_lint.input.code.sample_counts.arithmetic import condition_holds
 
-from .groups import Arm, Group, Line, balance
+from .groups import Arm, Group, Line, balance, cuts_statement
 from .macros import NO_MACROS, Definitions, Expansion, Macro, Macros, Token, TooLong, expandable, extended, parsed
 
 MAX_NESTED = 8
@@ -128,9 +128,10 @@ class Preprocessed:
         remaining = [arm for arm in group.arms if arm.exists is not False]
         undecided = any(arm.exists is None for arm in remaining)
         arm: Arm | None = remaining[0] if remaining else None
-        if undecided and self.structural and group.is_structural():
+        arms = list(zip(group.arms, [*(item.line for item in group.arms[1:]), line], strict=True))
+        if undecided and self.structural and (group.is_structural() or self._cut(arms)):
             arm = self._chosen_arm(remaining)
-            for other, next_line in zip(group.arms, [*(item.line for item in group.arms[1:]), line], strict=True):
+            for other, next_line in arms:
                 if other is not arm and other in remaining:
                     self.edits.append((other.line.end, next_line.start, None))
             undecided = False
@@ -143,6 +144,10 @@ class Preprocessed:
             self._depth += arm.brackets[0] + arm.brackets[1]
             if self._groups:
                 self._groups[-1].arms[-1].count(arm.brackets)
+
+    def _cut(self, arms: list[tuple[Arm, Line]]) -> bool:
+        """Returns whether an arm that may exist begins or ends within a statement."""
+        return any(cuts_statement(self.text[arm.line.end : after.start]) for arm, after in arms if arm.exists is not False)
 
     def _shorten(self, group: Group, remaining: list[Arm]) -> None:
         """Leaves out the directives of arms that do not exist."""

@@ -15,14 +15,14 @@ from typing import Any
 from msaa_lint.core.text.span import Span
 from msaa_lint.input.code.parsing import Unread
 
-from .algorithms import Algorithms
 from .classes import pointed
 from .conditions import canonical_text
 from .escapes import mark_escaped
 from .evaluate import ALLOCATORS
 from .guards import ALWAYS, Guards, brief, contradicts, decided, either, negated
 from .limits import WorkLimitExceeded
-from .scope import MAX_CASES, MAX_FRAMES, MAX_PASSES, MAX_TURNS, Scope, name_objects
+from .loops import Loops
+from .scope import MAX_CASES, MAX_FRAMES, MAX_PASSES, Scope, name_objects
 from .terms import (
     BINARY,
     BLOCK,
@@ -40,10 +40,8 @@ from .terms import (
     SOME,
     SWITCH,
     TARGET,
-    UNARY,
     Function,
     Term,
-    at,
 )
 from .values import (
     MAX_ALTERNATIVES,
@@ -61,7 +59,7 @@ from .values import (
 )
 
 
-class Interpreter(Algorithms):
+class Interpreter(Loops):
     """Executes one program. The library of an API derives from it."""
 
     unread: Unread | None = None
@@ -277,52 +275,6 @@ class Interpreter(Algorithms):
             if condition is not False:
                 result = condition if isinstance(condition, bool) or isinstance(result, bool) else either(result, condition)
         return result
-
-    def loop(self, term: Term, scope: Scope) -> None:
-        declared, over, body = term[1], term[2], term[3]
-        scopes, iterations, interrupted = scope.scopes, scope.iterations, scope.interrupted
-        scope.scopes = (*scopes, {})
-        turns = self.range_elements(declared, over, scope) if over is not None else self.counter_values(declared, body, scope)
-        if turns is not None:
-            for turn, cell in enumerate(turns):
-                scope.scopes[-1][declared[0][2]] = cell
-                scope.iterations = (*iterations, turn)
-                self.run_block(body, scope, ALWAYS)
-        else:
-            for statement in declared:
-                self.declare(statement, scope)
-            for statement in declared:
-                scope.scopes[-1][statement[2]] = Cell(statement[1], statement[2])
-            scope.unknown_loops += 1
-            self.run_block(body, scope, ALWAYS)
-            scope.unknown_loops -= 1
-        scope.scopes, scope.iterations, scope.interrupted = scopes, iterations, interrupted
-
-    def counter_values(self, declared: Sequence[Term], body: Sequence[Term], scope: Scope) -> list[Cell] | None:
-        """Returns the variable of a loop that counts, one for each iteration, if they are known and few; otherwise None."""
-        if len(declared) != 1 or declared[0][3] is None or not body or body[0][0] != DO:
-            return None
-        test, (_, kind, name, start, *_) = body[0][1], declared[0]
-        update: Term = body[-1][1] if body[-1][0] == DO else body[-1]
-        if update[0] != UNARY or update[1] not in ("++", "post++") or update[2][:2] != (NAME, name):
-            return None
-        if test[0] != BINARY or test[1] not in ("<", "!=", "<=") or test[2][:2] != (NAME, name):
-            return None
-        first, last = self.sole(start, scope), self.sole(test[3], scope)
-        if type(first) is not int or type(last) is not int:
-            return None
-        last += test[1] == "<="
-        if not 0 <= last - first <= MAX_TURNS:
-            return None
-        return [Cell(kind, name, (Alternative(turn, at(declared[0])),)) for turn in range(first, last)]
-
-    def range_elements(self, declared: Sequence[Term], over: Term, scope: Scope) -> list[Cell] | None:
-        """Returns the elements of a list if they are known and few, otherwise None."""
-        value = self.target(over, scope)
-        known = (
-            isinstance(value, Array) and value.complete and declared and len(value.items) <= MAX_TURNS and (value.items or not value.unset)
-        )
-        return value.items if known else None
 
     def declare(self, term: Term, scope: Scope) -> None:
         _, kind, name, initializer, indirect, _, place = term

@@ -2,15 +2,83 @@
 
 from __future__ import annotations
 
+from typing import Any
+
+from msaa_lint.core.text.span import Span
+
 from .scope import MEMBER, Scope
-from .terms import Term
+from .terms import CALL, FIELD, INDEX, NAME, Term, at
 from .types import element_type
-from .values import UNKNOWN_VALUE, Alternative, Array, Cell, Struct, Value, pointee, sole_value
+from .values import UNKNOWN_VALUE, Alternative, Array, Cell, Ref, Struct, Value, pointee, sole_value
 from .variables import Variables
 
 
 class ClassObjects(Variables):
     """The members of objects of the classes of a program."""
+
+    def field(self, operand: Term, name: str, scope: Scope) -> Cell | None:
+        name = self.library.member(name)
+        if operand[0] == NAME and operand[1] in ("this", "self"):
+            if scope.this_object is not None:
+                return self.own_member(name, scope.this_object, scope)
+            return self.member_cell(self.member_key(name, scope))
+        cell = self.object_cell(operand, scope)
+        if cell is None:
+            class_name = self.class_of_term(operand, scope)
+            return self.class_member(class_name, name) if class_name is not None else None
+        value = self.object_in(cell, scope)
+        member = self.member_of_object(value, cell, name, at(operand), scope)
+        if member is not None:
+            return member
+        if isinstance(value, Struct):
+            return self.member_of(value, name)
+        if cell.kind == MEMBER:
+            return self.part_of_member(cell, name)
+        if (target := self.pointed_member(cell, scope)) is not None:
+            return self.part_of_member(target, name)
+        if cell.writes:
+            class_name = self.class_of_term(operand, scope)
+            return self.class_member(class_name, name) if class_name is not None else None
+        elsewhere = bool(cell.key) or cell.kind.endswith("*")
+        if elsewhere and not self.library.structure(cell.kind):
+            kind = cell.kind.rstrip("*&")
+            return self.class_member(self.class_of(kind, scope.enclosing) or kind, name)
+        struct = Struct(self.library.structure(cell.kind), Span(0, 0) if elsewhere else at(operand), False, cell.name)
+        cell.writes = (Alternative(struct, struct.at),)
+        return struct.cell(name)
+
+    @staticmethod
+    def pointed_member(cell: Cell, scope: Scope) -> Cell | None:
+        """Returns the member or global variable that a pointer certainly points to, or None."""
+        for _ in range(4):
+            content = sole_value(cell.read(scope.guards))
+            if not isinstance(content, Ref):
+                return None
+            cell = content.cell
+            if cell.kind == MEMBER and not cell.writes:
+                return cell
+        return None
+
+    def object_cell(self, operand: Term, scope: Scope) -> Cell | None:
+        """Returns the cell of the object that an expression is or points to, or None if it is unknown."""
+        if operand[0] in (NAME, FIELD, INDEX):
+            return self.cell_of(operand, scope)
+        content = sole_value(self.call(operand, scope)) if operand[0] == CALL else self.sole(operand, scope)
+        if isinstance(content, Ref):
+            return content.cell
+        return Cell(writes=(Alternative(content, at(operand)),)) if isinstance(content, (Struct, Array)) else None
+
+    def object_in(self, cell: Cell, scope: Scope) -> Any:
+        """Returns the structure, or the other value, in a cell. Alternative structures are merged, so that they are changed together."""
+        content = cell.read(scope.guards)
+        value = pointee(sole_value(content))
+        if len(content) > 1 and all(isinstance(a.value, Struct) for a in content):
+            value = self.copies.merged(content)
+            cell.writes = (Alternative(value, content[0].at),)
+        if isinstance(value, Array) and value.items:
+            # A pointer to the first element of a list.
+            value = pointee(sole_value(value.items[0].writes))
+        return value
 
     def own_member(self, name: str, this_object: Cell, scope: Scope) -> Cell:
         """Returns a member of the object whose method is executed."""

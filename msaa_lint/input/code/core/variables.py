@@ -11,7 +11,7 @@ from .classes import Classes, pointed
 from .library import Library
 from .limits import Work, WorkLimitExceeded
 from .scope import MEMBER, Scope
-from .terms import CALL, DECLARE, FIELD, INDEX, NAME, TARGET, Term, Unit, at
+from .terms import CALL, DECLARE, FIELD, INDEX, NAME, TARGET, Term, Unit
 from .types import array_size, element_type
 from .values import UNKNOWN_VALUE, Alternative, Array, Cell, Copier, Flags, Instance, Ref, Struct, Value, pointee, sole_value
 
@@ -334,55 +334,9 @@ class Variables(ABC):
             self.declared_values[key] = self.default_value(kind, name, place, Scope(), zeroed=True)
         return self.declared_values[key]
 
+    @abstractmethod
     def field(self, operand: Term, name: str, scope: Scope) -> Cell | None:
-        name = self.library.member(name)
-        if operand[0] == NAME and operand[1] in ("this", "self"):
-            if scope.this_object is not None:
-                return self.own_member(name, scope.this_object, scope)
-            return self.member_cell(self.member_key(name, scope))
-        cell = self.object_cell(operand, scope)
-        if cell is None:
-            class_name = self.class_of_term(operand, scope)
-            return self.class_member(class_name, name) if class_name is not None else None
-        value = self.object_in(cell, scope)
-        member = self.member_of_object(value, cell, name, at(operand), scope)
-        if member is not None:
-            return member
-        if isinstance(value, Struct):
-            return self.member_of(value, name)
-        if cell.kind == MEMBER:
-            return self.part_of_member(cell, name)
-        if cell.writes:
-            class_name = self.class_of_term(operand, scope)
-            return self.class_member(class_name, name) if class_name is not None else None
-        elsewhere = bool(cell.key) or cell.kind.endswith("*")
-        if elsewhere and not self.library.structure(cell.kind):
-            kind = cell.kind.rstrip("*&")
-            return self.class_member(self.class_of(kind, scope.enclosing) or kind, name)
-        struct = Struct(self.library.structure(cell.kind), Span(0, 0) if elsewhere else at(operand), False, cell.name)
-        cell.writes = (Alternative(struct, struct.at),)
-        return struct.cell(name)
-
-    def object_cell(self, operand: Term, scope: Scope) -> Cell | None:
-        """Returns the cell of the object that an expression is or points to, or None if it is unknown."""
-        if operand[0] in (NAME, FIELD, INDEX):
-            return self.cell_of(operand, scope)
-        content = sole_value(self.call(operand, scope)) if operand[0] == CALL else self.sole(operand, scope)
-        if isinstance(content, Ref):
-            return content.cell
-        return Cell(writes=(Alternative(content, at(operand)),)) if isinstance(content, (Struct, Array)) else None
-
-    def object_in(self, cell: Cell, scope: Scope) -> Any:
-        """Returns the structure, or the other value, in a cell. Alternative structures are merged, so that they are changed together."""
-        content = cell.read(scope.guards)
-        value = pointee(sole_value(content))
-        if len(content) > 1 and all(isinstance(a.value, Struct) for a in content):
-            value = self.copies.merged(content)
-            cell.writes = (Alternative(value, content[0].at),)
-        if isinstance(value, Array) and value.items:
-            # A pointer to the first element of a list.
-            value = pointee(sole_value(value.items[0].writes))
-        return value
+        """Returns the cell of a member of an object, or None if it is unknown."""
 
     @abstractmethod
     def class_of_term(self, term: Term, scope: Scope) -> str | None:

@@ -56,7 +56,8 @@ class VulkanConfiguration(Configuration):
         self.used_names: set[str] = set()
         self.name_counts: dict[str, int] = {}
         """The number that the next object of a name takes."""
-        self.framebuffer_images: dict[int, list[ApiObject | None]] = {}
+        self.framebuffer_images: dict[int, list[list[ApiObject | None]]] = {}
+        """The images of each framebuffer of a render pass, by the identity of the pass."""
         self.duplicates: dict[tuple[Any, ...], ApiObject] = {}
         self.external_images: dict[str, tuple[str, Span, Node]] = {}
 

@@ -18,6 +18,7 @@ from msaa_lint.input.code.core.escapes import forget, forget_captures, mark_esca
 from msaa_lint.input.code.core.guards import brief
 from msaa_lint.input.code.core.interpreter import Interpreter
 from msaa_lint.input.code.core.limits import Work
+from msaa_lint.input.code.core.lists import Receiver
 from msaa_lint.input.code.core.scope import Scope, name_objects
 from msaa_lint.input.code.core.structures import Items
 from msaa_lint.input.code.core.terms import ADDRESS, CALL, FIELD, INDEX, NAME, Function, Parameter, Term, Unit
@@ -71,6 +72,11 @@ _HARMLESS = re.compile(
 
 _COPIES = re.compile(r"^(?:vkCmd(?:Copy|Blit)Image|(?:copy|blit)Image)")
 """Commands that read an image; resolves are recorded with their targets."""
+
+_IMPLEMENTED = re.compile(
+    r"vma(?:Create|Allocate|Destroy|Find)[A-Z]\w*$|vk(?:Create(?:Image|ImageView|RenderPass2?|Framebuffer|Device)|CmdBeginRendering)(?:KHR)?$"
+)
+"""Functions of Vulkan and the Vulkan Memory Allocator that a program may contain an implementation of."""
 
 _MEMORY = re.compile(r"mem.*(?:type|index)", re.IGNORECASE)
 
@@ -181,9 +187,7 @@ class VulkanInterpreter(Interpreter):
             return UNKNOWN_VALUE
         if not traits.queries:
             for n, value in enumerate(values):
-                target = pointee(sole_value(value))
-                if isinstance(target, Array) and len(target.items) == 1:
-                    target = pointee(sole_value(target.items[0].writes))
+                target = self.creation_structure(pointee(sole_value(value)), values[n - 1] if n else ())
                 if isinstance(target, Struct) and first_version(target.kind) in CREATE_INFOS:
                     return self.create_from_call(target, n, term, name, values, scope)
         if traits.finds_memory:
@@ -218,6 +222,23 @@ class VulkanInterpreter(Interpreter):
         if helper_value is not None:
             return helper_value
         return (Alternative(Symbol(brief(canonical_text(term)), name, bool(self.library.is_count_choice(name))), place),)
+
+    @staticmethod
+    def creation_structure(value: Any, before: Value) -> Any:
+        """Returns the structure that an argument points to: the first of a list, unless the argument before it is another count than 1."""
+        if not isinstance(value, Array) or not value.items:
+            return value
+        first = pointee(sole_value(value.items[0].writes))
+        count = sole_value(before)
+        several = isinstance(first, Struct) and first.kind == "GraphicsPipelineCreateInfo" and count != 1
+        return value if several and len(value.items) > 1 else first
+
+    def find_function(
+        self, name: str, arguments: Sequence[Term], function: Term, receiver: Receiver | None, scope: Scope
+    ) -> Function | None:
+        # What commands create is known, also where a program contains a library that implements them.
+        is_command = receiver is None and _IMPLEMENTED.match(name) is not None
+        return None if is_command else super().find_function(name, arguments, function, receiver, scope)
 
     def declared_parameter(self, name: str, position: int) -> Parameter | None:
         """Returns the parameter that an argument is passed to, if the file declares the function."""

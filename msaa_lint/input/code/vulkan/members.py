@@ -9,7 +9,7 @@ from msaa_lint.core.text.node import Node
 from msaa_lint.core.text.node_builder import scalar, sequence
 from msaa_lint.core.text.span import Span
 from msaa_lint.frame.vulkan.names import parse_enum, parse_flags
-from msaa_lint.input.code.core.values import ApiObject, Array, Flags, Struct
+from msaa_lint.input.code.core.values import UNKNOWN, ApiObject, Array, Flags, Struct
 
 from .multisampling import Multisampling
 
@@ -55,9 +55,18 @@ class Members(Multisampling):
         value, at = self.get(struct, name)
         if value is None and name in ZERO:
             value = ZERO[name]
+        if value is UNKNOWN and name in ("loadOp", "stencilLoadOp"):
+            value = self.discarding_operation(struct, name)
         node = self.node(name, value, at)
         if node is not None:
             yield name, at, node
+
+    def discarding_operation(self, struct: Struct, name: str) -> Any:
+        """Returns one of the load operations that a program chooses from if none of them is LOAD, otherwise UNKNOWN."""
+        cell = struct.fields.get(name)
+        values = [write.value for write in self.settle(cell.writes)] if cell is not None else []
+        operations = {parse_enum(ENUMS[name], value) if isinstance(value, str) else None for value in values}
+        return next((v for v in values if "CLEAR" in v), UNKNOWN) if operations == {"CLEAR", "DONT_CARE"} else UNKNOWN
 
     def node(self, name: str, value: Any, at: Span) -> Node | None:
         if name in FLAGS:

@@ -13,6 +13,7 @@ from typing import Any
 
 from msaa_lint.input.code.core.configurations import ASSUMED
 from msaa_lint.input.code.core.elements import is_other_element
+from msaa_lint.input.code.core.guards import negated
 from msaa_lint.input.code.core.values import (
     UNKNOWN,
     ApiObject,
@@ -59,6 +60,7 @@ class Multisampling(VulkanConfiguration):
         for alternative in chain.from_iterable(value for _, value in slots):
             if isinstance(alternative.value, Symbol) and f"{alternative.value.key}>1" in guards:
                 self.assume_multisampled(alternative.value, alternative.guards)
+        self.assume_no_fallback(value for _, value in slots)
         self.assume_present()
         for text in guards - self.configuration.keys():
             subject, _, other = text.partition("==")
@@ -83,6 +85,15 @@ class Multisampling(VulkanConfiguration):
                 for item in value:
                     if isinstance(item.value, Symbol) and item.guards:
                         self.assume_multisampled(item.value, item.guards)
+
+    def assume_no_fallback(self, slots: Iterable[Value]) -> None:
+        """Assumes that no condition holds under which 1 takes the place of a count above 1, one that a device does not support."""
+        for value in slots:
+            settled = self.settle(value) if len(value) > 1 else ()
+            if any(isinstance(item.value, Symbol) for item in settled):
+                for item in settled:
+                    if item.value == 1 and type(item.value) is int and item.guards:
+                        self.assume(negated(item.guards))
 
     def assume_present(self) -> None:
         """Assumes the conditions of optional attachments, subpasses, and references, so that the lists are known."""

@@ -25,20 +25,31 @@ class Passes(Subpasses):
             if isinstance(views, ApiObject):
                 images = [self.image_in(views)]
             elif isinstance(views, Array) and views.complete:
-                images = [self.image_in(sole_value(self.settle(cell.writes))) for cell in views.items]
+                # Null is what a view is after it is destroyed (VUID-VkFramebufferCreateInfo-flags-02778).
+                images = [
+                    self.image_in(sole_value(tuple(write for write in self.settle(cell.writes) if write.value is not None)))
+                    for cell in views.items
+                ]
             else:
                 continue
-            target = self.wrapped_object(self.get(obj.info, "renderPass")[0], "renderPass")
-            if target is None:
+            targets = self.targets(obj.info)
+            if not targets:
                 render_passes = [p for p in passes if len(self.structs(p.info, "attachments") or ()) == len(images)]
-                target = render_passes[0] if len(render_passes) == 1 and len(passes) == 1 else None
-            if target is None:
-                continue
-            before = self.framebuffer_images.get(id(target))
-            if before is None:
-                self.framebuffer_images[id(target)] = images
-            else:
-                self.framebuffer_images[id(target)] = [a if a is b else None for a, b in zip(before, images, strict=False)]
+                targets = render_passes if len(render_passes) == 1 and len(passes) == 1 else []
+            for target in targets:
+                self.framebuffer_images.setdefault(id(target), []).append(images)
+
+    def bound_images(self, render_pass: ApiObject) -> list[ApiObject | None]:
+        """Returns the images of a render pass: the only one that its framebuffers are known to have for an attachment."""
+        columns = zip(*self.framebuffer_images.get(id(render_pass), ()), strict=False)
+        known = [list({id(image): image for image in column if image is not None}.values()) for column in columns]
+        return [images[0] if len(images) == 1 else None for images in known]
+
+    def targets(self, info: Struct) -> list[ApiObject]:
+        """Returns the render passes that a framebuffer is created for: where several are assigned to a member, each of them in turn."""
+        cell = info.fields.get("renderPass")
+        objects = [self.wrapped_object(write.value, "renderPass") for write in self.settle(cell.writes)] if cell is not None else []
+        return list({id(obj): obj for obj in objects if obj is not None}.values())
 
     def attachment(
         self, struct: Struct | None, image: ApiObject | None, attached: dict[int, ApiObject], head: Span, resolved: bool
@@ -63,7 +74,7 @@ class Passes(Subpasses):
         structs, ordered = self.elements(info, "attachments")
         if not structs:
             return None
-        bound = self.framebuffer_images.get(id(obj), ()) if ordered else ()
+        bound = self.bound_images(obj) if ordered else ()
         images = [*bound, *[None] * len(structs)][: len(structs)]
         names = self.attachment_names(info, structs)
         head = head_of(obj.at)
