@@ -287,7 +287,9 @@ class Workspace:
             cache.close()
 
     def _speaks(self, path: str) -> bool:
-        return self.index.of_entry(path).speaks
+        from msaa_lint.input.code.mentions import is_api
+
+        return not is_api(path) and self.index.of_entry(path).speaks
 
     def _inputs_among(self, files: Mapping[str, str | None], related: Mapping[str, str]) -> list[str]:
         """The inputs among source files of folders: those of the programs that use multisampling."""

@@ -47,6 +47,12 @@ _RELATED: Words = (
 )  # fmt: skip
 """What a file has that can matter to another one that uses multisampling."""
 
+_API_FILE = re.compile(
+    r"vulkan(?:_core|_beta|_structs|_raii|_handles|_enums|_funcs|_hash|_to_string|_shared|_video|_format_traits|_static_assertions"
+    r"|_extension_inspection|_hpp_macros)?\.(?:h|hpp|cppm)|vk_(?:platform|layer|icd|mem_alloc|enum_string_helper)\.h|volk\.[ch]"
+)
+"""The names of files of Vulkan itself and of its allocator, whose definitions are known."""
+
 
 def _has(text: str, words: Words) -> bool:
     """Returns whether a text has one of some words."""
@@ -78,8 +84,15 @@ def speaks(text: str) -> bool:
     return mentions_api(text) and _has(text.lower(), _MULTISAMPLING)
 
 
+def is_api(path: str) -> bool:
+    """Returns whether a file is one of Vulkan itself or of its allocator, by its name."""
+    return _API_FILE.fullmatch(path.rpartition("/")[2]) is not None
+
+
 def file_speaks(path: str) -> bool:
     """Returns whether the first MiB of a file does, and is in a language that is read. Raises OSError if it cannot be read."""
+    if is_api(path):
+        return False
     with open_entry(path) as file:
         data = file.read(MAX_BYTES)
     encoding = "utf-16" if data[:2] in (b"\xff\xfe", b"\xfe\xff") else "latin-1"

@@ -331,3 +331,31 @@ def test_shapes_end_with_a_result_or_a_limit(shape: Shape, tmp_path: Path) -> No
     ended = run(tmp_path, *shape.arguments)
     assert ended.returncode in shape.codes
     assert "internal error" not in ended.stdout + ended.stderr
+
+
+def test_calls_that_are_not_repeated_cost_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    # `recreate` calls what `initialize` has called; once much of the work is done, such calls are not followed again.
+    monkeypatch.setattr("msaa_lint.input.code.core.calls.MAX_REPEATED_STEPS", 0)
+    program = tmp_path / "targets.cpp"
+    program.write_text(f"""#include <vulkan/vulkan.h>
+class Targets {{
+public:
+    void initialize() {{ createColor(); }}
+    void recreate() {{ destroy(); createColor(); }}
+private:
+    void destroy();
+    void createImage(VkImageUsageFlags usage, VkImage& image) {{
+{IMAGE}        info.usage = usage;
+{CREATE}    }}
+    void transition(VkImage image, VkImageLayout layout) {{ toLayout(image, layout); }}
+    void createColor() {{
+        createImage(VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, color);
+        transition(color, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
+    }}
+    void toLayout(VkImage image, VkImageLayout layout) {{ vkBarrier(image, layout); }}
+    VkDevice device;
+    VkImage color;
+}};
+""")
+    result = run("check", "--isolated", "--no-cache", "--output", "concise", str(program))
+    assert "MSAA401" in result.output, result.output

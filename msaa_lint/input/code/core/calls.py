@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import re
 from abc import abstractmethod
-from collections.abc import Sequence
+from collections.abc import Hashable, Mapping, Sequence
 from itertools import islice
+from typing import Any
 
 from msaa_lint.core.text.span import Span
 
@@ -16,7 +17,7 @@ from .library import Library
 from .limits import Work
 from .overloads import bound
 from .resolution import Resolution
-from .scope import MAX_CALLS, MAX_CLOSURES, MAX_WAYS, Scope, Scopes
+from .scope import MAX_CALLS, MAX_CLOSURES, MAX_WAYS, MEMBER, Scope, Scopes
 from .static_types import OWNED
 from .terms import BRACES, CALL, FIELD, INDEX, LAMBDA, NAME, Function, Parameter, Term, Unit
 from .types import element_type
@@ -26,8 +27,10 @@ from .values import (
     UNKNOWN_VALUE,
     Alternative,
     ApiObject,
+    Array,
     Cell,
     Closure,
+    Flags,
     Ref,
     Routine,
     Struct,
@@ -56,9 +59,12 @@ class Calls(Resolution):
         """The functions that a call was followed to."""
         self.reserve = 0
         """The steps that are left for what is certainly executed, at least."""
+        self.results: dict[Span, tuple[Hashable, Value]] = {}
+        """The arguments and the result of the last execution of each call."""
 
     def begin(self) -> None:
         super().begin()
+        self.results.clear()
         self.reserve = self.work.left - MAX_REPEATED_STEPS
 
     @abstractmethod
@@ -101,13 +107,20 @@ class Calls(Resolution):
             if isinstance(called, Closure):
                 return self.call_closure(called, term, scope)
             callee = called.function if isinstance(called, Routine) else None
-        if callee is not None and self.may_follow(callee, place, scope):
+        if callee is not None:
             this_object = self.this_of(callee, receiver, scope)
-            before = len(self.current_objects)
-            result = self.call_function(callee, term, scope, this_object)
-            is_method = bool(callee.class_name) and owner is not None and owner[:2] != (NAME, "this")
-            unknown = is_method and (this_object is None or self.is_pointed(this_object, scope))
-            return self.result_of_unknown_object(result, callee, term, before) if unknown else result
+            if self.may_follow(callee, place, scope):
+                before = len(self.current_objects)
+                result = self.call_function(callee, term, scope, this_object)
+                is_method = bool(callee.class_name) and owner is not None and owner[:2] != (NAME, "this")
+                if is_method and (this_object is None or self.is_pointed(this_object, scope)):
+                    result = self.result_of_unknown_object(result, callee, term, before)
+                if place in self.results:
+                    self.results[place] = self.results[place][0], result
+                return result
+            repeated = self.repeated_result(callee, term, scope, this_object)
+            if repeated is not None:
+                return repeated
         if owner is None:
             if function[0] == NAME and (instance := self.construct_class(function[1], term, scope)) is not None:
                 return instance
@@ -186,6 +199,24 @@ class Calls(Resolution):
         self.follow_counts[place] = self.follow_counts.get(place, 0) + 1
         return self.follow_counts[place] <= MAX_WAYS or self.work.left > self.reserve
 
+    def repeated_result(self, function: Function, term: Term, scope: Scope, this_object: Cell | None) -> Value | None:
+        """Returns the result that a call had with the same arguments, or None. Executed again, it would do the same."""
+        if function.at in scope.active_functions or (known := self.results.get(term[-1])) is None:
+            return None
+        cells = self.bind(function, term, scope)
+        return known[1] if self.arguments_of(function, cells, this_object) == known[0] else None
+
+    def arguments_of(self, function: Function, cells: Mapping[str, Cell], this_object: Cell | None) -> Hashable:
+        """Returns what two calls with the same arguments have in common. Lists, structures, and lambdas may have changed."""
+        arguments: list[Hashable] = [this_object.key if this_object is not None and this_object.kind == MEMBER else this_object]
+        for parameter in function.parameters:
+            cell = cells.get(parameter.name)
+            if cell is None or (parameter.by_reference and not parameter.fixed):
+                arguments.append(cell.key if cell is not None and cell.kind == MEMBER else cell)
+            else:
+                arguments.append(tuple(map(_identity, (item.value for item in cell.writes))))
+        return tuple(arguments)
+
     def call_function(self, function: Function, term: Term, scope: Scope, this_object: Cell | None = None) -> Value:
         before = len(self.current_objects)
         value = self.execute(function, term, scope, this_object)
@@ -212,13 +243,9 @@ class Calls(Resolution):
 
     def execute(self, function: Function, term: Term, scope: Scope, this_object: Cell | None, scopes: Scopes = ()) -> Value:
         """Executes a function with the arguments of a call. `scopes` are the enclosing variables of a lambda."""
-        cells: dict[str, Cell] = {}
-        for parameter, argument in bound(function.parameters, term[2]):
-            if argument is not None:
-                cells[parameter.name] = self.bind_parameter(parameter, argument, scope)
-            elif parameter.default is not None:
-                value = self.value(parameter.default, scope, parameter.type)
-                cells[parameter.name] = Cell(parameter.type, parameter.name, value, f"default({parameter.name})")
+        cells = self.bind(function, term, scope)
+        if function.name:
+            self.results[term[3]] = self.arguments_of(function, cells, this_object), UNKNOWN_VALUE
         inner = Scope(function.class_name or scope.class_name, function.namespace, (*scopes, cells), scope.guards, (*scope.calls, term[3]))
         inner.active_functions = (*scope.active_functions, function.at)
         self.followed.add(function.at)
@@ -246,6 +273,17 @@ class Calls(Resolution):
         own = known.type if isinstance(known, Struct) else scope.object_class if owner is None or owner[:2] == (NAME, "this") else ""
         return own if own and own != class_name and class_name in self.classes.chain(own) else class_name
 
+    def bind(self, function: Function, term: Term, scope: Scope) -> dict[str, Cell]:
+        """Returns the parameters of a function with the arguments of a call."""
+        cells: dict[str, Cell] = {}
+        for parameter, argument in bound(function.parameters, term[2]):
+            if argument is not None:
+                cells[parameter.name] = self.bind_parameter(parameter, argument, scope)
+            elif parameter.default is not None:
+                value = self.value(parameter.default, scope, parameter.type)
+                cells[parameter.name] = Cell(parameter.type, parameter.name, value, f"default({parameter.name})")
+        return cells
+
     def bind_parameter(self, parameter: Parameter, term: Term, scope: Scope) -> Cell:
         """Returns the cell of a parameter; for an argument passed by reference, the argument's own cell."""
         if parameter.by_reference and term[0] in (NAME, FIELD, INDEX):
@@ -271,6 +309,17 @@ class Calls(Resolution):
             chosen = 1 not in known and (name == "min" or bool(known))
             return (Alternative(Symbol(f"{name} at {place.start}", name, chosen), place),)
         return (Alternative(min(values) if name == "min" else max(values), place),)
+
+
+def _identity(value: Any) -> Hashable:
+    """Returns what two equal arguments have in common; every list and structure differs."""
+    if isinstance(value, Symbol):
+        return value.key
+    if isinstance(value, Ref):
+        return value.cell if not isinstance(pointee(value), (Array, Struct, Closure)) else object()
+    if isinstance(value, Flags):
+        return tuple(bit for bit, _ in value.bits)
+    return object() if isinstance(value, (Array, Struct, Closure)) else value
 
 
 def _callee(function: Term) -> tuple[str, Term | None]:

@@ -62,12 +62,6 @@ _CLASS = re.compile(
 _FUNCTION = re.compile(rb"^[A-Za-z_][\w \t*&:<>,]{0,200}?[ \t*&]([A-Za-z_]\w*)(?:::~?\w+)?[ \t]*\(", re.MULTILINE)
 """A function that is declared or defined at the left margin; of a method, its class."""
 
-_API = re.compile(
-    r"vulkan(?:_core|_beta|_structs|_raii|_handles|_enums|_funcs|_hash|_to_string|_shared|_video|_format_traits|_static_assertions"
-    r"|_extension_inspection|_hpp_macros)?\.(?:h|hpp|cppm)|vk_(?:platform|layer|icd|mem_alloc|enum_string_helper)\.h|volk\.[ch]"
-)
-"""The names of files of Vulkan itself and of its allocator, whose definitions are known."""
-
 
 class Words(NamedTuple):
     """The words of a file, and its length in bytes.
@@ -228,6 +222,7 @@ class Index:
         return found
 
 
+<<<<<<< HEAD
 class _Kept(NamedTuple):
     """What is kept of files between runs: by path, a name for the content and the state, and by these names, the members of the words."""
 
@@ -263,6 +258,8 @@ def is_api(path: str) -> bool:
     return _API.fullmatch(path.rpartition("/")[2]) is not None
 
 
+=======
+>>>>>>> 4a61fae (A call that is not followed again has the result of the same call before, and its arguments stay known; Vulkan's own headers are no inputs)
 def is_header(name: str) -> bool:
     """Returns whether a file is one that sources include, by its name."""
     return name.lower().endswith(HEADERS)

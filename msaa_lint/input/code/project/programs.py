@@ -11,8 +11,10 @@ import posixpath
 from collections.abc import Iterable, Mapping, Sequence
 from typing import NamedTuple
 
+from msaa_lint.input.code.mentions import is_api
+
 from .includes import Includes
-from .index import Words, is_api, is_header
+from .index import Words, is_header
 
 MAX_VISIBLE = 600_000
 """The number of characters of the files of other programs that a program sees, in addition to `VISIBLE_SHARE` of its own length."""
