@@ -191,3 +191,11 @@ def test_a_folder_that_cannot_be_read_is_an_error(monkeypatch: pytest.MonkeyPatc
     assert [(each.file, each.fatal, each.message) for each in result.findings] == [
         ("f/g", True, "cannot read the folder: Permission denied")
     ]
+
+
+def test_headers_of_vulkan_are_inputs_only_if_named() -> None:
+    text = "VkImageCreateInfo info; info.samples = sampleCount;\n"
+    write("libs/vulkan/vulkan_hash.hpp", "libs/vk_mem_alloc.h", "renderer/targets.h", text=text)
+    settings = Configurations()
+    assert discover(["."], lambda path: settings.load(path).settings, sources=True).files == ["renderer/targets.h"]
+    assert clean("libs/vk_mem_alloc.h") == ["libs/vk_mem_alloc.h"]

@@ -337,25 +337,43 @@ def test_calls_that_are_not_repeated_cost_nothing(tmp_path: Path, monkeypatch: p
     # `recreate` calls what `initialize` has called; once much of the work is done, such calls are not followed again.
     monkeypatch.setattr("msaa_lint.input.code.core.calls.MAX_REPEATED_STEPS", 0)
     program = tmp_path / "targets.cpp"
-    program.write_text(f"""#include <vulkan/vulkan.h>
-class Targets {{
+    program.write_text("""#include <vulkan/vulkan.h>
+class Targets {
 public:
-    void initialize() {{ createColor(); }}
-    void recreate() {{ destroy(); createColor(); }}
+    void initialize() { createDepth(); }
+    void recreate() { createDepth(); }
+    void draw(VkCommandBuffer commands) {
+        VkRenderingAttachmentInfo depth = {VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
+        depth.imageView = depthView;
+        depth.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
+        depth.storeOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
+        VkRenderingInfo info = {VK_STRUCTURE_TYPE_RENDERING_INFO};
+        info.pDepthAttachment = &depth;
+        vkCmdBeginRendering(commands, &info);
+    }
 private:
-    void destroy();
-    void createImage(VkImageUsageFlags usage, VkImage& image) {{
-{IMAGE}        info.usage = usage;
-{CREATE}    }}
-    void transition(VkImage image, VkImageLayout layout) {{ toLayout(image, layout); }}
-    void createColor() {{
-        createImage(VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, color);
-        transition(color, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
-    }}
-    void toLayout(VkImage image, VkImageLayout layout) {{ vkBarrier(image, layout); }}
+    void createImage(VkImageUsageFlags usage, VkImage& image) {
+        VkImageCreateInfo info = {VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
+        info.format = VK_FORMAT_D32_SFLOAT;
+        info.samples = VK_SAMPLE_COUNT_4_BIT;
+        info.usage = usage;
+        vkCreateImage(device, &info, nullptr, &image);
+    }
+    VkImageView createView(VkImage image) {
+        VkImageViewCreateInfo info = {VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
+        info.image = image;
+        VkImageView view;
+        vkCreateImageView(device, &info, nullptr, &view);
+        return view;
+    }
+    void createDepth() {
+        createImage(VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, depthImage);
+        depthView = createView(depthImage);
+    }
     VkDevice device;
-    VkImage color;
-}};
+    VkImage depthImage;
+    VkImageView depthView;
+};
 """)
-    result = run("check", "--isolated", "--no-cache", "--output", "concise", str(program))
-    assert "MSAA401" in result.output, result.output
+    result = run(tmp_path, "check", "--isolated", "--no-cache", "--output", "concise", program.name)
+    assert "MSAA401" in result.stdout, result.stdout

@@ -222,7 +222,6 @@ class Index:
         return found
 
 
-<<<<<<< HEAD
 class _Kept(NamedTuple):
     """What is kept of files between runs: by path, a name for the content and the state, and by these names, the members of the words."""
 
@@ -253,13 +252,6 @@ def _content(path: str, project: str | None) -> bytes | None:
         return None
 
 
-def is_api(path: str) -> bool:
-    """Returns whether a file is one of Vulkan itself or of its allocator, by its name."""
-    return _API.fullmatch(path.rpartition("/")[2]) is not None
-
-
-=======
->>>>>>> 4a61fae (A call that is not followed again has the result of the same call before, and its arguments stay known; Vulkan's own headers are no inputs)
 def is_header(name: str) -> bool:
     """Returns whether a file is one that sources include, by its name."""
     return name.lower().endswith(HEADERS)
