@@ -25,6 +25,7 @@ from msaa_lint.input.code.core.terms import (
     UNPARSED,
     Parameter,
     Term,
+    short_name,
 )
 from msaa_lint.input.code.parsing import SyntaxNode, SyntaxReader, fields, span, without_comments
 
@@ -33,6 +34,12 @@ from .directives import Sections
 from .kinds import BLANKS, CLASSES, MAX_DEPTH, MAX_NAME, NAMES, WORD, number
 
 WRAPPERS = frozenset({"parenthesized_expression", "cast_expression", "condition_clause", "co_await_expression"})
+
+API_TYPES = ("vk::", "Vk", "VULKAN")
+"""What the names of the types of Vulkan start with."""
+
+OWNERS = frozenset({"make_unique", "make_shared", "MakeUnique", "MakeShared", "CreateRef", "CreateScope"})
+"""Functions that construct an object of the type that is their template argument."""
 
 CASTS = frozenset({"static_cast", "reinterpret_cast", "const_cast", "bit_cast"})
 
@@ -146,6 +153,7 @@ class Expressions(SyntaxReader, ABC):
                 length = self.expression(array.child_by_field_name("length"), deeper)
                 return (CALL, (NAME, f"{self.type_text(type_node)}[]", at), (length,), at)
             if type_node is not None:
+                self.called_names.add(short_name(self.type_text(type_node)))
                 arguments = tuple(self.expression(child, deeper) for child in without_comments(list_node))
                 return (CALL, (NAME, self.type_text(type_node), at), arguments, at)
         return (UNPARSED, self.text_of(node) if node.end_byte - node.start_byte < 200 else "", at)
@@ -168,13 +176,19 @@ class Expressions(SyntaxReader, ABC):
         if term[0] == CALL and len(term[2]) == 1 and term[2][0][0] == NAME and term[1][0] == NAME and term[1][1].isupper():
             # `VK_CALL(vkCreateImage)(device)`
             term = term[2][0]
+        if term[0] == FIELD and term[2] == "get" and not arguments and function is not None:
+            # `chain.get<vk::SubpassDescription2>()`
+            kind = self.resolve_aliases(self.text_of(function).rpartition("get<")[2][:-1])
+            arguments = ((NAME, kind, at),) if kind.startswith(API_TYPES) else ()
         standard = shapes.called(term, arguments)
         if standard:
             term = (NAME, standard, term[-1])
         named = term[1] if term[0] == NAME else term[2] if term[0] == FIELD else ""
-        short = str(named).rpartition("::")[2].partition("<")[0]
-        if short != self.current:
+        short = short_name(str(named))
+        if short != self.current or (term[0] == FIELD and term[1][:2] != (NAME, "this")):
             self.called_names.add(short)
+        if short in OWNERS and term[0] == NAME and term[1].endswith(">"):
+            self.called_names.add(short_name(term[1].partition("<")[2][:-1]))
         return (CALL, term, arguments, at)
 
     def counted(self, node: SyntaxNode) -> SyntaxNode | None:

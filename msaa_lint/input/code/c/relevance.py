@@ -62,6 +62,12 @@ _VISIBLE = re.compile(r"[^\r\n]")
 _SHORT = re.compile(r"(?=[^{}]{0,160}\Z)\s*\w[^;]*;(?:[^;]*;){0,2}\s*\Z")
 """The body of a function that returns or sets a member, appends to a list, or calls another one."""
 
+_CHAINED = re.compile(r"\breturn\s*\*\s*this\s*;\s*\Z")
+"""The end of the body of a function after whose call others follow: `Builder().size(w, h).samples(n)`."""
+
+MAX_CHAINED = 1000
+"""The maximum number of characters of such a body."""
+
 
 class Body(NamedTuple):
     """A function in a text: where its header starts, and the range of what is between its braces."""
@@ -143,9 +149,9 @@ def is_about_graphics(text: str) -> bool:
     return any(word in text for word in _WORDS) or (("samplecount" in text or "sample_count" in text) and _DRAWING.search(text) is not None)
 
 
-def is_short(body: str) -> bool:
-    """Returns whether what is between the braces of a function is short: what an accessor returns may matter, whatever it is called."""
-    return _SHORT.match(body) is not None
+def is_accessor(body: str) -> bool:
+    """Returns whether what is between the braces of a function is an accessor's: what it returns may matter, whatever it is called."""
+    return _SHORT.match(body) is not None or (len(body) <= MAX_CHAINED and _CHAINED.search(body, max(0, len(body) - 40)) is not None)
 
 
 def _is_header(before: str) -> bool:
@@ -165,7 +171,7 @@ def without_irrelevant_bodies(text: str, macros: Macros) -> str:
     parts: list[str] = []
     last = 0
     for body, matters in zip(found, kept, strict=True):
-        if not matters and not is_short(text[body.start : body.end]):
+        if not matters and not is_accessor(text[body.start : body.end]):
             parts += (text[last : body.start], _VISIBLE.sub(" ", text[body.start : body.end]))
             last = body.end
     return "".join((*parts, text[last:]))

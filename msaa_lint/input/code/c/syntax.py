@@ -9,12 +9,12 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from msaa_lint.input.code.core.terms import ASSIGN, CALL, DO, NAME, Function, Parameter, Term, Unit
+from msaa_lint.input.code.core.terms import ASSIGN, CALL, DO, FIELD, NAME, Function, Parameter, Term, Unit
 from msaa_lint.input.code.parsing import Code, SyntaxNode, fields, function_declarator, span, without_comments
 
 from .directives import Section, Sections
 from .kinds import CLASSES, MAX_DEPTH, NAMES
-from .relevance import is_about_graphics, is_short, relevant
+from .relevance import is_about_graphics, is_accessor, relevant
 from .statements import Statements
 
 VIRTUAL = re.compile(r"\b(?:virtual|override)\b")
@@ -140,7 +140,7 @@ class Reader(Statements):
         matters = relevant([self.text_of(node) for _, _, node in self.found], names, is_about_graphics(self.text))
         for found, kept in zip(self.found, matters, strict=True):
             body = found[2].child_by_field_name("body")
-            if kept or is_initializing(found[2]) or (body is not None and is_short(self.text_of(body)[1:-1])):
+            if kept or is_initializing(found[2]) or (body is not None and is_accessor(self.text_of(body)[1:-1])):
                 yield found, kept
 
     def note_public_members(self, node: SyntaxNode) -> None:
@@ -218,7 +218,8 @@ class Reader(Statements):
                 items = [self.expression(c, 0) for c in without_comments(value)]
                 at = span(name)
                 term = items[0] if len(items) == 1 else (CALL, (NAME, "", at), tuple(items), at)
-                yield (DO, (ASSIGN, "=", (NAME, self.text_of(name), at), term, at), at)
+                # A parameter may have the name of the member.
+                yield (DO, (ASSIGN, "=", (FIELD, (NAME, "this", at), self.text_of(name), at), term, at), at)
 
 
 def is_initializing(node: SyntaxNode) -> bool:

@@ -8,7 +8,7 @@ from msaa_lint.core.text.span import Span
 
 from .calls import Calls
 from .scope import MAX_TURNS, Scope
-from .terms import CALL, FIELD, NAME, Term
+from .terms import CALL, FIELD, NAME, Term, short_name
 from .values import UNKNOWN_VALUE, Array, Cell, Closure, Routine, Value
 
 ALGORITHMS = frozenset({"for_each", "transform", "copy"})
@@ -94,5 +94,5 @@ def _called(term: Term) -> tuple[str, Term | None]:
     if function[0] == FIELD and not arguments:
         return str(function[2]), function[1]
     if function[0] == NAME and arguments:
-        return str(function[1]).rpartition("::")[2].partition("<")[0], arguments[0]
+        return short_name(function[1]), arguments[0]
     return "", None

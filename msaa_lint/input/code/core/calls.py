@@ -19,7 +19,7 @@ from .overloads import bound
 from .resolution import Resolution
 from .scope import MAX_CALLS, MAX_CLOSURES, MAX_WAYS, MEMBER, Scope, Scopes
 from .static_types import OWNED
-from .terms import BRACES, CALL, FIELD, INDEX, LAMBDA, NAME, Function, Parameter, Term, Unit
+from .terms import BRACES, CALL, FIELD, INDEX, LAMBDA, NAME, Function, Parameter, Term, Unit, short_name
 from .types import element_type
 from .values import (
     MAX_ALTERNATIVES,
@@ -127,7 +127,7 @@ class Calls(Resolution):
             if function[0] == NAME and self.library.structure(function[1]):
                 return self.construct(function[1], [(None, item) for item in arguments], place, scope)
             if name == "to_array" and len(arguments) == 1 and arguments[0][0] == BRACES:
-                return self.list_value(function[1].partition("<")[2].rstrip(">"), arguments[0][2], place, scope)
+                return self.list_value(function[1].partition("<")[2][:-1], arguments[0][2], place, scope)
             if name in ("make_array", "makeArray") and arguments:
                 return self.list_value("", [(None, item) for item in arguments], place, scope)
             if function[0] == NAME and len(arguments) == 1 and (_CAST.match(function[1]) or self.library.is_cast(function[1])):
@@ -225,7 +225,20 @@ class Calls(Resolution):
             self.library.is_count_choice(function.name) and not counts
         ):
             return (Alternative(Symbol(f"{function.name}()", function.name, True), term[-1]),)
+        if len(term[2]) == 1 and value:
+            value = self.converted(function, term[2][0], value, scope)
         return self.result_of(function, term, value, len(self.current_objects) > before, scope)
+
+    def converted(self, function: Function, argument: Term, value: Value, scope: Scope) -> Value:
+        """Returns the result of a function that converts a constant to one of the API. What it is, the place of the argument says."""
+        if argument[0] not in (NAME, FIELD, INDEX) or not all(isinstance(a.value, str) for a in value) or not function.body:
+            return value
+        source = self.value(argument, scope)
+        if len(source) != len(value) or any(not isinstance(a.value, (int, str)) for a in source):
+            return value
+        start, end = function.body[0][-1].start, function.body[-1][-1].end
+        of_function = all(start <= a.at.start < end for a in value)
+        return tuple(a._replace(at=b.at) for a, b in zip(value, source, strict=True)) if of_function else value
 
     def result_of_unknown_object(self, value: Value, function: Function, term: Term, before: int) -> Value:
         """Returns the result of a method of an object that is unknown: what is known of its class, but not an image or another API object
@@ -325,7 +338,7 @@ def _identity(value: Any) -> Hashable:
 def _callee(function: Term) -> tuple[str, Term | None]:
     """Returns the name of a function and the object that it is called on."""
     if function[0] == NAME:
-        return str(function[1]).rpartition("::")[2].partition("<")[0], None
+        return short_name(function[1]), None
     if function[0] == FIELD:
         return str(function[2]), function[1]
     return "", None

@@ -38,8 +38,10 @@ class Elements(StaticTypes):
 
     def element_of(self, array: Array, index: Term, place: Span, scope: Scope) -> Cell:
         """Returns the element of a list at an unknown index. Others may follow or be the same, so the list is not complete."""
+        if array.alike and len(array.items) == 1 and scope.unknown_loops:
+            return array.items[0]
         key = self.index_key(index, scope)
-        array.complete = False
+        array.complete = array.alike = False
         cell = array.others.get(key)
         if cell is None:
             cell = array.others[key] = self.unset_element(array.kind, place, array.zeroed)
@@ -86,6 +88,8 @@ class Elements(StaticTypes):
     def looked_up(self, array: Array, indices: Value, term: Term, scope: Scope) -> Cell:
         """Returns a cell with the element of a list at an unknown index, to be read: the same index gives elements that belong together."""
         element = array.others.get(self.index_key(term[2], scope))
+        if element is None and array.alike and len(array.items) == 1:
+            return array.items[0]
         if element is not None or not array.complete or not array.items:
             return element or Cell()
         if indices and all(type(a.value) is int for a in indices):

@@ -245,10 +245,10 @@ class Evaluator(ConditionEvaluator):
 
     def assign(self, term: Term, scope: Scope) -> Value:
         _, sign, target, source, place = term
-        if target[0] == NAME and self.is_base(target[1], scope):
+        if target[0] == FIELD and target[1][:2] == (NAME, "this") and self.is_base(target[2], scope):
             # A base class in the list of initializers.
             arguments = source[2] if source[0] == CALL and source[1][:2] == (NAME, "") else (source,)
-            self.construct_base(target[1], (CALL, target, tuple(arguments), place), scope)
+            self.construct_base(target[2], (CALL, (NAME, target[2], place), tuple(arguments), place), scope)
             return UNKNOWN_VALUE
         cell = self.cell_of(target, scope)
         kind = self.type_of(cell) if cell is not None else ""

@@ -42,6 +42,7 @@ from .terms import (
     TARGET,
     Function,
     Term,
+    called_names,
 )
 from .values import (
     MAX_ALTERNATIVES,
@@ -133,8 +134,11 @@ class Interpreter(Loops):
         entry_points = self.entry_points()
         yield from entry_points
         known = {function.at for function in entry_points}
+        relevant = {function.name for function in self.unit.functions if not function.only_called}
         for function in self.unit.functions:
-            if function.at not in known and function.at not in self.followed and not function.only_called:
+            if function.at in known or function.at in self.followed:
+                continue
+            if not function.only_called or not relevant.isdisjoint(called_names(function.body)):
                 yield function
 
     def entry_points(self) -> list[Function]:

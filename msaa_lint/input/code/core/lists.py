@@ -161,6 +161,7 @@ class ListMethods(Structures):
 
     def append(self, array: Array, value: Value, place: Span, scope: Scope) -> Value:
         """Appends an element to a list and returns a reference to it."""
+        array.alike = scope.unknown_loops > 0 and array.complete and not array.items and not array.unset
         array.complete = array.complete and not scope.unknown_loops and len(array.items) < 64
         if len(array.items) >= 64:
             return UNKNOWN_VALUE

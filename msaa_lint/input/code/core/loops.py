@@ -38,8 +38,10 @@ class Loops(Algorithms):
         else:
             for statement in declared:
                 self.declare(statement, scope)
+            listed = self.target(over, scope) if over is not None else None
+            one = listed.items[0] if isinstance(listed, Array) and listed.alike and len(listed.items) == 1 else None
             for statement in declared:
-                scope.scopes[-1][statement[2]] = Cell(statement[1], statement[2])
+                scope.scopes[-1][statement[2]] = one or Cell(statement[1], statement[2])
             if counter is not None:
                 counter.write(UNKNOWN_VALUE, at(term), scope.guards)
             scope.unknown_loops += 1

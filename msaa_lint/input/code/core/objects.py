@@ -6,9 +6,10 @@ from typing import Any
 
 from msaa_lint.core.text.span import Span
 
+from .classes import pointed
 from .scope import MEMBER, Scope
 from .terms import CALL, FIELD, INDEX, NAME, Term, at
-from .types import element_type
+from .types import array_size, element_type
 from .values import UNKNOWN_VALUE, Alternative, Array, Cell, Ref, Struct, Value, pointee, sole_value
 from .variables import Variables
 
@@ -122,3 +123,31 @@ class ClassObjects(Variables):
             return value
         value = self.value(initializer, scope, kind)
         return tuple(Alternative(self.stored_value(a.value, kind, name), a.at, a.guards) for a in value)
+
+    def fill_array(self, array: Array, kind: str, scope: Scope) -> None:
+        """Adds elements to an array up to the size of its type."""
+        size = array_size(kind)
+        if not size:
+            return
+        count = int(size[:9]) if size.isdecimal() else self.sole((NAME, size, array.at), scope)
+        if type(count) is not int or not 0 <= count <= 64:
+            array.complete = False
+            return
+        while len(array.items) < count:
+            array.items.append(self.unset_element(array.kind, array.at, array.zeroed))
+
+    def default_value(self, kind: str, name: str, place: Span, scope: Scope, zeroed: bool = False) -> Value:
+        """Returns the value of a variable without an initializer. vulkan.hpp structures have default constructors."""
+        struct_name = self.library.structure(kind)
+        if struct_name:
+            return (Alternative(Struct(struct_name, place, zeroed or kind.startswith("vk::"), name), place),)
+        inner = element_type(kind)
+        if inner is not None:
+            array = Array(inner, place)
+            array.name, array.zeroed = name, zeroed
+            self.fill_array(array, kind, scope)
+            return (Alternative(array, place),)
+        class_name = self.class_of(kind, scope.enclosing) if pointed(kind) == kind else None
+        if class_name is not None or (kind[:1].isupper() and not self.library.is_type(kind)):
+            return (Alternative(self.new_object(class_name or "", place, name), place),)
+        return UNKNOWN_VALUE

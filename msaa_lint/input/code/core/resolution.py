@@ -122,6 +122,9 @@ class Resolution(ListMethods):
             for f in functions[:64]
             if all(not kind or self.accepts(p.type, kind, scope) for p, kind in zip(f.parameters, types, strict=False))
         ]
+        if len(fitting) > 1:
+            # Of several enumerations, each is an integer.
+            fitting = [f for f in fitting if all(not kind or _is_named(p.type, kind) for p, kind in zip(f.parameters, types, strict=False))]
         return fitting[0] if len(fitting) == 1 else None
 
     def argument_type(self, argument: Term, scope: Scope) -> str:
@@ -160,3 +163,8 @@ class Resolution(ListMethods):
         """Returns whether a member points to an object of a class, but which one is unknown."""
         known = pointee(sole_value(cell.read(scope.guards)))
         return cell.kind == MEMBER and not isinstance(known, Struct) and not self.is_held(cell) and bool(self.pointed_class(cell.name))
+
+
+def _is_named(kind: str, other: str) -> bool:
+    """Returns whether two types have the same name, whatever their qualifiers are."""
+    return kind.rpartition("::")[2] == other.rpartition("::")[2]

@@ -105,3 +105,28 @@ def at(term: Term) -> Span:
 def labeled(argument: Term) -> tuple[str, Term]:
     """Returns the label of an argument, or an empty string, and its expression."""
     return (argument[1], argument[2]) if argument[0] == LABEL else ("", argument)
+
+
+def short_name(name: str) -> str:
+    """Returns a name without its qualifiers and template arguments: `f` for `std::f<vk::Format>`."""
+    if not name.endswith(">"):
+        return name.rpartition("::")[2]
+    depth = 0
+    for n in range(len(name) - 1, 0, -1):
+        depth += (name[n] == ">") - (name[n] == "<")
+        if depth == 0:
+            return name[:n].rpartition("::")[2]
+    return name
+
+
+def called_names(body: tuple[Term, ...]) -> set[str]:
+    """Returns the names of the functions and methods that statements call, without qualifiers."""
+    names: set[str] = set()
+    stack: list[Any] = list(body)
+    while stack:
+        term = stack.pop()
+        if isinstance(term, tuple) and not isinstance(term, Span):
+            stack.extend(term)
+            if len(term) == 4 and term[0] == CALL and term[1][0] in (NAME, FIELD):
+                names.add(short_name(str(term[1][2 if term[1][0] == FIELD else 1])))
+    return names

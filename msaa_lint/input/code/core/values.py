@@ -189,7 +189,7 @@ class Members(Protocol):
 class Array:
     """A list. `complete` means that all its elements are known; `zeroed` that further elements are zero."""
 
-    __slots__ = ("at", "complete", "items", "kind", "name", "others", "unset", "zeroed")
+    __slots__ = ("alike", "at", "complete", "items", "kind", "name", "others", "unset", "zeroed")
 
     def __init__(self, kind: str, at: Span, complete: bool = True) -> None:
         self.kind = kind
@@ -202,6 +202,8 @@ class Array:
         """The elements at unknown indices, by the index."""
         self.unset = False
         """Whether it is a member that was not used yet. Then its length is not known, although it starts empty."""
+        self.alike = False
+        """Whether it consists of what one loop of unknown length appends, of which one element is known."""
 
 
 class Ref(NamedTuple):
@@ -214,7 +216,7 @@ class Ref(NamedTuple):
 class ApiObject:
     """A Vulkan object created by a call: an image, a view, a render pass. `info` is a copy of its creation structure."""
 
-    __slots__ = ("at", "escaped", "guards", "info", "key", "kind", "memory", "name", "name_depth")
+    __slots__ = ("at", "escaped", "guards", "info", "key", "kind", "memory", "name", "name_depth", "repeated")
 
     def __init__(self, kind: str, key: tuple[Any, ...], at: Span, info: Struct) -> None:
         self.kind = kind
@@ -228,6 +230,8 @@ class ApiObject:
         """Whether it is passed to external code."""
         self.memory: Value = ()
         self.guards: Guards = ALWAYS
+        self.repeated = False
+        """Whether a loop of unknown length creates it."""
 
     def signature(self) -> tuple[Any, ...]:
         """Returns what identical objects created by the same call have in common."""
@@ -337,7 +341,7 @@ class Copier:
         if isinstance(value, Array):
             array = Array(value.kind, value.at, value.complete)
             array.zeroed, array.name, array.others = value.zeroed, value.name, dict(value.others)
-            array.unset = value.unset
+            array.unset, array.alike = value.unset, value.alike
             array.items = [self._cell(cell, Cell(cell.kind, cell.name), depth, targets) for cell in value.items]
             return array
         if isinstance(value, Ref) and targets is not None:

@@ -16,7 +16,6 @@ from msaa_lint.frame.vulkan.enums import VALUES
 from msaa_lint.input.code.core.conditions import canonical_text
 from msaa_lint.input.code.core.escapes import forget, forget_captures, mark_escaped, mark_used, settle_under
 from msaa_lint.input.code.core.guards import brief
-from msaa_lint.input.code.core.interpreter import Interpreter
 from msaa_lint.input.code.core.limits import Work
 from msaa_lint.input.code.core.lists import Receiver
 from msaa_lint.input.code.core.scope import Scope, name_objects
@@ -40,6 +39,7 @@ from msaa_lint.input.code.core.values import (
     structures_in,
 )
 
+from .chains import StructureChains
 from .library import VulkanLibrary
 from .names import MAX_NAMES, first_version, vulkan_struct
 
@@ -124,7 +124,7 @@ _TYPED = {
 _MEMORY_BITS = VALUES["VkMemoryPropertyFlagBits"]
 
 
-class VulkanInterpreter(Interpreter):
+class VulkanInterpreter(StructureChains):
     """Executes a program that calls Vulkan."""
 
     def __init__(self, unit: Unit, fragments: bool, is_cpp: bool, work: Work, names: VulkanLibrary | None = None) -> None:
@@ -305,6 +305,7 @@ class VulkanInterpreter(Interpreter):
         obj.info = self.copies.with_targets(info)
         settle_under(obj.info, dict(scope.guards), self.work)
         obj.guards = scope.guards
+        obj.repeated = scope.unknown_loops > 0
         obj.memory = ()
         obj.name_depth = 99
         self.current_objects[key] = obj

@@ -118,7 +118,7 @@ class Passes(Subpasses):
         With one image per frame in flight, no frame waits for another.
         """
         return not any(
-            struct is None or ((self.samples(struct)[0] or 2) > 1 and (image is None or "[" in image.name))
+            struct is None or ((self.samples(struct)[0] or 2) > 1 and (image is None or image.repeated or "[" in image.name))
             for struct, image in zip(structs, images, strict=True)
         )
 

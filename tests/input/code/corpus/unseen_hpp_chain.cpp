@@ -17,7 +17,7 @@ struct Pass2 {
         const auto attachments = std::to_array<v::AttachmentDescription2>({
             {{}, color, msaa, v::AttachmentLoadOp::eClear, v::AttachmentStoreOp::eDontCare, v::AttachmentLoadOp::eDontCare,
              v::AttachmentStoreOp::eDontCare, v::ImageLayout::eUndefined, v::ImageLayout::eColorAttachmentOptimal},
-            {{}, color, Samples::e1, v::AttachmentLoadOp::eLoad,  // expect-later: MSAA205
+            {{}, color, Samples::e1, v::AttachmentLoadOp::eLoad,  // expect: MSAA205
              v::AttachmentStoreOp::eStore, v::AttachmentLoadOp::eDontCare, v::AttachmentStoreOp::eDontCare,
              v::ImageLayout::eColorAttachmentOptimal, v::ImageLayout::eShaderReadOnlyOptimal},
             {{}, depth, msaa, v::AttachmentLoadOp::eClear, v::AttachmentStoreOp::eDontCare, v::AttachmentLoadOp::eDontCare,

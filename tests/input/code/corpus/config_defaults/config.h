@@ -14,7 +14,7 @@ struct AttachmentConfig {
     VkFormat format = VK_FORMAT_UNDEFINED;
     uint16_t samples = 1;
     LoadOp loadOp = LOAD_OP_CLEAR;
-    StoreOp storeOp = STORE_OP_STORE;  // expect-later: MSAA201#color, MSAA203#depth
+    StoreOp storeOp = STORE_OP_STORE;  // expect: MSAA201#color
 
     AttachmentConfig() = default;
     AttachmentConfig(Role role_, VkFormat format_, uint16_t samples_) : role(role_), format(format_), samples(samples_) {}

@@ -6,7 +6,7 @@ RenderPassVk CreateScenePass(VkDevice Device) {
     Attachments[0].Format = TEX_FORMAT_RGBA8;
     Attachments[0].SampleCount = 4;
     Attachments[0].LoadOp = ATTACHMENT_LOAD_OP_CLEAR;
-    Attachments[0].StoreOp = ATTACHMENT_STORE_OP_STORE;  // expect-later: MSAA201
+    Attachments[0].StoreOp = ATTACHMENT_STORE_OP_STORE;  // expect: MSAA201
     Attachments[1].Format = TEX_FORMAT_RGBA8;
     Attachments[1].SampleCount = 1;
     Attachments[1].LoadOp = ATTACHMENT_LOAD_OP_DISCARD;

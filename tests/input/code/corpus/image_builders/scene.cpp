@@ -12,7 +12,7 @@ private:
 
 void Scene::CreateTargets(VkDevice device) {
     color = ImageBuilder()
-                .Size(640, 480, 4)  // expect-later: MSAA106
+                .Size(640, 480, 4)  // expect: MSAA106
                 .Samples(VK_SAMPLE_COUNT_4_BIT)
                 .Format(VK_FORMAT_R16G16B16A16_SFLOAT)
                 .Usage(VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT)
