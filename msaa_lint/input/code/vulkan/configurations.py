@@ -8,7 +8,7 @@ from typing import Any
 from msaa_lint.core.text.node import Node
 from msaa_lint.core.text.span import Span
 from msaa_lint.input.code.core.configurations import Configuration
-from msaa_lint.input.code.core.guards import covers
+from msaa_lint.input.code.core.guards import Guards, covers
 from msaa_lint.input.code.core.values import UNKNOWN, ApiObject, Array, Cell, Ref, Struct, Value, sole_value
 
 from .creation import VulkanInterpreter
@@ -164,13 +164,13 @@ def chosen_counts(value: Value) -> set[int]:
     return counts if len(counts) > 2 else set()
 
 
-def inner_structs(cell: Cell, depth: int) -> Iterator[Struct]:
-    """Yields the structures that a member lists or points to in any configuration."""
+def guarded_structs(cell: Cell, depth: int, guards: Guards = frozenset()) -> Iterator[tuple[Struct, Guards]]:
+    """Yields the structures that a member lists or points to in any configuration, and under which conditions."""
     for write in cell.writes if depth < 6 else ():
         if isinstance(write.value, Struct):
-            yield write.value
+            yield write.value, guards | write.guards
         elif isinstance(write.value, Ref):
-            yield from inner_structs(write.value.cell, depth + 1)
+            yield from guarded_structs(write.value.cell, depth + 1, guards | write.guards)
         elif isinstance(write.value, Array):
             for item in write.value.items:
-                yield from inner_structs(item, depth + 1)
+                yield from guarded_structs(item, depth + 1, guards | write.guards)

@@ -13,7 +13,7 @@ from typing import Any
 
 from msaa_lint.input.code.core.configurations import ASSUMED
 from msaa_lint.input.code.core.elements import is_other_element
-from msaa_lint.input.code.core.guards import negated
+from msaa_lint.input.code.core.guards import Guards, negated
 from msaa_lint.input.code.core.values import (
     UNKNOWN,
     ApiObject,
@@ -27,7 +27,7 @@ from msaa_lint.input.code.core.values import (
     sole_value,
 )
 
-from .configurations import COUNTS, VulkanConfiguration, chosen_counts, inner_structs
+from .configurations import COUNTS, VulkanConfiguration, chosen_counts, guarded_structs
 
 _FLAG = re.compile(r"[\w:.]*(?:msaa|multi_?sampl)\w*(?:\(\))?", re.IGNORECASE)
 _OPPOSITE = re.compile(r"(?:^|[._:])(?:no|non|not|disable|without|skip|un)_?(?:msaa|multi)", re.IGNORECASE)
@@ -35,32 +35,34 @@ _OPPOSITE = re.compile(r"(?:^|[._:])(?:no|non|not|disable|without|skip|un)_?(?:m
 NO_RESOLVE = (None, 0, "NONE", "VK_RESOLVE_MODE_NONE", "VK_RESOLVE_MODE_NONE_KHR")
 """Values of a resolve mode that resolves nothing."""
 
+ALWAYS: Guards = frozenset()
+
 
 class Multisampling(VulkanConfiguration):
     """Selects the multisampled configuration."""
 
     def choose_configuration(self) -> None:
         """Selects the conditions under which the program is multisampled."""
-        slots = [(struct, struct.fields[name].writes) for struct, name in self.sample_slots() if name in struct.fields]
-        self.assume_counts([value for _, value in slots])
-        for alternative in chain.from_iterable(value for _, value in slots):
+        slots = [under(struct.fields[name].writes, guards) for struct, name, guards in self.sample_slots() if name in struct.fields]
+        self.assume_counts(slots)
+        for alternative in chain.from_iterable(slots):
             if isinstance(alternative.value, Symbol) and alternative.value.chosen:
                 self.assume_multisampled(alternative.value, alternative.guards)
         for value in self.resolving_values():
             for write in value:
                 if isinstance(write.value, (Ref, Array, Struct)) or (isinstance(write.value, str) and write.value not in NO_RESOLVE):
                     self.assume(write.guards)
-        self.assume_replacements(value for _, value in slots)
+        self.assume_replacements(slots)
         guards = self.guard_texts()
         # What is written at another unknown index is another element.
         self.configuration.update(dict.fromkeys(filter(is_other_element, guards), False))
         for text in guards:
             if text not in self.configuration and _FLAG.fullmatch(text) and not _OPPOSITE.search(text):
                 self.configuration[text] = True
-        for alternative in chain.from_iterable(value for _, value in slots):
+        for alternative in chain.from_iterable(slots):
             if isinstance(alternative.value, Symbol) and f"{alternative.value.key}>1" in guards:
                 self.assume_multisampled(alternative.value, alternative.guards)
-        self.assume_no_fallback(value for _, value in slots)
+        self.assume_no_fallback(slots)
         self.assume_present()
         for text in guards - self.configuration.keys():
             subject, _, other = text.partition("==")
@@ -118,30 +120,30 @@ class Multisampling(VulkanConfiguration):
             self.assume(max(counts, key=lambda item: int(item.value)).guards)
         return isinstance(array, (Array, Struct))
 
-    def sample_slots(self) -> Iterator[tuple[Struct, str]]:
-        """Yields the structures with a sample count, and the member that holds it."""
+    def sample_slots(self) -> Iterator[tuple[Struct, str, Guards]]:
+        """Yields the structures with a sample count, the member that holds it, and the conditions of the structure."""
         for obj in self.current_objects:
-            yield from ((obj.info, name) for name in ("samples", "rasterizationSamples") if name in obj.info.fields)
+            yield from ((obj.info, name, ALWAYS) for name in ("samples", "rasterizationSamples") if name in obj.info.fields)
             if obj.kind == "renderPass" and "attachments" in obj.info.fields:
-                yield from ((attachment, "samples") for attachment in inner_structs(obj.info.fields["attachments"], 0))
+                yield from ((struct, "samples", guards) for struct, guards in guarded_structs(obj.info.fields["attachments"], 0))
             state = self.struct(obj.info, "multisampleState")
             if state is not None:
-                yield state, "rasterizationSamples"
+                yield state, "rasterizationSamples", ALWAYS
 
     def resolving_values(self) -> Iterator[Value]:
         """Yields the members that resolve where they are neither null nor NONE."""
         for obj in self.current_objects:
             if obj.kind == "renderPass" and "subpasses" in obj.info.fields:
-                for subpass in inner_structs(obj.info.fields["subpasses"], 0):
-                    yield from (subpass.fields[name].writes for name in ("resolveAttachments",) if name in subpass.fields)
+                for subpass, guards in guarded_structs(obj.info.fields["subpasses"], 0):
+                    yield from (under(subpass.fields[name].writes, guards) for name in ("resolveAttachments",) if name in subpass.fields)
                     chained = self.dereference(self.get(subpass, "next")[0]) if "next" in subpass.fields else None
                     if isinstance(chained, Struct) and chained.kind == "SubpassDescriptionDepthStencilResolve":
-                        yield subpass.fields["next"].writes
+                        yield under(subpass.fields["next"].writes, guards)
             if obj.kind == "rendering":
                 for name in ("colorAttachments", "depthAttachment"):
-                    for attachment in inner_structs(obj.info.fields[name], 0) if name in obj.info.fields else ():
+                    for attachment, guards in guarded_structs(obj.info.fields[name], 0) if name in obj.info.fields else ():
                         if "resolveMode" in attachment.fields:
-                            yield attachment.fields["resolveMode"].writes
+                            yield under(attachment.fields["resolveMode"].writes, guards)
 
     def guard_texts(self) -> set[str]:
         """Returns the conditions that anything depends on."""
@@ -234,3 +236,8 @@ class Multisampling(VulkanConfiguration):
         value = self.get(info, "usage")[0]
         bits = value.bits if isinstance(value, Flags) else ((value, info.at),)
         return " ".join(bit for bit, _ in bits if isinstance(bit, str))
+
+
+def under(value: Value, guards: Guards) -> Value:
+    """Returns a value that applies only under some conditions."""
+    return tuple(item._replace(guards=item.guards | guards) for item in value) if guards else value
