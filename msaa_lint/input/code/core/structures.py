@@ -221,17 +221,21 @@ class Structures(Evaluator):
     def sized_list(self, kind: str, arguments: Sequence[Term], place: Span, scope: Scope) -> Value:
         """Returns `std::vector<T> list(3)` or `list(3, value)`."""
         array = Array(kind, place)
-        count = self.sole(arguments[0], scope) if arguments else 0
-        if type(count) is not int or not 0 <= count <= 64 or len(arguments) > 2:
-            value = pointee(count)
+        counts = self.value(arguments[0], scope) if arguments else (Alternative(0, place),)
+        if not counts or not all(type(item.value) is int and 0 <= item.value <= 64 for item in counts) or len(arguments) > 2:
+            value = pointee(sole_value(counts))
             if isinstance(value, Array) and all(value is self.target(a, scope) for a in arguments[1:]):
                 return (Alternative(self.copies.value(value), place),)
             array.complete = False
             return (Alternative(array, place),)
-        for _ in range(count):
+        for n in range(max(item.value for item in counts)):
             item = self.unset_element(kind, place, True)
             if len(arguments) == 2:
                 item.writes = self.copies.alternatives(self.value(arguments[1], scope, kind))
+            present = [count.guards for count in counts if count.value > n]
+            if len(present) < len(counts):
+                # The list is longer under some conditions.
+                item.writes = tuple(write._replace(guards=write.guards | guards) for guards in present for write in item.writes)
             array.items.append(item)
         return (Alternative(array, place),)
 
