@@ -5,7 +5,7 @@ from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 from .c.preprocessor import without_dead_code
-from .parsing import Code
+from .parsing import Code, blank
 
 COUNTS = ("2", "4", "8", "16", "32", "64")
 
@@ -15,8 +15,6 @@ READS = "reads"
 
 _BLANKED = re.compile(r"//[^\n]*|/\*.*?(?:\*/|\Z)|\"(?:[^\"\\\n]|\\.)*\"|'(?:[^'\\\n]|\\.)*'", re.DOTALL)
 """Comments and literals."""
-
-_VISIBLE = re.compile(r"[^\r\n]")
 
 _ONE = re.compile(
     r"(?:\(\s*\w+\s*\)\s*)?(?:0|1|1u|\{\s*\}|VK_SAMPLE_COUNT_1_BIT|(?:\w+::)*SampleCountFlagBits(?:KHR)?::e1|\.e1)?\s*", re.IGNORECASE
@@ -88,7 +86,7 @@ def creations(codes: Iterable[Code]) -> Iterator[Creation]:
 
 def blanked(code: Code) -> str:
     """Returns the text of code with comments, literals, and dead code blanked, at the same offsets."""
-    return _BLANKED.sub(lambda match: _VISIBLE.sub(" ", match[0]), without_dead_code(code).text)
+    return _BLANKED.sub(lambda match: blank(match[0]), without_dead_code(code).text)
 
 
 class _Ones:

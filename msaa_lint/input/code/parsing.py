@@ -140,6 +140,14 @@ class SyntaxReader:
         return self.text[node.start_byte : node.end_byte] if node is not None else ""
 
 
+_BLANKS = {code: " " for code in range(128) if chr(code) not in "\r\n"}
+
+
+def blank(text: str) -> str:
+    """Returns as many blanks as a text in ASCII has characters, with its line ends."""
+    return text.translate(_BLANKS)
+
+
 def ascii_only(text: str) -> str:
     """Returns the text with `_` for each non-ASCII character."""
     return text if text.isascii() else _NOT_ASCII.sub("_", text)

@@ -5,29 +5,33 @@ from __future__ import annotations
 
 import re
 
+from msaa_lint.input.code.parsing import blank
+
 _MACRO = r"_{0,3}[A-Z][A-Z0-9_]{1,60}"
 _ARGUMENTS = r"\([^()\n]{0,200}\)"
 _DECLARED = r"(?:[A-Za-z_][\w:]{0,80}(?:<[^<>()\n]{0,100}>)?[ \t*&\n]{1,40}){1,5}~?[\w:]{1,100}[ \t]*\("
 _KEYWORD = r"(?:class|struct|union|enum|namespace|template|public|private|protected|typedef|using)\b"
 
-_CLASS = re.compile(
-    rf"\b(?:class|struct|union)[ \t]+(?P<blank>{_MACRO}(?:[ \t]*{_ARGUMENTS})?)(?=\s{{1,40}}[A-Za-z_][\w:]{{0,100}}\s{{0,40}}"
-    rf"(?:final\s{{0,40}})?(?::(?!:)|\{{))"
+_CLASSES = tuple(
+    re.compile(
+        rf"{word}(?<!\w{word})[ \t]+(?P<blank>{_MACRO}(?:[ \t]*{_ARGUMENTS})?)(?=\s{{1,40}}[A-Za-z_][\w:]{{0,100}}\s{{0,40}}"
+        rf"(?:final\s{{0,40}})?(?::(?!:)|\{{))"
+    )
+    for word in ("class", "struct", "union")
 )
 """`class API Name : public Base {`"""
 
 _FUNCTION = re.compile(
-    rf"^[ \t]*(?:(?:static|inline|extern|virtual|constexpr|friend|explicit|template[ \t]*<[^<>\n]{{0,100}}>)[ \t]+){{0,4}}"
-    rf"(?P<blank>{_MACRO}(?:[ \t]*{_ARGUMENTS}(?=[ \t]))?)(?=\s{{1,40}}(?:{_KEYWORD}|{_DECLARED}))",
-    re.MULTILINE,
+    rf"\n[ \t]*+(?:(?:static|inline|extern|virtual|constexpr|friend|explicit|template[ \t]*<[^<>\n]{{0,100}}>)[ \t]+){{0,4}}"
+    rf"(?P<blank>{_MACRO}(?:[ \t]*{_ARGUMENTS}(?=[ \t]))?)(?=\s{{1,40}}(?:{_KEYWORD}|{_DECLARED}))"
 )
 """`API void f()`; also a macro on a line of its own before a function."""
 
-_CONVENTION = re.compile(
-    r"(?<=[\w*&>])[ \t]{1,40}(?P<blank>[A-Z0-9_]{0,60}(?:CALL|API|DECL|CONV|PTR|INLINE|ATTR|EXPORT)[A-Z0-9_]{0,60}|__\w{0,20}call|__cdecl)"
-    r"(?=[ \t]{1,40}[A-Za-z_][\w:~]{0,100}[ \t]?\()"
-)
+_CONVENTION = re.compile(r"(?P<blank>[A-Z0-9_](?<=[ \t].)\w{2,124}+)(?=[ \t]{1,40}[A-Za-z_][\w:~]{0,100}[ \t]?\()")
 """`void CALL f()`"""
+
+_CALLED = re.compile(r"[A-Z0-9_]{0,60}(?:CALL|API|DECL|CONV|PTR|INLINE|ATTR|EXPORT)[A-Z0-9_]{0,60}|__\w{0,20}call|__cdecl")
+_TYPE = re.compile(r"[\w*&>][ \t]{1,40}\Z")
 
 _AFTER = re.compile(
     r"\)[ \t\n]{0,40}(?:const[ \t\n]{1,40})?(?P<blank>[A-Z0-9_]{0,60}(?:NOEXCEPT|OVERRIDE|FINAL|PRINTF|"
@@ -37,20 +41,19 @@ _AFTER = re.compile(
 """`void f() NOEXCEPT {`"""
 
 _STATEMENT = re.compile(
-    rf"^[ \t]*{_MACRO}[ \t]?{_ARGUMENTS}(?P<end>[ \t]*\n)(?=\s{{0,200}}(?:{_KEYWORD}|{_DECLARED}))",
-    re.MULTILINE,
+    rf"\n[ \t]*+{_MACRO}[ \t]?{_ARGUMENTS}(?P<end>[ \t]*\n)(?=\s{{0,200}}(?:{_KEYWORD}|{_DECLARED}))",
 )
 """`DECLARE_CLASS(Name, Base)`, without a semicolon"""
 
 _INTERFACE = re.compile(r"^[ \t]*@(?:interface|implementation|protocol)\b", re.MULTILINE)
-_VISIBLE = re.compile(r"[^\r\n]")
 
 
 def without_annotations(text: str) -> str:
     """Returns the text without what only says how to link, call, or check a declaration; offsets stay."""
-    for pattern in (_CLASS, _CONVENTION, _AFTER, _FUNCTION):
+    for pattern in (*_CLASSES, _CONVENTION, _AFTER):
         text = pattern.sub(_blanked, text)
-    return _STATEMENT.sub(_ended, text)
+    # The patterns of lines start with the end of the one before, which is found faster than the start of a line.
+    return _STATEMENT.sub(_ended, _FUNCTION.sub(_blanked, f"\n{text}"))[1:]
 
 
 def without_objective_c(text: str) -> str:
@@ -58,7 +61,7 @@ def without_objective_c(text: str) -> str:
     parts: list[str] = []
     last = 0
     while (start := _INTERFACE.search(text, last)) is not None and (end := text.find("@end", start.end())) >= 0:
-        parts += (text[last : start.start()], _VISIBLE.sub(" ", text[start.start() : end + 4]))
+        parts += (text[last : start.start()], blank(text[start.start() : end + 4]))
         last = end + 4
     return "".join((*parts, text[last:]))
 
@@ -68,5 +71,9 @@ def _ended(match: re.Match[str]) -> str:
 
 
 def _blanked(match: re.Match[str]) -> str:
+    if match.re is _CONVENTION and not (
+        _CALLED.fullmatch(match["blank"]) and _TYPE.search(match.string, max(match.start() - 41, 0), match.start())
+    ):
+        return match[0]
     start, end = match.start("blank") - match.start(), match.end("blank") - match.start()
     return match[0][:start] + " " * (end - start) + match[0][end:]

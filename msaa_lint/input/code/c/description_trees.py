@@ -56,7 +56,7 @@ def syntax_of(code: Code, whole: str, unit: Unit, root: SyntaxNode, calls_metal:
         unit,
         # Sample count masks have this in their name or type, whatever their source.
         choices(unit, code.text) if "ampleCounts" in code.text or "ampleCountFlags" in code.text else (),
-        _VULKAN.search(whole) is not None,
+        ("Vk" in whole or "vk" in whole or "VULKAN" in whole) and _VULKAN.search(whole) is not None,
         _WAITS.search(whole) is not None,
         _FRAMES.search(whole) is not None,
         len(code.text),

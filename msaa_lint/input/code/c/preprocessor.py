@@ -11,7 +11,7 @@ from bisect import bisect_right
 from msaa_lint.core.quote import shortened
 from msaa_lint.core.text.span import Span
 from msaa_lint.input.code.core.conditions import condition_key
-from msaa_lint.input.code.parsing import Code, Unread
+from msaa_lint.input.code.parsing import Code, Unread, blank
 from msaa_lint.input.code.places import Piece, Places
 from msaa_lint.input.code.sample_counts.arithmetic import condition_holds
 
@@ -32,7 +32,6 @@ _SCAN = re.compile(
 )
 """Directives, comments, and literals."""
 
-_VISIBLE = re.compile(r"[^\r\n]")
 _WORD = re.compile(r"[A-Za-z_]\w*")
 _TESTED = re.compile(r"\bdefined\s*(?:\(\s*(\w+)\s*\)|(\w+))|\b([A-Za-z_]\w*)\s*(\([^()]*\))?")
 
@@ -158,7 +157,7 @@ class Preprocessed:
             self.edits.append((at, at + len(first.word), first.word[2:].ljust(len(first.word))))
         if last.exists is True and last.line.word != "else":
             start, end = last.line.start, last.line.end
-            self.edits.append((start, end, "#else" + _VISIBLE.sub(" ", self.text[start + 5 : end])))
+            self.edits.append((start, end, "#else" + blank(self.text[start + 5 : end])))
 
     def _chosen_arm(self, arms: list[Arm]) -> Arm | None:
         """Returns the arm that is read where the grammar can read only one: that of the first condition, wherever it is tested."""
@@ -238,6 +237,8 @@ class Preprocessed:
                 self._groups[-1].arms[-1].count(more)
         if not self._active or not self.structural:
             return
+        if self._active.isdisjoint(_WORD.findall(self.text, start, end)):
+            return
         position = start
         for match in _WORD.finditer(self.text, start, end):
             if match[0] in self._active and match.start() >= position and not self._is_opaque(match.start()):
@@ -289,7 +290,7 @@ class Preprocessed:
         last = 0
         for start, end, new in sorted(self.edits, key=lambda edit: (edit[0], -edit[1])):
             if end > last:
-                parts += (self.text[last:start], new if new is not None else _VISIBLE.sub(" ", self.text[max(start, last) : end]))
+                parts += (self.text[last:start], new if new is not None else blank(self.text[max(start, last) : end]))
                 last = end
         return "".join((*parts, self.text[last:]))
 

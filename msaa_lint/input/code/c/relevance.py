@@ -6,6 +6,8 @@ import re
 from collections.abc import Iterable, Sequence, Set
 from typing import NamedTuple
 
+from msaa_lint.input.code.parsing import blank
+
 from .macros import Macros
 
 _API = ("Vk", "VK_", "vk::", "vkC", "MTL")
@@ -56,7 +58,6 @@ _COMMENT = re.compile(r"//[^\n]*|/\*.*?(?:\*/|\Z)|^[ \t]*#[^\n]*", re.DOTALL | r
 _CALLED = re.compile(r"([A-Za-z_]\w*)\s*\(")
 _WORD = re.compile(r"[A-Za-z_]\w*")
 _DEFINITION = re.compile(r"#[ \t]*define[ \t]+(\w+)((?:[^\n\\]|\\\r?\n|\\.)*)")
-_VISIBLE = re.compile(r"[^\r\n]")
 
 
 _SHORT = re.compile(r"(?=[^{}]{0,160}\Z)\s*\w[^;]*;(?:[^;]*;){0,2}\s*\Z")
@@ -101,7 +102,8 @@ def bodies(text: str) -> list[Body]:
         if sign == "{":
             if not braces or braces[-1].is_container:
                 start = max(last, at - MAX_HEADER)
-                before = _COMMENT.sub(" ", text[start:at])
+                before = text[start:at]
+                before = _COMMENT.sub(" ", before) if "/" in before or "#" in before else before
                 before = before[before.rfind(";") + 1 :]
                 function = _is_header(before)
                 header = max(start, text.rfind(";", start, at) + 1)
@@ -172,7 +174,7 @@ def without_irrelevant_bodies(text: str, macros: Macros) -> str:
     last = 0
     for body, matters in zip(found, kept, strict=True):
         if not matters and not is_accessor(text[body.start : body.end]):
-            parts += (text[last : body.start], _VISIBLE.sub(" ", text[body.start : body.end]))
+            parts += (text[last : body.start], blank(text[body.start : body.end]))
             last = body.end
     return "".join((*parts, text[last:]))
 
