@@ -55,7 +55,7 @@ _UNNAMED = re.compile(r"\s*(?:(?:typedef|static|const)\s+)*(?:struct|union|enum|
 _QUALIFIERS = frozenset({"const", "noexcept", "override", "final", "volatile", "mutable", "try", "&", "&&"})
 _TOKEN = re.compile(r"\w+|&+|\S")
 _COMMENT = re.compile(r"//[^\n]*|/\*.*?(?:\*/|\Z)|^[ \t]*#[^\n]*", re.DOTALL | re.MULTILINE)
-_CALLED = re.compile(r"([A-Za-z_]\w*)\s*\(")
+_CALLED = re.compile(r"\b([A-Za-z_]\w*+)\s*+\(")
 _WORD = re.compile(r"[A-Za-z_]\w*")
 _DEFINITION = re.compile(r"#[ \t]*define[ \t]+(\w+)((?:[^\n\\]|\\\r?\n|\\.)*)")
 
@@ -179,8 +179,12 @@ def without_irrelevant_bodies(text: str, macros: Macros) -> str:
     return "".join((*parts, text[last:]))
 
 
+def _mentions(text: str, words: Set[str]) -> bool:
+    return any(word in text for word in words) and not words.isdisjoint(_WORD.findall(text))
+
+
 def _relevant_macros(text: str, macros: Macros) -> set[str]:
-    """Returns the names of macros whose replacement mentions multisampling, or uses one that does."""
+    """Returns the names in a text of macros whose replacement mentions multisampling, or uses one that does."""
     texts = [*_DEFINITION.findall(text), *((name, macro.replacement) for name, found in macros.items() for macro in found)]
     known = {name for name, replacement in texts if is_relevant(f"{name} {replacement}")}
     for _ in range(MAX_ROUNDS if known else 0):
@@ -188,7 +192,7 @@ def _relevant_macros(text: str, macros: Macros) -> set[str]:
         known |= more
         if not more:
             break
-    return known
+    return known & set(_WORD.findall(text)) if known else known
 
 
 def relevant(texts: Sequence[str], names: Sequence[Iterable[str]], graphics: bool, words: Set[str] = frozenset()) -> list[bool]:
@@ -196,9 +200,9 @@ def relevant(texts: Sequence[str], names: Sequence[Iterable[str]], graphics: boo
 
     `names` are what each function may be called by; `graphics` says whether their file is about graphics.
     """
-    kept = [(graphics and is_relevant(text)) or (bool(words) and not words.isdisjoint(_WORD.findall(text))) for text in texts]
+    kept = [(graphics and is_relevant(text)) or _mentions(text, words) for text in texts]
     fresh = {name for n, matters in enumerate(kept) if matters for name in names[n]}
-    called = {n: set(_CALLED.findall(texts[n])) for n, matters in enumerate(kept) if not matters}
+    called = {n: set(_CALLED.findall(texts[n])) for n, matters in enumerate(kept) if not matters} if fresh else {}
     for _ in range(MAX_ROUNDS if fresh else 0):
         callers = [n for n, those in called.items() if not those.isdisjoint(fresh)]
         if not callers:
