@@ -127,6 +127,16 @@ class Interpreter(Loops):
                 for write in cell.writes:
                     if write.value is not UNKNOWN and len(writes) <= MAX_ALTERNATIVES:
                         writes.setdefault(_mark(write), write)
+        for path, values in self.summary.items():
+            owner, _, rest = path.partition(".")
+            class_name = self.class_of(self.type_of_key(owner), "") if rest else None
+            if class_name is not None:
+                self.work.spend(1 + len(values))
+                name = rest.partition(".")[0].partition("[")[0]
+                writes = writes_by_key.setdefault(f"{self.classes.owner(class_name, name)}::{rest}", {})
+                for write in values:
+                    if len(writes) <= MAX_ALTERNATIVES:
+                        writes.setdefault(_mark(write), write)
         return {key: _joined(key, list(writes.values())) for key, writes in writes_by_key.items() if writes}
 
     def reached_functions(self) -> Iterator[Function]:

@@ -12,7 +12,6 @@ from typing import Any, NamedTuple, Protocol
 from msaa_lint.core.text.span import Span
 
 from .guards import ALWAYS, Conjunction, Guards, chosen, configuration, covers, excluded
-from .limits import Work
 
 MAX_ALTERNATIVES = 12
 """The maximum number of alternatives of a value; with more, it is unknown."""
@@ -292,76 +291,6 @@ def structures_in(value: Any) -> list[Struct]:
     return [item for item in values if isinstance(item, Struct)]
 
 
-MAX_DEPTH = 10
-"""The maximum nesting of structures that are copied."""
-
-
-class Copier:
-    """Copies values; `work` counts the members and alternatives that are copied."""
-
-    def __init__(self, work: Work) -> None:
-        self.work = work
-
-    def alternatives(self, value: Value, guards: Guards = ALWAYS) -> Value:
-        """Returns copies of the alternatives of a value, under additional conditions."""
-        return tuple(Alternative(self.value(a.value), a.at, a.guards | guards) for a in value)
-
-    def value(self, value: Any) -> Any:
-        """Returns a deep copy of a structure or list; other values, pointers among them, are returned as is."""
-        return self._copy(value, 0, None)
-
-    def with_targets(self, value: Any) -> Any:
-        """Returns a deep copy of a structure or list, and of the targets of its pointers, each of which is copied once."""
-        return self._copy(value, 0, {})
-
-    def merged(self, value: Value) -> Struct:
-        """Returns one structure for several alternative ones: what is different has alternatives."""
-        structs = [(a.value, a.guards) for a in value]
-        first: Struct = structs[0][0]
-        merged = Struct(first.kind, first.at, all(struct.zeroed for struct, _ in structs), first.name)
-        merged.type = first.type if all(struct.type == first.type for struct, _ in structs) else ""
-        for name in dict.fromkeys(name for struct, _ in structs for name in struct.fields):
-            writes: Value = ()
-            for struct, guards in structs:
-                cell = struct.fields.get(name)
-                unset = (Alternative(None if struct.zeroed else UNKNOWN, struct.at),)
-                writes += self.alternatives(cell.writes if cell is not None and cell.writes else unset, guards)
-            merged.cell(name).writes = limited(writes, first.at)
-        return merged
-
-    def _copy(self, value: Any, depth: int, targets: dict[int, Cell] | None) -> Any:
-        if depth > MAX_DEPTH:
-            return UNKNOWN
-        if isinstance(value, Struct) and not isinstance(value, Instance):
-            struct = Struct(value.kind, value.at, value.zeroed, value.name)
-            struct.type = value.type
-            for name, cell in value.fields.items():
-                struct.fields[name] = self._cell(cell, Cell(cell.kind, cell.name), depth, targets)
-            return struct
-        if isinstance(value, Array):
-            array = Array(value.kind, value.at, value.complete)
-            array.zeroed, array.name, array.others = value.zeroed, value.name, dict(value.others)
-            array.unset, array.alike = value.unset, value.alike
-            array.items = [self._cell(cell, Cell(cell.kind, cell.name), depth, targets) for cell in value.items]
-            return array
-        if isinstance(value, Ref) and targets is not None:
-            cell = value.cell
-            copy = targets.get(id(cell))
-            if copy is None:
-                copy = targets[id(cell)] = Cell(cell.kind, cell.name)
-                self._cell(cell, copy, depth, targets)
-            return Ref(copy, value.alias)
-        return value
-
-    def _cell(self, cell: Cell, copy: Cell, depth: int, targets: dict[int, Cell] | None) -> Cell:
-        self.work.spend(1 + len(cell.writes))
-        copy.writes = tuple(
-            Alternative(self._copy(a.value, depth + 1, targets), a.at, a.guards) if isinstance(a.value, (Struct, Array, Ref)) else a
-            for a in cell.writes
-        )
-        return copy
-
-
 def sole_value(value: Value) -> Any:
     """Returns the value if there is only one, otherwise UNKNOWN."""
     if len(value) == 1:
@@ -380,13 +309,40 @@ def pointee(value: Any) -> Any:
     return value
 
 
-def are_equal(left: Any, right: Any) -> bool:
+def are_equal(left: Any, right: Any, depth: int = 0) -> bool:
     """Returns whether two values are certainly equal."""
     if isinstance(left, Flags) and isinstance(right, Flags):
         return {bit for bit, _ in left.bits} == {bit for bit, _ in right.bits}
     if isinstance(left, ApiObject) and isinstance(right, ApiObject):
         # The same call creates the same object again, when a window is resized, for example.
         return left is right or left.signature() == right.signature()
-    if isinstance(left, (Struct, Array, Unknown)):
-        return left is right and left is not UNKNOWN
-    return type(left) is type(right) and bool(left == right)
+    if isinstance(left, Unknown) or left is right:
+        return left is not UNKNOWN
+    if isinstance(left, Struct) and isinstance(right, Struct):
+        return bool(left.kind or depth) and _have_equal_members(left, right, depth)
+    if isinstance(left, Ref) and isinstance(right, Ref):
+        return left == right or (left.alias == right.alias and _hold_equal(left.cell, right.cell, depth))
+    return not isinstance(left, (Struct, Array)) and type(left) is type(right) and bool(left == right)
+
+
+MAX_COMPARED = 4
+"""The maximum nesting of structures whose members are compared."""
+
+
+def _have_equal_members(left: Struct, right: Struct, depth: int) -> bool:
+    """Returns whether the same code fills two structures with equal values, as a function does that is called again."""
+    same = left.at == right.at and left.kind == right.kind and left.zeroed == right.zeroed and depth < MAX_COMPARED
+    return (
+        same
+        and not isinstance(left, Instance)
+        and left.fields.keys() == right.fields.keys()
+        and all(_hold_equal(cell, right.fields[name], depth) for name, cell in left.fields.items())
+    )
+
+
+def _hold_equal(left: Cell, right: Cell, depth: int) -> bool:
+    """Returns whether two variables hold equal values, or what is unknown of both."""
+    if len(left.writes) != len(right.writes) or depth >= MAX_COMPARED:
+        return False
+    pairs = zip(left.writes, right.writes, strict=True)
+    return all((a.value is UNKNOWN and b.value is UNKNOWN and a.at == b.at) or are_equal(a.value, b.value, depth + 1) for a, b in pairs)

@@ -8,12 +8,13 @@ from typing import Any
 from msaa_lint.core.text.span import Span
 
 from .classes import Classes, pointed
+from .copies import Copier
 from .library import Library
 from .limits import Work, WorkLimitExceeded
 from .scope import MEMBER, Scope
 from .terms import CALL, DECLARE, FIELD, INDEX, NAME, TARGET, Term, Unit
 from .types import array_size, element_type
-from .values import UNKNOWN_VALUE, Alternative, Array, Cell, Copier, Flags, Instance, Ref, Struct, Value, pointee, sole_value
+from .values import UNKNOWN_VALUE, Alternative, Array, Cell, Flags, Instance, Ref, Struct, Value, pointee, sole_value
 
 MAX_KEY = 2000
 """The maximum length of the path of a member; those of longer ones are unknown."""
@@ -249,7 +250,9 @@ class Variables(ABC):
                 return cell
             writes = self.summary.get(key) or self.object_summary.get(key) or self.declared(key)
             if len(writes) > 1:
-                writes = tuple(Alternative(w.value, w.at, w.guards | {(f"{key}={n}", True)}) for n, w in enumerate(writes))
+                # The first is the value where none of the others is.
+                others = (Alternative(w.value, w.at, w.guards | {(f"{key}={n}", True)}) for n, w in enumerate(writes[1:], 1))
+                writes = (writes[0], *others)
             cell.writes = self.initial[key] = writes
         return cell
 

@@ -17,7 +17,6 @@ from msaa_lint.input.code.core.conditions import canonical_text
 from msaa_lint.input.code.core.escapes import forget, forget_captures, mark_escaped, mark_used, settle_under
 from msaa_lint.input.code.core.guards import brief
 from msaa_lint.input.code.core.limits import Work
-from msaa_lint.input.code.core.lists import Receiver
 from msaa_lint.input.code.core.scope import Scope, name_objects
 from msaa_lint.input.code.core.structures import Items
 from msaa_lint.input.code.core.terms import ADDRESS, CALL, FIELD, INDEX, NAME, Function, Parameter, Term, Unit
@@ -39,7 +38,7 @@ from msaa_lint.input.code.core.values import (
     structures_in,
 )
 
-from .chains import StructureChains
+from .foreign import ForeignCode
 from .library import VulkanLibrary
 from .names import MAX_NAMES, first_version, vulkan_struct
 
@@ -72,11 +71,6 @@ _HARMLESS = re.compile(
 
 _COPIES = re.compile(r"^(?:vkCmd(?:Copy|Blit)Image|(?:copy|blit)Image)")
 """Commands that read an image; resolves are recorded with their targets."""
-
-_IMPLEMENTED = re.compile(
-    r"vma(?:Create|Allocate|Destroy|Find)[A-Z]\w*$|vk(?:Create(?:Image|ImageView|RenderPass2?|Framebuffer|Device)|CmdBeginRendering)(?:KHR)?$"
-)
-"""Functions of Vulkan and the Vulkan Memory Allocator that a program may contain an implementation of."""
 
 _MEMORY = re.compile(r"mem.*(?:type|index)", re.IGNORECASE)
 
@@ -124,7 +118,7 @@ _TYPED = {
 _MEMORY_BITS = VALUES["VkMemoryPropertyFlagBits"]
 
 
-class VulkanInterpreter(StructureChains):
+class VulkanInterpreter(ForeignCode):
     """Executes a program that calls Vulkan."""
 
     def __init__(self, unit: Unit, fragments: bool, is_cpp: bool, work: Work, names: VulkanLibrary | None = None) -> None:
@@ -187,7 +181,7 @@ class VulkanInterpreter(StructureChains):
             return UNKNOWN_VALUE
         if not traits.queries:
             for n, value in enumerate(values):
-                target = self.creation_structure(pointee(sole_value(value)), values[n - 1] if n else ())
+                target = self.creation_structure(value, values[n - 1] if n else (), scope)
                 if isinstance(target, Struct) and first_version(target.kind) in CREATE_INFOS:
                     return self.create_from_call(target, n, term, name, values, scope)
         if traits.finds_memory:
@@ -222,23 +216,6 @@ class VulkanInterpreter(StructureChains):
         if helper_value is not None:
             return helper_value
         return (Alternative(Symbol(brief(canonical_text(term)), name, bool(self.library.is_count_choice(name))), place),)
-
-    @staticmethod
-    def creation_structure(value: Any, before: Value) -> Any:
-        """Returns the structure that an argument points to: the first of a list, unless the argument before it is another count than 1."""
-        if not isinstance(value, Array) or not value.items:
-            return value
-        first = pointee(sole_value(value.items[0].writes))
-        count = sole_value(before)
-        several = isinstance(first, Struct) and first.kind == "GraphicsPipelineCreateInfo" and count != 1
-        return value if several and len(value.items) > 1 else first
-
-    def find_function(
-        self, name: str, arguments: Sequence[Term], function: Term, receiver: Receiver | None, scope: Scope
-    ) -> Function | None:
-        # What commands create is known, also where a program contains a library that implements them.
-        is_command = receiver is None and _IMPLEMENTED.match(name) is not None
-        return None if is_command else super().find_function(name, arguments, function, receiver, scope)
 
     def declared_parameter(self, name: str, position: int) -> Parameter | None:
         """Returns the parameter that an argument is passed to, if the file declares the function."""
@@ -275,6 +252,7 @@ class VulkanInterpreter(StructureChains):
         obj = self.create(kind, info, term, scope)
         plain = (name.startswith(("vk", "vma")) and name[2:3].isupper()) or name.startswith("vma")
         result: Value = (Alternative(obj, term[3]),)
+        stored = False
         for position, argument in enumerate(term[2]):
             if position <= n or (name.startswith("vk") and position < len(term[2]) - 1 and argument[0] != ADDRESS):
                 continue
@@ -292,6 +270,9 @@ class VulkanInterpreter(StructureChains):
                 cell = pointee_value.cell
             if cell is not None:
                 self.store(cell, result, term[3], scope)
+                stored = True
+        if not plain and not stored and (output := self.output_argument(kind, term[2], values, scope)) is not None:
+            self.store(output, result, term[3], scope)
         # The function itself returns a VkResult.
         return (Alternative(0, term[3]),) if plain else result
 

@@ -92,7 +92,7 @@ class Multisampling(VulkanConfiguration):
         """Assumes that no condition holds under which 1 takes the place of a count above 1, one that a device does not support."""
         for value in slots:
             settled = self.settle(value) if len(value) > 1 else ()
-            if any(isinstance(item.value, Symbol) for item in settled):
+            if any(isinstance(item.value, Symbol) or (type(item.value) is int and item.value > 1) for item in settled):
                 for item in settled:
                     if item.value == 1 and type(item.value) is int and item.guards:
                         self.assume(negated(item.guards))

@@ -32,6 +32,10 @@ class DescriptionWriter(Passes, Commands):
         self.bind(passes)
         attached: dict[int, ApiObject] = {}
         rendered = {id(obj): item for obj in passes if (item := self.render_pass(obj, attached)) is not None}
+        first: dict[str, Item] = {}
+        for key, item in rendered.items():
+            # The same code creates a pass again, when a window is resized, for example.
+            rendered[key] = first.setdefault(f"{item[1]} {_signature(item[2], samples_at=False)}", item)
         pass_names = {key: item[0] for key, item in rendered.items()}
         recorded = [self.rendering(obj, attached) for obj in self.current_objects if obj.kind == "rendering"]
         recorded += [self.resolve(at, ends, attached) for at, ends in self.resolves.items()]
@@ -41,7 +45,7 @@ class DescriptionWriter(Passes, Commands):
         image_items += self.external_images.values()
         pipelines = [item for obj in self.current_objects if obj.kind in ("pipeline", "state") for item in self.pipeline(obj, pass_names)]
         sections = []
-        for name, every in (("images", image_items), ("renderPasses", rendered.values()), ("pipelines", pipelines)):
+        for name, every in (("images", image_items), ("renderPasses", first.values()), ("pipelines", pipelines)):
             items = _distinct(every)
             if items:
                 at = items[0][1]
@@ -194,10 +198,12 @@ def _distinct_nodes(nodes: Sequence[Node]) -> list[Node]:
     return list({_signature(node): node for node in nodes}.values())
 
 
-def _signature(node: Node) -> str:
+def _signature(node: Node, samples_at: bool = True) -> str:
+    """Returns what a node consists of and where it is. `samples_at` is whether the place of a sample count matters."""
     inner = node.text
     if node.kind == "mapping":
-        inner = ",".join(f"{key}:{_signature(value)}" for key, value in node.value.items())
+        parts = ((key, _signature(item, samples_at) if samples_at or key != "samples" else item.text) for key, item in node.value.items())
+        inner = ",".join(f"{key}:{part}" for key, part in parts)
     elif node.kind == "sequence":
-        inner = ",".join(map(_signature, node.value))
+        inner = ",".join(_signature(item, samples_at) for item in node.value)
     return f"{node.start}-{node.end}({inner})"
