@@ -56,7 +56,7 @@ _VULKAN_PIPELINES = re.compile(r"(?i:create)\w{0,80}Pipeline\w{0,80}\s*\(|raii::
 """Calls that create something: initializers of structures alone do not."""
 
 _METAL = re.compile(
-    rf"\.\s*(?P<member>sampleCount|rasterSampleCount)\s*=(?!=)\s*{_VALUE}|\.textureType\s*=\s*(?P<initializer>\.type2DMultisample\w*)"
+    rf"\.\s*(?P<member>sampleCount|rasterSampleCount)\s*=(?!=)\s*{_VALUE}|\.(?P<type>textureType)\s*=\s*(?P<initializer>\.type2DMultisample\w*)"
 )
 _METAL_IMAGES = re.compile(r"MTLTextureDescriptor|MTKView|texture2DDescriptor|extureDescriptor")
 
@@ -153,7 +153,7 @@ def _of_api(text: str, pattern: re.Pattern[str], images: re.Pattern[str], pipeli
         if ones.holds(value):
             continue
         setter = groups.get("setter") or "samples"
-        member = groups.get("member") or setter[:1].lower() + setter[1:]
+        member = groups.get("member") or groups.get("type") or setter[:1].lower() + setter[1:]
         kind = PIPELINES if member.lower().startswith("raster") else IMAGES
         if has_images if kind == IMAGES else has_pipelines:
             yield Creation(kind, match.start(), match.end(), f"{member} = {value}")

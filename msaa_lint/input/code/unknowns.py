@@ -162,6 +162,9 @@ def _use(before: str, after: str, owner: str) -> tuple[str, list[str]] | None:
 
 def _name_in(value: str) -> tuple[str, bool]:
     """Returns the name that decides an expression, and whether it is called; for `a ? b : c`, that is the condition."""
+    if value.lstrip().startswith("."):
+        # An enumerant of Swift.
+        return "", False
     for match in _PATH.finditer(_CAST.sub("", value.strip())):
         if _KNOWN.match(match["path"]) is None:
             return match["path"].removeprefix("this->"), match["call"] is not None

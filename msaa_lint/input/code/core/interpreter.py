@@ -262,6 +262,8 @@ class Interpreter(Loops):
         undecided = [condition for condition in others if not isinstance(condition, bool)]
         otherwise = False if True in others else ALWAYS.union(*map(negated, undecided))
         returns = any(None in labels for labels, _ in cases)
+        # The labels exclude one another; that a case was left only says something about what follows the switch.
+        after: list[Guards] = []
         for n, (labels, _) in enumerate(cases):
             condition = conditions[n] if None not in labels or conditions[n] is True else otherwise
             known = decided(condition, scope.guards)
@@ -276,7 +278,8 @@ class Interpreter(Loops):
                 return
             returns = returns and left
             if left:
-                scope.guards |= negated(guards)
+                after.append(negated(guards))
+        scope.guards = scope.guards.union(*after)
         scope.unreachable = returns
 
     def label_condition(self, subject: Term, labels: Sequence[Term | None], scope: Scope) -> bool | Guards:

@@ -6,8 +6,9 @@ from collections.abc import Sequence
 
 from msaa_lint.core.text.span import Span
 from msaa_lint.input.code.core.guards import ALWAYS
+from msaa_lint.input.code.core.lists import Receiver
 from msaa_lint.input.code.core.scope import Scope
-from msaa_lint.input.code.core.terms import Term, labeled
+from msaa_lint.input.code.core.terms import NAME, Function, Term, labeled
 from msaa_lint.input.code.core.values import Alternative, Cell, Instance, Struct, Value, pointee, sole_value
 
 from .names import kind_of
@@ -54,9 +55,17 @@ class MetalInstances(MetalObjects):
             self.member_cell(f"{class_name}::{label}").write(value, place, scope.guards)
         return (Alternative(struct, place),)
 
+    def find_function(
+        self, name: str, arguments: Sequence[Term], function: Term, receiver: Receiver | None, scope: Scope
+    ) -> Function | None:
+        # An initializer that an extension adds to a descriptor is called for a new one.
+        constructs = function[0] == NAME and bool(kind_of(str(function[1])))
+        return None if constructs else super().find_function(name, arguments, function, receiver, scope)
+
     def construct_class(self, kind: str, term: Term, scope: Scope) -> Value | None:
         """Returns an object of a class of the program after its constructor; None where there is none, or several match."""
-        class_name = self.class_of(kind, scope.enclosing)
+        # An extension of a descriptor is not a class of the program.
+        class_name = None if kind_of(kind) else self.class_of(kind, scope.enclosing)
         if class_name is None and not kind_of(kind):
             return None
         owner = class_name or kind
