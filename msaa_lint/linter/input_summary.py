@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from collections.abc import Hashable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
@@ -30,12 +31,14 @@ def input_summaries(data: bytes | CaptureInput | SourceFile, result: FileResult)
     documents = [each.document for each in result.documents if each.checked]
     fatal = {finding.file for finding in result.findings if finding.fatal}
     unknowns = _unknowns(files)
+    stated = _starts(documents)
     summaries = []
     for file in files:
         if file.is_input:
             within = Span(file.start, file.start + len(file.source.text))
             counts = _summary(file.source.name, file.language, documents, file.source.name in fatal, None, within)
-            is_read = counts.images + counts.passes + counts.pipelines > 0
+            # What a file states may be of images and passes that another file creates.
+            is_read = bisect_left(stated, within.start) < bisect_left(stated, within.end)
             unread = _unread_code(file.codes, documents if is_read else (), False, unknowns)
             summaries.append(counts._replace(unread=unread))
     return summaries
@@ -113,6 +116,21 @@ def _unread_frame(documents: Iterable[Document], help: str) -> Unread | None:
             message = f"{quoted(image.key)} has {image.samples} samples, but the input has no pass that uses it; {help}"
             first = Unread(image.place("samples"), message)
     return first
+
+
+def _starts(documents: Iterable[Document]) -> list[int]:
+    """The places in the text of a program, in order, at which it states what documents contain."""
+    stack = [document.tree for document in documents if document.tree is not None]
+    starts = []
+    while stack:
+        node = stack.pop()
+        if node.kind == "mapping":
+            stack += node.value.values()
+        elif node.kind == "sequence":
+            stack += node.value
+        else:
+            starts.append(node.span.start)
+    return sorted(starts)
 
 
 def _unknowns(files: Iterable[CodeFile]) -> Unknowns:

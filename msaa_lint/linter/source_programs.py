@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from msaa_lint.input.code.project.index import Index
     from msaa_lint.input.code.project.nearby import Nearby
     from msaa_lint.input.code.project.programs import Entry, Program, Project
+    from msaa_lint.input.code.project.swift_modules import SwiftModules
     from msaa_lint.input.source_file import SourceText
 
 MAX_BYTES = (4 << 20) + 1
@@ -81,6 +82,7 @@ class _Search:
         self.nearby: dict[str, Nearby] = {}
         self.builds: dict[str, dict[str, BuildEntry]] = {}
         self.projects: dict[str, str] = {}
+        self.modules: dict[str, SwiftModules] = {}
 
     def add(self, paths: Sequence[str], candidates: Container[str]) -> None:
         """Reads files, and searches the files that inputs include, and that these include."""
@@ -94,7 +96,8 @@ class _Search:
             found = self.index.of(path, self.roots.get(path))
             if found is None:
                 continue
-            entry = self.entries[path] = Entry(path, found, path in self.inputs, path in candidates, self.build(path).target)
+            target, folder = self.build(path).target, self.module(path)
+            entry = self.entries[path] = Entry(path, found, path in self.inputs, path in candidates, target, folder)
             if path not in self.inputs and path not in elsewhere:
                 continue
             near = self.near(path)
@@ -115,6 +118,17 @@ class _Search:
         if root not in self.builds:
             self.builds[root] = build_entries(root)
         return self.builds[root].get(path, BuildEntry("", ""))
+
+    def module(self, path: str) -> str:
+        """The folder of the Swift module of a file, or an empty string."""
+        if not path.endswith(".swift"):
+            return ""
+        from msaa_lint.input.code.project.swift_modules import SwiftModules
+
+        root = self.near(path).root
+        if root not in self.modules:
+            self.modules[root] = SwiftModules(root)
+        return self.modules[root].folder(path)
 
     def near(self, path: str) -> Nearby:
         """The search in the project of a file."""

@@ -18,9 +18,9 @@ _API: Words = (
     ("AttachmentDescription", ""), ("AttachmentInfo", ""), ("ImageCreateInfo", ""), ("RenderPassCreateInfo", ""),
     ("MultisampleStateCreateInfo", ""), ("ResolveImage", ""), ("SampleCounts", ""), ("MTLRenderPass", ""), ("MTLTexture", ""),
     ("MTLRenderPipeline", ""), ("asterSampleCount", ""), ("TextureSampleCount", ""), ("2DMS", ""), ("subpassInputMS", ""),
-    ("gl_Sample", ""), ("gl_NumSamples", ""),
+    ("gl_Sample", ""), ("gl_NumSamples", ""), ("renderpass!", ""), ("sample_counts", ""),
 )  # fmt: skip
-"""Structures, functions, and types that the rules check, from Vulkan, vulkan.hpp, Metal, and GLSL."""
+"""Structures, functions, and types that the rules check, from Vulkan, vulkan.hpp, vulkano, Metal, and GLSL."""
 
 _MULTISAMPLING: Words = (
     ("msaa", ""), ("multi", "multi[-_ ]?sampl(?!e_?state|ing_?state)"), ("2dms", ""), ("subpassinputms", ""), ("gl_sample", ""),
@@ -31,12 +31,13 @@ _MULTISAMPLING: Words = (
 
 _COUNT: Words = (
     ("SAMPLE_COUNT_", "SAMPLE_COUNT_(?:2|4|8|16|32|64)_BIT"),
-    ("SampleCountFlagBits", r"SampleCountFlagBits::e(?:2|4|8|16|32|64)\b"),
-)
+    ("SampleCountFlagBits", r"SampleCountFlagBits::e(?:2|4|8|16|32|64)\b"), ("SampleCount::Sample", r"SampleCount::Sample[2-8]"),
+)  # fmt: skip
 """A sample count above one."""
 
 _STATED: Words = (
-    ("SAMPLE_COUNT_", ""), ("SampleCountFlag", ""), ("IMAGE_USAGE_", ""), ("ImageUsageFlag", ""), ("ATTACHMENT_LOAD_OP_", ""),
+    ("SAMPLE_COUNT_", ""), ("SampleCountFlag", ""), ("SampleCount::", ""),
+    ("IMAGE_USAGE_", ""), ("ImageUsageFlag", ""), ("ATTACHMENT_LOAD_OP_", ""),
     ("ATTACHMENT_STORE_OP_", ""), ("AttachmentLoadOp", ""), ("AttachmentStoreOp", ""), ("MTLLoadAction", ""), ("MTLStoreAction", ""),
 )  # fmt: skip
 """Counts, flags, and operations, which a program may state in one file and use in another."""

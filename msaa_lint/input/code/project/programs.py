@@ -25,8 +25,8 @@ VISIBLE_SHARE = 4
 class Entry(NamedTuple):
     """A file of a project: its path with `/`, and its words.
 
-    `target` is that of the build, if it is known. Findings in an input are reported. A `candidate` becomes an input if it can matter to a
-    program that uses the API and mentions multisampling.
+    `target` is that of the build, if it is known; `folder` is the one whose files belong together, if that is not the file's own. Findings
+    in an input are reported. A `candidate` becomes an input if it can matter to a program that uses the API and mentions multisampling.
     """
 
     path: str
@@ -34,6 +34,7 @@ class Entry(NamedTuple):
     is_input: bool
     is_candidate: bool = False
     target: str = ""
+    folder: str = ""
 
     @property
     def is_related(self) -> bool:
@@ -56,7 +57,7 @@ class Project:
         self.entries = entries
         includes = Includes([entry.path for entry in entries])
         self.includes = [includes.of(number, entry.words.includes) for number, entry in enumerate(entries)]
-        self.folders = [posixpath.dirname(entry.path) for entry in entries]
+        self.folders = [entry.folder or posixpath.dirname(entry.path) for entry in entries]
         self.headers = [is_header(entry.path) for entry in entries]
         self.implementations = self._implementations()
         self.targets: dict[str, list[int]] = {}

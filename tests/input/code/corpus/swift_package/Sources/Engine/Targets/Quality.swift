@@ -1,0 +1,3 @@
+enum Quality {
+    static let samples = 4
+}
