@@ -124,8 +124,6 @@ def read_program(
         return f"{file.source.name}:{file.source.position(place.start).line}"
 
     assumptions = code.assumptions_of([(part.codes[0], part.start) for part in parts], first.assumed)
-    if assumptions is not None:
-        # What of them is of use is only known of what is read now.
-        cache = None
-    reads = kept_reads(cache, files, headers, lambda: read(files, headers, assumptions))
+    # What of assumptions is of use is only known of what is read now.
+    reads = kept_reads(cache if assumptions is None else None, files, headers, lambda: read(files, headers, assumptions, cache))
     return whole._replace(program=code.program_of(whole.source, codes, reads, line, assumptions))

@@ -63,7 +63,7 @@ def unread(file: SourceFile) -> list[str]:
 
 def steps(text: str) -> str:
     limit = BASE_STEPS + STEPS_PER_CHARACTER * len(text)
-    return f"following the code takes more than {limit} steps, the limit for a file of this length; what it creates is not checked"
+    return f"following the code takes more than {limit} steps, the limit for code of this length; what it creates is not checked"
 
 
 @pytest.mark.parametrize("name", ["C++: conditional structures", "C++: doubled lists", "C++: conditional copies"])

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from functools import partial
 from importlib import import_module
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from msaa_lint.core.text.node_builder import mapping
 from msaa_lint.core.text.source import Source, Unreadable
 from msaa_lint.core.text.span import Span
 from msaa_lint.input.code.c.description_trees import file_syntax
-from msaa_lint.input.code.c.macros import Definitions
+from msaa_lint.input.code.c.macros import NO_MACROS, Definitions, Macros
 from msaa_lint.input.code.c.preprocessor import definitions
 from msaa_lint.input.code.core.assumed_values import Assume, assuming
 from msaa_lint.input.code.languages import MODULES
@@ -18,9 +19,12 @@ from msaa_lint.input.code.parsing import Assumptions, Code, Missing, Read, Unrea
 from msaa_lint.input.code.places import Piece, Places
 from msaa_lint.input.code.programs import CPP, FileSyntax, executed, located
 
+from .kept_syntax import kept_syntax
 from .macros import SharedMacros
 from .merge import MAX_REACH, File, merged
-from .serialized import dumps, loads
+
+if TYPE_CHECKING:
+    from msaa_lint.core.cache import Cache
 
 
 class ProgramFile(NamedTuple):
@@ -50,9 +54,11 @@ def joined(files: Sequence[ProgramFile]) -> Source:
     return files[0].source if len(files) == 1 else Source(files[0].source.name, "\n".join(file.source.text for file in files))
 
 
-def read(files: Sequence[ProgramFile], headers: Sequence[bool], assumptions: Assumptions | None = None) -> list[Read]:
+def read(
+    files: Sequence[ProgramFile], headers: Sequence[bool], assumptions: Assumptions | None = None, cache: Cache | None = None
+) -> list[Read]:
     """Returns what a program creates, with places in its text. `headers` says which of its files only declare;
-    `assumptions` are stated about it.
+    `assumptions` are stated about it, and `cache` keeps the syntax of its files.
 
     If following the program takes too long, its files are read one by one. Raises `Missing` if the grammar is not installed.
     """
@@ -64,11 +70,8 @@ def read(files: Sequence[ProgramFile], headers: Sequence[bool], assumptions: Ass
     for number, (file, offset) in enumerate(zip(files, starts(files), strict=True)):
         try:
             code = file.code
-            if code.language in ("c", "cpp"):
-                known = file_syntax(code, macros.visible(number, code.text, reach(files, number)) | _built(file))
-            else:
-                known = import_module(f"msaa_lint.input.code.{MODULES[code.language]}").file_syntax(code)
-            syntax = loads(dumps(known), length)
+            visible = macros.visible(number, code.text, reach(files, number)) | _built(file) if code.language in ("c", "cpp") else NO_MACROS
+            syntax = kept_syntax(cache, code, visible, length, partial(_syntax, code, visible))
         except Missing:
             raise
         except (Unreadable, RecursionError) as error:
@@ -88,6 +91,14 @@ def read(files: Sequence[ProgramFile], headers: Sequence[bool], assumptions: Ass
         alone = (entry for syntax in syntaxes if syntax is not None for entry in _alone(syntax, assume))
         reads = [*alone, *(entry._replace(tree=mapping([], Span(0, 0))) for entry in reads if entry.unread)]
     return [*located(reads, places), *unread]
+
+
+def _syntax(code: Code, macros: Macros) -> FileSyntax:
+    """Returns the syntax of a file; `macros` are those of C and C++ that other files define."""
+    if code.language in ("c", "cpp"):
+        return file_syntax(code, macros)
+    syntax: FileSyntax = import_module(f"msaa_lint.input.code.{MODULES[code.language]}").file_syntax(code)
+    return syntax
 
 
 def _built(file: ProgramFile) -> dict[str, Definitions]:

@@ -10,6 +10,7 @@ import pytest
 from msaa_lint.core import cache
 from msaa_lint.core.cache import Cache, user_cache
 from msaa_lint.core.text.files import open_entry
+from msaa_lint.input.code.c.description_trees import file_syntax
 from msaa_lint.input.code.project.index import MIN_KEPT
 from msaa_lint.input.code.project.serialized import loads, loads_reads
 from tests.command import Done, run
@@ -61,6 +62,23 @@ def test_a_second_run_lints_nothing(project: Path, tmp_path: Path, monkeypatch: 
     assert (second.stdout, second.returncode) == (first.stdout, first.returncode)
     assert "MSAA941" in other.stdout
     assert "MSAA201" not in check(project, tmp_path / "kept", "--ignore", "MSAA201").stdout
+
+
+def test_of_a_program_only_the_files_that_change_are_parsed(project: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    write(project, {"settings.h": settings(4) + FILLER})
+    check(project, tmp_path / "kept")
+    parsed = []
+    monkeypatch.setattr(
+        "msaa_lint.input.code.project.reading.file_syntax", lambda code, macros: parsed.append(code.text) or file_syntax(code, macros)
+    )
+    write(project, {"settings.h": settings(1) + FILLER})
+    done = check(project, tmp_path / "kept")
+    assert "MSAA201" not in done.stdout
+    assert parsed == [settings(1) + FILLER]
+    # What a header defines changes what the files that use it say.
+    write(project, {"settings.h": settings(1) + FILLER + "#define vkCreateRenderPass createPass\n"})
+    check(project, tmp_path / "kept")
+    assert len(parsed) == 3
 
 
 def test_a_run_of_many_programs_says_the_same_as_their_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
