@@ -1,5 +1,5 @@
 """Blanks the macros around declarations that the grammar does not expect, where their definitions are unknown: `class API Name`,
-`API void f()`, `void CALL f()`, `f() ATTRIBUTE {`, `Q_OBJECT`."""
+`API void f()`, `internal void f()`, `void CALL f()`, `f() ATTRIBUTE {`, `Q_OBJECT`."""
 
 from __future__ import annotations
 
@@ -27,6 +27,17 @@ _FUNCTION = re.compile(
 )
 """`API void f()`; also a macro on a line of its own before a function."""
 
+_SPECIFIERS = (
+    r"(?:auto|bool|char|class|consteval|constexpr|constinit|const|double|else|enum|explicit|extern|float|friend|goto|inline|int|long|namespace"
+    r"|new|delete|operator|private|protected|public|register|return|short|signed|static|struct|template|thread_local|throw|typedef|typename"
+    r"|union|unsigned|using|virtual|void|volatile|case|co_await|co_return|co_yield|export|import|module|concept|requires|\w+_t)\b"
+)
+_WORD = re.compile(
+    rf"\n(?P<blank>(?!{_SPECIFIERS})[a-z][a-z0-9_]{{2,60}})(?=\s{{1,40}}(?!(?:const|constexpr|extern|inline|static|virtual|volatile)\b)"
+    rf"{_DECLARED})"
+)
+"""`internal VkImage createImage()`, at the left margin: two types in a row are none."""
+
 _CONVENTION = re.compile(r"(?P<blank>[A-Z0-9_](?<=[ \t].)\w{2,124}+)(?=[ \t]{1,40}[A-Za-z_][\w:~]{0,100}[ \t]?\()")
 """`void CALL f()`"""
 
@@ -53,7 +64,7 @@ def without_annotations(text: str) -> str:
     for pattern in (*_CLASSES, _CONVENTION, _AFTER):
         text = pattern.sub(_blanked, text)
     # The patterns of lines start with the end of the one before, which is found faster than the start of a line.
-    return _STATEMENT.sub(_ended, _FUNCTION.sub(_blanked, f"\n{text}"))[1:]
+    return _STATEMENT.sub(_ended, _WORD.sub(_blanked, _FUNCTION.sub(_blanked, f"\n{text}")))[1:]
 
 
 def without_objective_c(text: str) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from functools import cached_property
 
 from msaa_lint.core.text.node import Node
 from msaa_lint.core.text.node_builder import mapping, scalar, sequence
@@ -11,6 +12,9 @@ from msaa_lint.input.code.core.values import ApiObject, Array, Struct, sole_valu
 
 from .members import Item, complete, head_of
 from .subpasses import Subpasses
+
+STORES = {"storeOp": "loadOp", "stencilStoreOp": "stencilLoadOp"}
+"""The load operation beside each store operation."""
 
 
 class Passes(Subpasses):
@@ -63,11 +67,34 @@ class Passes(Subpasses):
             attached[id(image)] = image
             items.append(("image", head, scalar(self.object_name(image, "image"), head)))
         for name in ("format", "loadOp", "storeOp", "stencilLoadOp", "stencilStoreOp", "initialLayout", "finalLayout"):
-            items += self.item(struct, name)
+            if not self.is_for_another_pass(struct, name, image):
+                items += self.item(struct, name)
         items += self.assumed_store(struct, resolved)
         if count is not None:
             items.insert(min(1, len(items)), ("samples", at, scalar(count, at)))
         return mapping(items, head)
+
+    def is_for_another_pass(self, struct: Struct, name: str, image: ApiObject | None) -> bool:
+        """Returns whether code that creates several passes writes a store operation for one of them, which another may load."""
+        place = self.get(struct, name)[1] if name in STORES and name in struct.fields else None
+        if place is None:
+            return False
+        loads = {load for load, other in self.loads_of_stores.get(place, ()) if other is None or image is None or other is image}
+        return len(loads) > 1 and True in loads
+
+    @cached_property
+    def loads_of_stores(self) -> dict[Span, list[tuple[bool, ApiObject | None]]]:
+        """The attachments that each store operation in the code is written for: whether they load, and their images."""
+        found: dict[Span, list[tuple[bool, ApiObject | None]]] = {}
+        for obj in self.current_objects:
+            structs, ordered = self.elements(obj.info, "attachments") if obj.kind == "renderPass" else ((), False)
+            images = [*(self.bound_images(obj) if ordered else ()), *[None] * len(structs)]
+            for struct, image in zip(structs, images, strict=False):
+                for store, load in STORES.items() if struct is not None else ():
+                    if struct is not None and store in struct.fields:
+                        does_load = str(self.get(struct, load)[0]).endswith("LOAD")
+                        found.setdefault(self.get(struct, store)[1], []).append((does_load, image))
+        return found
 
     def render_pass(self, obj: ApiObject, attached: dict[int, ApiObject]) -> Item | None:
         info = obj.info
