@@ -34,9 +34,9 @@ _SPECIFIERS = (
 )
 _WORD = re.compile(
     rf"\n(?P<blank>(?!{_SPECIFIERS})[a-z][a-z0-9_]{{2,60}})(?=\s{{1,40}}(?!(?:const|constexpr|extern|inline|static|virtual|volatile)\b)"
-    rf"{_DECLARED})"
+    rf"(?!{_MACRO}[ \t*&\n]{{1,40}}[\w:]{{1,100}}[ \t]*\(){_DECLARED})"
 )
-"""`internal VkImage createImage()`, at the left margin: two types in a row are none."""
+"""`internal VkImage createImage()`, at the left margin: two types in a row are none; but `s32 CALL f()` has one."""
 
 _CONVENTION = re.compile(r"(?P<blank>[A-Z0-9_](?<=[ \t].)\w{2,124}+)(?=[ \t]{1,40}[A-Za-z_][\w:~]{0,100}[ \t]?\()")
 """`void CALL f()`"""
