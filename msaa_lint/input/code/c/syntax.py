@@ -53,6 +53,8 @@ class Reader(Statements):
         self.bases: dict[str, list[str]] = {}
         """The classes that each class derives from."""
         self.aliases: dict[str, str] = {}
+        self.named: dict[str, str] = {}
+        """What aliases stand for that other files may use."""
         self.called_names: set[str] = set()
         """The names of functions that other functions call."""
 
@@ -60,7 +62,18 @@ class Reader(Statements):
         self.read_declarations(root)
         functions = [(self.function(node, *names), matters) for (*names, node), matters in self.functions_to_read()]
         read = [function._replace(only_called=not matters) for function, matters in functions if function is not None]
-        return Unit(read, self.members, self.outside, self.prototypes, self.called_names, self.virtual, self.bases, self.visible)
+        names = {name: stands for name, stands in self.named.items() if stands != name}
+        return Unit(
+            read,
+            self.members,
+            self.outside,
+            self.prototypes,
+            self.called_names,
+            self.virtual,
+            self.bases,
+            self.visible,
+            aliases=names,
+        )
 
     def read_declarations(self, root: SyntaxNode) -> None:
         """Reads everything that can contain functions: namespaces, classes, and preprocessor blocks."""
@@ -173,6 +186,10 @@ class Reader(Statements):
         if name is None or stands is None or stands.end_byte - stands.start_byte >= 100 or len(self.aliases) >= 200:
             return
         text = self.type_text(stands)
+        alias, is_name = self.text_of(name), node.type != "type_definition" or name.type == "type_identifier"
+        is_template = node.parent is not None and node.parent.type == "template_declaration"
+        if is_name and not is_template and text and text.rpartition("::")[2] != alias:
+            self.named[alias] = text if self.named.get(alias, text) == text else alias
         if text.startswith(("vk", "Vk", "VULKAN")) and (node.type != "type_definition" or name.type == stands.type == "type_identifier"):
             self.aliases[self.text_of(name)] = text
 

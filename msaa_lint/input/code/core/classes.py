@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from .aliases import resolved
 from .terms import DECLARE, Function, Term, Unit
 
 _POINTER = re.compile(r"(?:\w+::)*\w*(?:_ptr|Ptr|Pointer|Ref|RefPtr|Handle|_wrapper|optional|Optional)<([\w:]+)>$")
@@ -26,6 +27,7 @@ class Classes:
 
     def __init__(self, unit: Unit) -> None:
         self.members = {name: {term[2]: term for term in terms if term[0] == DECLARE} for name, terms in unit.members.items()}
+        self._aliases = unit.aliases
         self._of_type: dict[tuple[str, str], str | None] = {}
         self._owners: dict[tuple[str, str], str] = {}
         self._names: dict[str, list[str]] = {}
@@ -54,7 +56,7 @@ class Classes:
         """Returns the class that a type refers to, or None."""
         key = (kind, namespace)
         if key not in self._of_type:
-            self._of_type[key] = self._find(pointed(kind), namespace)
+            self._of_type[key] = self._find(pointed(resolved(kind, self._aliases)), namespace)
         return self._of_type[key]
 
     def _find(self, kind: str, namespace: str) -> str | None:

@@ -15,6 +15,7 @@ from typing import Any
 from msaa_lint.core.text.span import Span
 from msaa_lint.input.code.parsing import Unread
 
+from .aliases import resolved
 from .classes import pointed
 from .conditions import canonical_text
 from .escapes import mark_escaped
@@ -295,6 +296,7 @@ class Interpreter(Loops):
 
     def declare(self, term: Term, scope: Scope) -> None:
         _, kind, name, initializer, indirect, _, place = term
+        kind = resolved(kind, self.unit.aliases) if self.unit.aliases else kind
         if self.fragments and len(scope.scopes) == 1 and not scope.calls and f"::{name}" in self.summary:
             # Other fragments of the page assign it.
             scope.scopes[-1][name] = self.member_cell(f"::{name}")

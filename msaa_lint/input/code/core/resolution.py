@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from .aliases import resolved
 from .library import Library
 from .limits import Work
 from .lists import ListMethods, Receiver
@@ -56,7 +57,7 @@ class Resolution(ListMethods):
             return group.fixed[-1] if group.fixed else None
         if receiver is not None:
             return self.find_method(name, arguments, receiver, scope)
-        qualifier = str(function[1]).rpartition("::")[0] if function[0] == NAME else ""
+        qualifier = resolved(str(function[1]).rpartition("::")[0], self.unit.aliases) if function[0] == NAME else ""
         if qualifier:
             owner = self.class_of(qualifier, scope.enclosing)
             if owner is not None and (methods := self.taking(self.methods(owner, name), arguments)):

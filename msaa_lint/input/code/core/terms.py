@@ -94,6 +94,8 @@ class Unit(NamedTuple):
     """Members that other files can read and change, as `Class::member`, in languages that state it."""
     extended: Set[str] = frozenset()
     """Classes of which several files may declare members, in languages with extensions."""
+    aliases: Mapping[str, str] = {}
+    """What other names of types and namespaces stand for."""
 
 
 def at(term: Term) -> Span:

@@ -7,6 +7,7 @@ from typing import Any
 
 from msaa_lint.core.text.span import Span
 
+from .aliases import without_aliases
 from .classes import Classes, pointed
 from .copies import Copier
 from .library import Library
@@ -32,7 +33,7 @@ class Variables(ABC):
     """The variables and members of one file."""
 
     def __init__(self, unit: Unit, library: Library, fragments: bool, is_cpp: bool, work: Work) -> None:
-        self.unit = unit
+        self.unit = unit = without_aliases(unit)
         self.library = library
         self.work = work
         self.copies = Copier(work)

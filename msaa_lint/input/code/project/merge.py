@@ -56,7 +56,11 @@ def merged(files: Sequence[File]) -> Unit:
             bases[name] = (*bases.get(name, ()), *names)
     visible = frozenset(name for unit in units for name in unit.visible)
     extended = frozenset(name for unit in units for name in unit.extended)
-    return Unit(list(functions.values()), members, outside, prototypes, called, virtual, bases, visible, extended)
+    aliases: dict[str, str] = {}
+    for name, stands in ((name, stands) for unit in units for name, stands in unit.aliases.items()):
+        # A name that stands for different things says nothing.
+        aliases[name] = stands if aliases.get(name, stands) == stands else name
+    return Unit(list(functions.values()), members, outside, prototypes, called, virtual, bases, visible, extended, aliases)
 
 
 def _qualified(function: Function, members: Mapping[str, object], classes: Mapping[str, Sequence[str]]) -> Function:
