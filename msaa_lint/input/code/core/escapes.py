@@ -7,6 +7,7 @@ from typing import Any
 
 from msaa_lint.core.text.span import Span
 
+from .guards import compared
 from .limits import Work
 from .terms import NAME
 from .values import ApiObject, Array, Cell, Closure, Struct, Value, inner_cells, pointee, possible_writes, structures_in
@@ -70,10 +71,33 @@ def mark_used(value: Struct, work: Work) -> None:
                 write.value.used = True
 
 
+class _Conditions(dict[str, bool]):
+    """The values of conditions where some hold. What equals one constant does not equal another."""
+
+    def __init__(self, conditions: Mapping[str, bool]) -> None:
+        super().__init__(conditions)
+        self.equal = {subject: text for text, way in conditions.items() if way and (subject := compared(text))}
+
+    def get(self, text: str, default: Any = None) -> Any:
+        value = super().get(text)
+        return False if value is None and self.equal and self.equal.get(compared(text), text) != text else value
+
+
 def settle_under(value: Struct, conditions: Mapping[str, bool], work: Work) -> None:
-    """Reduces the cells of a structure to the writes that are possible under some conditions."""
-    for cell in _cells_in(value, work) if conditions else ():
-        cell.writes = possible_writes(cell.writes, conditions)
+    """Reduces the cells of a structure to the writes that are possible under some conditions, and its lists to the elements."""
+    if not conditions:
+        return
+    known = _Conditions(conditions)
+    lists: list[Array] = []
+    absent: set[int] = set()
+    for cell in _cells_in(value, work):
+        had_writes = bool(cell.writes)
+        cell.writes = possible_writes(cell.writes, known)
+        lists += [write.value for write in cell.writes if isinstance(write.value, Array)]
+        if had_writes and not cell.writes:
+            absent.add(id(cell))
+    for array in lists if absent else ():
+        array.items = [item for item in array.items if id(item) not in absent]
 
 
 def _cells_in(value: Struct, work: Work) -> Iterator[Cell]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from functools import lru_cache
 from hashlib import blake2b
@@ -22,6 +23,10 @@ MAX_SPLITS = 64
 
 MAX_KEPT = 1 << 12
 """The number of answers about conditions that are kept, since the same ones are asked for many times."""
+
+
+_ENUMERATOR = re.compile(r"(?:\w+::)+[A-Z]\w*")
+"""A constant whose value is unknown, by its name."""
 
 
 class Conjunction(str):
@@ -89,6 +94,8 @@ def _implied(text: str, guards: Guards) -> bool | None:
 def compared(text: str) -> str:
     """Returns what a condition compares with a constant for equality, or an empty string."""
     subject, _, constant = text.rpartition("=")
+    if subject[-1:] == "=" and _ENUMERATOR.fullmatch(constant) and not isinstance(text, Conjunction):
+        return subject[:-1]
     fixed = constant.removeprefix("-").isdecimal() or constant.startswith("VK_")
     return subject if fixed and subject[-1:] not in ("", "<", ">", "=", "!") and not isinstance(text, Conjunction) else ""
 

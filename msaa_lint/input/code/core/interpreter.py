@@ -53,6 +53,7 @@ from .values import (
     Array,
     Cell,
     Closure,
+    Flags,
     Ref,
     Struct,
     Symbol,
@@ -97,6 +98,7 @@ class Interpreter(Loops):
                 if self.fragments:
                     self.create_from_fragments(self.overlay)
                 self.writers = writers
+                self.add_to_classes(writes_by_key)
                 last, self.summary = self.summary, {key: _joined(key, list(writes.values())) for key, writes in writes_by_key.items()}
                 last_objects, self.object_summary = self.object_summary, self.members_of_objects()
                 if _marks(last) == _marks(self.summary) and _marks(last_objects) == _marks(self.object_summary):
@@ -107,6 +109,17 @@ class Interpreter(Loops):
             self.unread = Unread(self.work.message(error), function.at if function is not None else Span(0, 0))
         finally:
             sys.setrecursionlimit(depth)
+
+    def add_to_classes(self, writes_by_key: dict[str, dict[tuple[Any, ...], Alternative]]) -> None:
+        """Adds what is written to members of known objects to what an unknown object of their class may hold, except for objects."""
+        for key, writes in list(writes_by_key.items()):
+            owner, _, name = key.rpartition(".")
+            class_name = self.class_of(self.type_of_key(owner), "") if owner and "[" not in name else None
+            values = [(mark, write) for mark, write in writes.items() if isinstance(write.value, (int, float, str, Flags, Symbol))]
+            if class_name is not None and values:
+                of_class = writes_by_key.setdefault(f"{self.classes.owner(class_name, name)}::{name}", {})
+                for mark, write in values:
+                    of_class.setdefault(mark, write)
 
     def summarized(self, write: Alternative, key: str) -> Alternative:
         """Returns what an entry point writes to a member as others find it. A list that it appends to may have other elements, too."""

@@ -221,6 +221,9 @@ class Variables(ABC):
         return self._member_keys[key]
 
     def _member_key(self, name: str, scope: Scope) -> str:
+        first, _, rest = name.partition("::")
+        if rest and first in self.unit.aliases:
+            name = f"{self.unit.aliases[first]}::{rest}"
         qualifier, _, short = name.rpartition("::")
         owner = self.class_of(qualifier, scope.enclosing) if qualifier else None
         if owner is not None and self.classes.member(owner, short) is not None:
