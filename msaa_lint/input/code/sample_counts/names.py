@@ -85,7 +85,8 @@ class Names:
             return None
         owner = self._class_of(term[1], function)
         if owner is not None:
-            return self._member(owner, term[2]) if owner else None
+            member = self._member(owner, term[2]) if owner else None
+            return member or ((UNDECLARED, owner, term[2]) if term[1][:2] == (NAME, "this") else None)
         owners = self._owners.get(term[2], ())
         return (MEMBER, owners[0], term[2]) if len(owners) == 1 else None
 
@@ -126,6 +127,8 @@ class Names:
 
     def _constructed(self, target: Term, function: int) -> str:
         """Returns the class of which a member initializer or declaration constructs an object."""
+        if target[0] == FIELD and target[1][:2] == (NAME, "this") and last(target[2]) in self._classes:
+            return str(target[2])
         if target[0] == NAME and target[1] not in self.locals[function] and last(target[1]) in self._classes:
             return str(target[1])
         return self._class_of(target, function) or ""

@@ -73,7 +73,6 @@ _COPIES = re.compile(r"^(?:vkCmd(?:Copy|Blit)Image|(?:copy|blit)Image)")
 """Commands that read an image; resolves are recorded with their targets."""
 
 _MEMORY = re.compile(r"mem.*(?:type|index)", re.IGNORECASE)
-
 _VIEW = re.compile(r"view", re.IGNORECASE)
 
 _MOVES = frozenset({"swap", "exchange", "tie", "iter_swap", "forward"})
