@@ -7,6 +7,7 @@ from typing import Any
 
 from msaa_lint.core.text.span import Span
 
+from .guards import ALWAYS, contradicts
 from .scope import MEMBER, Scope
 from .static_types import StaticTypes
 from .terms import NAME, Term
@@ -17,6 +18,7 @@ from .values import (
     Alternative,
     Array,
     Cell,
+    SplitCell,
     Struct,
     Symbol,
     Value,
@@ -25,6 +27,9 @@ from .values import (
     pointee,
     sole_value,
 )
+
+MAX_SPLIT = 4
+"""The maximum number of elements of a list one of which is written, depending on a condition."""
 
 
 class Elements(StaticTypes):
@@ -69,17 +74,40 @@ class Elements(StaticTypes):
             if type(index) is not int or not 0 <= index < 64:
                 if reading:
                     return self.looked_up(value, indices, term, scope)
+                if (split := self.split_element(value, indices, term[-1], scope)) is not None:
+                    return split
                 return self.element_of(value, term[2], term[-1], scope)
-            if value.others:
-                return Cell()
-            while len(value.items) <= index:
-                value.items.append(self.unset_element(value.kind, term[-1], value.zeroed))
-            return value.items[index]
+            return Cell() if value.others else self.element_at(value, index, term[-1])
         if cell.kind == MEMBER:
-            return self.member_cell(f"{cell.name}[{index}]" if type(index) is int else f"{cell.name}[]")
+            return self.member_element(cell, indices, scope)
         if isinstance(value, Struct) and index == 0:
             return cell
         return None
+
+    def member_element(self, cell: Cell, indices: Value, scope: Scope) -> Cell:
+        """Returns the element of a member that is a list whose length is unknown."""
+        index = sole_value(indices)
+        chosen = [a for a in indices if not contradicts(a.guards, scope.guards)]
+        owners = cell.parts if isinstance(cell, SplitCell) else ((cell, ALWAYS),)
+        if type(index) is int or not 1 < len(chosen) * len(owners) <= MAX_SPLIT or not all(type(a.value) is int for a in chosen):
+            chosen = [Alternative(index if type(index) is int else "", cell.writes[0].at if cell.writes else Span(0, 0))]
+        parts = [
+            (self.member_cell(f"{owner.name}[{a.value}]"), guards | (a.guards - scope.guards)) for owner, guards in owners for a in chosen
+        ]
+        return parts[0][0] if len(parts) == 1 else SplitCell(parts)
+
+    def element_at(self, array: Array, index: int, place: Span) -> Cell:
+        """Returns the element of a list at a known index, to which the list is extended."""
+        while len(array.items) <= index:
+            array.items.append(self.unset_element(array.kind, place, array.zeroed))
+        return array.items[index]
+
+    def split_element(self, array: Array, indices: Value, place: Span, scope: Scope) -> Cell | None:
+        """Returns the element of a list at one of a few known indices, to be written; None for other indices."""
+        chosen = [a for a in indices if not contradicts(a.guards, scope.guards)]
+        if array.others or not 1 < len(chosen) <= MAX_SPLIT or not all(type(a.value) is int and 0 <= a.value < 64 for a in chosen):
+            return None
+        return SplitCell([(self.element_at(array, a.value, place), a.guards - scope.guards) for a in chosen])
 
     def element_of_object(self, value: Any, index: Any, place: Span) -> Cell | None:
         """Returns an element of an object of the API; None for other values."""

@@ -10,7 +10,7 @@ from .classes import pointed
 from .scope import MEMBER, Scope
 from .terms import CALL, FIELD, INDEX, NAME, Term, at
 from .types import array_size, element_type
-from .values import UNKNOWN_VALUE, Alternative, Array, Cell, Ref, Struct, Value, pointee, sole_value
+from .values import UNKNOWN_VALUE, Alternative, Array, Cell, Ref, SplitCell, Struct, Value, pointee, sole_value
 from .variables import Variables
 
 
@@ -27,6 +27,12 @@ class ClassObjects(Variables):
         if cell is None:
             class_name = self.class_of_term(operand, scope)
             return self.class_member(class_name, name) if class_name is not None else None
+        if isinstance(cell, SplitCell):
+            structs = [(pointee(sole_value(part.read(scope.guards))), guards) for part, guards in cell.parts]
+            members = [(self.member_of(struct, name), guards) for struct, guards in structs if isinstance(struct, Struct)]
+            if len(members) < len(structs) and cell.kind == MEMBER:
+                members = [(self.part_of_member(part, name), guards) for part, guards in cell.parts]
+            return SplitCell(members) if len(members) == len(structs) else None
         value = self.object_in(cell, scope)
         member = self.member_of_object(value, cell, name, at(operand), scope)
         if member is not None:

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple, Protocol
 
 from msaa_lint.core.text.span import Span
 
-from .guards import ALWAYS, Conjunction, Guards, chosen, configuration, covers, excluded
+from .guards import ALWAYS, Conjunction, Guards, chosen, configuration, contradicts, covers, excluded
 
 MAX_ALTERNATIVES = 12
 """The maximum number of alternatives of a value; with more, it is unknown."""
@@ -77,6 +77,31 @@ class Cell:
             # Nothing shows through an unconditional write.
             return self.writes[-1:]
         return possible_writes(self.writes, configuration(guards))
+
+
+class SplitCell(Cell):
+    """One of several cells, each under its conditions: the element of a list at an index that a condition decides."""
+
+    __slots__ = ("parts",)
+
+    def __init__(self, parts: Sequence[tuple[Cell, Guards]]) -> None:
+        self.parts = parts
+        super().__init__(parts[0][0].kind, parts[0][0].name)
+
+    @property
+    def writes(self) -> Value:
+        """The writes to any of the cells."""
+        return tuple(Alternative(w.value, w.at, w.guards | guards) for cell, guards in self.parts for w in cell.writes)
+
+    @writes.setter
+    def writes(self, value: Value) -> None:
+        for cell, guards in self.parts if value else ():
+            cell.write(value, value[0].at, guards)
+
+    def write(self, value: Value, at: Span, guards: Guards) -> None:
+        for cell, own in self.parts:
+            if not contradicts(own, guards):
+                cell.write(value, at, guards | own)
 
 
 class Unknown:
