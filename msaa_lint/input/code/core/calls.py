@@ -46,8 +46,11 @@ _CAST = re.compile(r"(?:std::)?u?int(?:8|16|32|64|ptr)?_t$|(?:std::)?size_t$|(?:
 
 COPIES = frozenset({"memcpy", "memmove", "copy", "copy_n"})
 
-MAX_REPEATED_STEPS = 100_000
-"""The steps after which, in each execution of a program, a call is not followed more often than MAX_WAYS."""
+MAX_REPEATED_STEPS = 50_000
+"""The steps after which, in each execution of a program, a call is not followed more often than MAX_WAYS..."""
+
+MAX_CREATING_STEPS = 400_000
+"""...unless the function creates something, until as many steps are taken: a helper creates something else at each call."""
 
 
 class Calls(Resolution):
@@ -61,11 +64,14 @@ class Calls(Resolution):
         """The steps that are left for what is certainly executed, at least."""
         self.results: dict[Span, tuple[Hashable, Value]] = {}
         """The arguments and the result of the last execution of each call."""
+        self.creating: set[Span] = set()
+        """The functions that create objects or structures of the API, or that take structures to fill them in."""
 
     def begin(self) -> None:
         super().begin()
         self.results.clear()
         self.reserve = self.work.left - MAX_REPEATED_STEPS
+        self.creating_reserve = self.work.left - MAX_CREATING_STEPS
 
     @abstractmethod
     def external_call(self, term: Term, name: str, owner: Term | None, values: Sequence[Value], scope: Scope) -> Value:
@@ -197,7 +203,8 @@ class Calls(Resolution):
         if len(scope.calls) >= MAX_CALLS or function.at in scope.active_functions:
             return False
         self.follow_counts[place] = self.follow_counts.get(place, 0) + 1
-        return self.follow_counts[place] <= MAX_WAYS or self.work.left > self.reserve
+        reserve = self.creating_reserve if function.at in self.creating else self.reserve
+        return self.follow_counts[place] <= MAX_WAYS or self.work.left > reserve
 
     def repeated_result(self, function: Function, term: Term, scope: Scope, this_object: Cell | None) -> Value | None:
         """Returns the result that a call had with the same arguments, or None. Executed again, it would do the same."""
@@ -218,8 +225,10 @@ class Calls(Resolution):
         return tuple(arguments)
 
     def call_function(self, function: Function, term: Term, scope: Scope, this_object: Cell | None = None) -> Value:
-        before = len(self.current_objects)
+        before, declared = len(self.current_objects), len(self.declared_structs)
         value = self.execute(function, term, scope, this_object)
+        if len(self.current_objects) > before or len(self.declared_structs) > declared:
+            self.creating.add(function.at)
         counts = {a.value for a in value if type(a.value) is int}
         if (len(value) >= 3 and counts and counts <= {1, 2, 4, 8, 16, 32, 64}) or (
             self.library.is_count_choice(function.name) and not counts
