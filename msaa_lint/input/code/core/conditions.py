@@ -104,8 +104,8 @@ class ConditionEvaluator(Elements):
         while stack:
             subterm = stack.pop()
             if subterm[0] == NAME:
-                value = self.sole(subterm, scope)
-                if type(value) is int:
+                value = self.number(subterm, scope)
+                if value is not None:
                     names[subterm[1]] = str(value)
             else:
                 stack += [
@@ -116,6 +116,17 @@ class ConditionEvaluator(Elements):
                 if subterm[0] == CALL:
                     stack += subterm[2]
         return brief(canonical_text(term, names))
+
+    def number(self, name: Term, scope: Scope) -> int | None:
+        """Returns the value of a variable or constant if it is a known integer, otherwise None."""
+        value = self.library.constant(name[1])
+        if value is None and name[1] in self.getters:
+            value = self.sole(name, scope)
+        elif value is None:
+            self.step(scope)
+            cell = self.variable(name[1], scope)
+            value = sole_value(cell.read(scope.guards)) if cell is not None else None
+        return value if type(value) is int else None
 
     def subject(self, value: Value, term: Term, scope: Scope) -> str:
         return symbol_key(sole_value(value)) or self.canonical_condition(term, scope)

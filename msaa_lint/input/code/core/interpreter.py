@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import sys
 from abc import abstractmethod
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence, Set
 from typing import Any
 
 from msaa_lint.core.text.span import Span
@@ -20,6 +20,7 @@ from .classes import pointed
 from .conditions import canonical_text
 from .escapes import mark_escaped
 from .evaluate import ALLOCATORS
+from .executions import Execution, Summary, add, contents, emptied, is_news, joined, mark
 from .guards import ALWAYS, Guards, brief, contradicts, decided, either, negated
 from .limits import WorkLimitExceeded
 from .loops import Loops
@@ -45,14 +46,13 @@ from .terms import (
     Term,
     called_names,
 )
+from .types import element_type
 from .values import (
     MAX_ALTERNATIVES,
     UNKNOWN,
     Alternative,
-    ApiObject,
     Array,
     Cell,
-    Closure,
     Flags,
     Ref,
     Struct,
@@ -82,26 +82,23 @@ class Interpreter(Loops):
         depth = sys.getrecursionlimit()
         sys.setrecursionlimit(max(depth, MAX_FRAMES))
         try:
+            executions: dict[Span, Execution] = {}
+            changed: Set[str] = frozenset()
             for _ in range(MAX_PASSES):
                 self.begin()
-                writes_by_key: dict[str, dict[tuple[Any, ...], Alternative]] = {}
-                writers: dict[str, set[Span]] = {}
+                results, writes = emptied(self.collected()), Summary()
                 for function in self.reached_functions():
-                    self.overlay, self.initial, self.started, self.entry = {}, {}, {}, function.at
-                    self.run_entry_point(function)
-                    for key, cell in self.overlay.items():
-                        before = {id(write) for write in self.initial.get(key, ())}
-                        for write in (write for write in cell.writes if id(write) not in before):
-                            writers.setdefault(key, set()).add(function.at)
-                            write = self.summarized(write, key)
-                            writes_by_key.setdefault(key, {}).setdefault(_mark(write), write)
+                    execution = executions.get(function.at)
+                    if execution is None or not self.repeatable or not changed.isdisjoint(execution.used):
+                        execution = executions[function.at] = self.executed(function)
+                    add(results, execution.results)
+                    writes.add(function.at, execution.writes)
+                emptied(self.collected())
+                add(self.collected(), results)
                 if self.fragments:
                     self.create_from_fragments(self.overlay)
-                self.writers = writers
-                self.add_to_classes(writes_by_key)
-                last, self.summary = self.summary, {key: _joined(key, list(writes.values())) for key, writes in writes_by_key.items()}
-                last_objects, self.object_summary = self.object_summary, self.members_of_objects()
-                if _marks(last) == _marks(self.summary) and _marks(last_objects) == _marks(self.object_summary):
+                changed = self.summarize(writes)
+                if not changed:
                     break
         except (WorkLimitExceeded, RecursionError) as error:
             # Of half a frame, too much would be said: that nothing reads an image, for example.
@@ -115,11 +112,46 @@ class Interpreter(Loops):
         for key, writes in list(writes_by_key.items()):
             owner, _, name = key.rpartition(".")
             class_name = self.class_of(self.type_of_key(owner), "") if owner and "[" not in name else None
-            values = [(mark, write) for mark, write in writes.items() if isinstance(write.value, (int, float, str, Flags, Symbol))]
+            values = [(each, write) for each, write in writes.items() if isinstance(write.value, (int, float, str, Flags, Symbol))]
             if class_name is not None and values:
                 of_class = writes_by_key.setdefault(f"{self.classes.owner(class_name, name)}::{name}", {})
-                for mark, write in values:
-                    of_class.setdefault(mark, write)
+                of_class.update((each, write) for each, write in values if each not in of_class)
+
+    @property
+    def repeatable(self) -> bool:
+        """Whether an entry point does the same in each execution unless what is known of the members that it uses changes."""
+        return not self.fragments
+
+    def executed(self, function: Function) -> Execution:
+        """Executes an entry point. Nothing else is then in the results."""
+        emptied(self.collected())
+        self.overlay, self.initial, self.started, self.entry = {}, {}, {}, function.at
+        self.consulted = set()
+        self.run_entry_point(function)
+        writes: list[tuple[str, Alternative]] = []
+        for key, cell in self.overlay.items():
+            before = {id(write) for write in self.initial.get(key, ())}
+            writes += ((key, self.summarized(write, key)) for write in cell.writes if id(write) not in before)
+        return Execution(self.consulted.union(self.initial), writes, emptied(self.collected()))
+
+    def summarize(self, writes: Summary) -> Set[str]:
+        """Learns what entry points write to members. Returns the members of which something is known that was not."""
+        before = self.known
+        changed = {
+            key for key, entries in writes.writers.items() if entries != self.writers.get(key) and element_type(self.type_of_key(key))
+        }
+        self.add_to_classes(writes.writes)
+        self.summary, self.writers = writes.values(), writes.writers
+        self.object_summary = self.members_of_objects()
+        self.known = contents({**self.object_summary, **self.summary}, self.work)
+        changed.update(key for key, known in self.known.items() if is_news(known, before.get(key)))
+        if self.callable_names != self.called_before:
+            self.called_before = set(self.callable_names)
+            changed.update(self.known, self.overlay)
+        parts = {key: len(names) for key, names in self.parts.items()}
+        changed.update(key for key, count in parts.items() if count != self.parts_before.get(key))
+        self.parts_before = parts
+        return changed
 
     def summarized(self, write: Alternative, key: str) -> Alternative:
         """Returns what an entry point writes to a member as others find it. A list that it appends to may have other elements, too."""
@@ -140,7 +172,7 @@ class Interpreter(Loops):
                 writes = writes_by_key.setdefault(f"{self.classes.owner(struct.type, name)}::{name}", {})
                 for write in cell.writes:
                     if write.value is not UNKNOWN and len(writes) <= MAX_ALTERNATIVES:
-                        writes.setdefault(_mark(write), write)
+                        writes.setdefault(mark(write), write)
         for path, values in self.summary.items():
             owner, _, rest = path.partition(".")
             class_name = self.class_of(self.type_of_key(owner), "") if rest else None
@@ -150,8 +182,8 @@ class Interpreter(Loops):
                 writes = writes_by_key.setdefault(f"{self.classes.owner(class_name, name)}::{rest}", {})
                 for write in values:
                     if len(writes) <= MAX_ALTERNATIVES:
-                        writes.setdefault(_mark(write), write)
-        return {key: _joined(key, list(writes.values())) for key, writes in writes_by_key.items() if writes}
+                        writes.setdefault(mark(write), write)
+        return {key: joined(key, list(writes.values())) for key, writes in writes_by_key.items() if writes}
 
     def reached_functions(self) -> Iterator[Function]:
         """Yields the entry points, and then the functions that no call was followed to: a lambda or an unknown object calls them."""
@@ -361,24 +393,3 @@ def _from_case(cases: Sequence[tuple[Sequence[Term | None], Sequence[Term]]], st
             yield statement
             if statement[0] in (BREAK, LEAVE, RETURN):
                 return
-
-
-def _mark(write: Alternative) -> tuple[Any, ...]:
-    value = write.value
-    if isinstance(value, ApiObject):
-        return (value.signature(), write.guards)
-    return (id(value) if isinstance(value, (Struct, Array, Closure)) else repr(value), write.at, write.guards)
-
-
-def _joined(key: str, writes: list[Alternative]) -> Value:
-    """Returns the union of what all functions write to a member. Null is ignored if the member is assigned an object."""
-    objects = [write for write in writes if isinstance(write.value, (ApiObject, Struct, Array))]
-    joined = tuple(objects or writes)
-    return joined if len(joined) <= MAX_ALTERNATIVES else (Alternative(Symbol(key, key.rpartition("::")[2]), joined[0].at),)
-
-
-def _marks(summary: dict[str, Value]) -> dict[str, list[tuple[Any, ...]]]:
-    return {
-        key: [(type(w.value).__name__, w.value if isinstance(w.value, (int, str, float, Symbol)) else None, w.at) for w in writes]
-        for key, writes in summary.items()
-    }

@@ -111,7 +111,7 @@ class ClassObjects(Variables):
             if struct.type in self.classes.with_methods:
                 # Methods that are not understood may change it: callbacks of events, for example.
                 cell.writes = tuple(a for a in cell.writes if a.value is not None and not isinstance(a.value, (bool, float)))
-                if known := self.summary.get(f"{self.classes.owner(struct.type, name)}::{name}"):
+                if known := self.summary_of(f"{self.classes.owner(struct.type, name)}::{name}"):
                     cell.writes = tuple(a for a in cell.writes if self.lasts(a.value)) or known
         return cell
 

@@ -9,6 +9,7 @@ from msaa_lint.core.text.span import Span
 
 from .escapes import forget
 from .evaluate import Evaluator
+from .executions import Results, emptied
 from .guards import ALWAYS, Guards
 from .library import Construction, Library
 from .limits import Work
@@ -46,11 +47,13 @@ class Structures(Evaluator):
 
     def begin(self) -> None:
         """Discards the results of the previous execution of the file, but keeps the identity of objects."""
-        self.current_objects = {}
-        self.class_objects.clear()
+        emptied(self.collected())
         self.declared_structs.clear()
         self.follow_counts.clear()
-        self.initial_reads.clear()
+
+    def collected(self) -> Results:
+        """Returns what entry points add to."""
+        return [self.current_objects, self.class_objects, self.initial_reads]
 
     def construct(self, kind: str, items: Items, place: Span, scope: Scope) -> Value:
         """Returns a structure of the API, or a copy of one."""

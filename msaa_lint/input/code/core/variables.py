@@ -10,6 +10,7 @@ from msaa_lint.core.text.span import Span
 from .aliases import without_aliases
 from .classes import Classes, pointed
 from .copies import Copier
+from .executions import Known
 from .library import Library
 from .limits import Work, WorkLimitExceeded
 from .scope import MEMBER, Scope
@@ -57,6 +58,12 @@ class Variables(ABC):
         """The objects of classes that were created."""
         self.object_summary: dict[str, Value] = {}
         """The values of their members."""
+        self.known: dict[str, Known] = {}
+        """What is known of members, to be compared."""
+        self.parts_before: dict[str, int] = {}
+        self.called_before: set[str] = set()
+        self.consulted: set[str] = set()
+        """The members whose summary the current entry point uses, beside those in `initial`."""
         self.overlay: dict[str, Cell] = {}
         """The cells of members in the current entry point."""
         self.held: set[str] = set()
@@ -269,6 +276,11 @@ class Variables(ABC):
         array.name = cell.key.rpartition("::")[2].rpartition(".")[2]
         return (Alternative(array, self.entry),)
 
+    def summary_of(self, key: str) -> Value:
+        """Returns what entry points write to a member."""
+        self.consulted.add(key)
+        return self.summary.get(key, UNKNOWN_VALUE)
+
     def is_held(self, cell: Cell) -> bool:
         """Returns whether the object that a member points to is the one that is created for it."""
         return cell.name in self.held and all(write.value is None for write in cell.writes)
@@ -304,15 +316,16 @@ class Variables(ABC):
 
     def declared(self, key: str) -> Value:
         """Returns the initial value of a class member or a global variable."""
-        if key in self.declared_values:
-            return self.declared_values[key]
-        self.declared_values[key] = UNKNOWN_VALUE
         owner, _, name = key.rpartition(".")
+        if key not in self.declared_values:
+            self.declared_values[key] = UNKNOWN_VALUE
+        elif not owner:
+            return self.declared_values[key]
         if owner:
             # What is written to it through other objects of its class.
             parent = self.class_of(self.type_of_key(owner), "")
             key_of_class = f"{self.classes.owner(parent, name)}::{name}" if parent is not None else ""
-            return (self.summary.get(key_of_class) or self.declared(key_of_class)) if key_of_class else UNKNOWN_VALUE
+            return (self.summary_of(key_of_class) or self.declared(key_of_class)) if key_of_class else UNKNOWN_VALUE
         class_name, _, name = key.rpartition("::")
         term = self.members.get(class_name, {}).get(name) if class_name else self.globals.get(name)
         if key.startswith("::"):

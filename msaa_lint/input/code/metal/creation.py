@@ -50,6 +50,11 @@ _DEFAULTS = {"mipmapped": "mipmapLevelCount", "size": "width"}
 class MetalInterpreter(MetalInstances):
     """Executes a program that calls Metal."""
 
+    @property
+    def repeatable(self) -> bool:
+        # Descriptors are objects, whose members change in whichever function they are passed to.
+        return False
+
     def begin(self) -> None:
         super().begin()
         self.filled: dict[Instance, list[tuple[int, Struct, Guards]]] = {}

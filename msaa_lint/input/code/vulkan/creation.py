@@ -15,6 +15,7 @@ from msaa_lint.core.text.span import Span
 from msaa_lint.frame.vulkan.enums import VALUES
 from msaa_lint.input.code.core.conditions import canonical_text
 from msaa_lint.input.code.core.escapes import forget, forget_captures, mark_escaped, mark_used, settle_under
+from msaa_lint.input.code.core.executions import Results
 from msaa_lint.input.code.core.guards import brief
 from msaa_lint.input.code.core.limits import Work
 from msaa_lint.input.code.core.scope import Scope, name_objects
@@ -130,11 +131,8 @@ class VulkanInterpreter(ForeignCode):
         self.descriptors: list[Struct] = []
         """The VkDescriptorImageInfo of the program."""
 
-    def begin(self) -> None:
-        super().begin()
-        self.resolves.clear()
-        self.copied.clear()
-        self.descriptors.clear()
+    def collected(self) -> Results:
+        return [*super().collected(), self.resolves, self.copied, self.descriptors]
 
     def construct(self, kind: str, items: Items, place: Span, scope: Scope) -> Value:
         return self.noted(super().construct(kind, items, place, scope))
