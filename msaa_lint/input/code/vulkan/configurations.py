@@ -9,7 +9,7 @@ from msaa_lint.core.text.node import Node
 from msaa_lint.core.text.span import Span
 from msaa_lint.input.code.core.configurations import Configuration
 from msaa_lint.input.code.core.guards import Guards, covers
-from msaa_lint.input.code.core.values import UNKNOWN, ApiObject, Array, Cell, Ref, Struct, Value, sole_value
+from msaa_lint.input.code.core.values import UNKNOWN, ApiObject, Array, Cell, Ref, Struct, Symbol, Value, sole_value
 
 from .creation import VulkanInterpreter
 from .names import first_version
@@ -44,6 +44,7 @@ class VulkanConfiguration(Configuration):
     def __init__(self, program: VulkanInterpreter, fragments: bool, barriers: bool) -> None:
         super().__init__(list(program.current_objects.values()))
         self.assumed_places.update(program.initial_reads)
+        self.program = program
         self.fragments = fragments
         self.barriers = barriers
         """Whether the file records barriers, which can replace subpass dependencies."""
@@ -150,8 +151,17 @@ class VulkanConfiguration(Configuration):
             if objects:
                 return objects[0] if all(item is objects[0] for item in objects) else None
             wrappers = [item for item in level if isinstance(item, Struct) and not item.kind]
+            pointers = [item for item in level if isinstance(item, Symbol)]
             level = [self.dereference(sole_value(self.settle(cell.writes))) for item in wrappers for cell in item.fields.values()]
+            level += [value for pointer in pointers for value in self.members_of_pointed(pointer)]
         return None
+
+    def members_of_pointed(self, pointer: Symbol) -> list[Any]:
+        """Returns what methods assign to the members of the object that a member points to: a singleton, for example."""
+        program = self.program
+        class_name = program.pointed_class(pointer.key).removesuffix("::") if "::" in pointer.key else ""
+        names = [f"{owner}::{name}" for owner in program.classes.chain(class_name) for name in program.members.get(owner, ())]
+        return [self.dereference(write.value) for name in names for write in program.summary.get(name, ())]
 
     def first_duplicate(self, obj: ApiObject) -> ApiObject:
         """Returns the first object that is identical to this one; calling a function twice creates two."""
