@@ -607,3 +607,13 @@ def test_a_language_that_is_not_read_is_said_to_be(tmp_path: Path, name: str, la
     assert done.returncode == 2
     assert f"this is {language}, which is not read; --input-format can be c, cpp," in done.stdout
     assert run(tmp_path, "check", *ONLY, "--input-format", "cpp", name).stdout.startswith(f"{name}:{PLACE}: {FOUND}")
+
+
+def test_folders_are_checked_without_the_headers_of_vulkan(tmp_path: Path) -> None:
+    (tmp_path / "libs").mkdir()
+    (tmp_path / "libs/vulkan_hash.hpp").write_text("struct VkImageCreateInfo { VkSampleCountFlagBits samples; };\n")
+    (tmp_path / "libs/targets.h").write_text("#define LEVELS VK_SAMPLE_COUNT_4_BIT\nstruct Targets { VkImageCreateInfo color; };\n")
+    text = '#include "targets.h"\nvoid f(VkImageCreateInfo& info) { info.samples = LEVELS; int msaaSampleCount; }\n'
+    (tmp_path / "libs/targets.cpp").write_text(text)
+    report = json.loads(run(tmp_path, "check", "--isolated", "--no-cache", "--output", "json", ".").stdout)
+    assert [entry["file"] for entry in report["inputs"]] == ["libs/targets.cpp", "libs/targets.h"]

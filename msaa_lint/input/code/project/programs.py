@@ -130,6 +130,7 @@ class Project:
         """Returns the inputs of a program, whose own files have `numbers`."""
         entries = self.entries
         candidates = [number for number in numbers if entries[number].is_candidate and entries[number].words.has_api]
+        candidates = [number for number in candidates if not is_api(entries[number].path)]
         if candidates and not any(entries[number].words.has_multisampling for number in (*numbers, *seen)):
             candidates = []
         return tuple(sorted({*candidates, *(number for number in numbers if entries[number].is_input)}))
