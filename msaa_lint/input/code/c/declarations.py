@@ -67,7 +67,10 @@ class Declarations(Expressions):
                 at = span(child)
                 arguments = [self.argument(c, depth) for c in without_comments(list_node)]
                 value = (CALL, (NAME, text, at), tuple(arguments), at)
-            if target is None or target.type == "structured_binding_declarator":
+            bound = structured_binding(target)
+            if bound is not None and value_node is not None:
+                terms += self.bindings(bound, (DECLARE, text, "", self.value(value_node, text, depth), False, fixed, span(bound)))
+            if target is None or bound is not None:
                 continue
             name, size, indirect = self.declarator(target)
             if not name:
@@ -78,6 +81,16 @@ class Declarations(Expressions):
             value = self.value(value_node, full_type, depth) if value_node is not None else value
             terms.append((DECLARE, full_type, name, value, indirect, fixed, at))
         return terms
+
+    def bindings(self, node: SyntaxNode, whole: Term) -> list[Term]:
+        """Returns the variables of a structured binding: of the whole, which gets a name, and of its elements."""
+        at = span(node)
+        name = f"binding {at.start}"
+        elements = [
+            (DECLARE, "auto", self.text_of(child), (CALL, (NAME, f"std::get<{n}>", at), ((NAME, name, at),), at), True, False, span(child))
+            for n, child in enumerate(without_comments(node))
+        ]
+        return [(*whole[:2], name, *whole[3:]), *elements]
 
     def is_construction(self, node: SyntaxNode) -> bool:
         """Returns whether an apparent function declaration constructs an object: `Image image(device, info);`"""
@@ -139,3 +152,10 @@ class Declarations(Expressions):
             return (CALL, (NAME, kind, at), tuple(self.expression(c, depth + 1) for c in without_comments(node)), at)
         term = self.expression(node, depth)
         return (BRACES, kind, *term[2:]) if term[0] == BRACES and not term[1] else shapes.zeroed(kind, term) or term
+
+
+def structured_binding(node: SyntaxNode | None) -> SyntaxNode | None:
+    """Returns the `[a, b]` of a declarator, or None."""
+    while node is not None and node.type == "reference_declarator" and node.named_child_count:
+        node = node.named_children[-1]
+    return node if node is not None and node.type == "structured_binding_declarator" else None

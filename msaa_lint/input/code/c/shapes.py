@@ -100,3 +100,11 @@ def loop_variable(term: Term) -> tuple[Term, Term] | None:
         return None
     name, over = term[2]
     return ((DECLARE, "auto", name[1], None, True, False, name[-1]), over) if name[0] == NAME else None
+
+
+def iterated(declared: list[Term]) -> tuple[tuple[Term, ...], Term] | None:
+    """Returns the variable and the list of a loop with an iterator, `for (auto it = list.begin(); it != list.end(); ++it)`, or None."""
+    value = declared[0][3] if len(declared) == 1 else None
+    if value is None or value[0] != CALL or value[1][0] != FIELD or value[1][2] not in ("begin", "cbegin"):
+        return None
+    return ((*declared[0][:3], None, True, *declared[0][5:]),), value[1][1]

@@ -7,7 +7,7 @@ from msaa_lint.input.code.core.terms import BLOCK, BREAK, DECLARE, DO, IF, LEAVE
 from msaa_lint.input.code.parsing import SyntaxNode, fields, span, without_comments
 
 from . import shapes
-from .declarations import Declarations
+from .declarations import Declarations, structured_binding
 from .kinds import BLOCKS, CHAIN_TESTS, MAX_DEPTH
 
 
@@ -50,6 +50,8 @@ class Statements(Declarations):
             terms = self.declared(first, depth) if first is not None and first.type == "declaration" else []
             before = [(DO, self.expression(first, depth), at)] if first is not None and not terms else []
             nested = self.nested_statements(body, depth)
+            if update is not None and (iterated := shapes.iterated(terms)) is not None:
+                return [(LOOP, iterated[0], iterated[1], tuple(nested), at)]
             if update is not None:
                 nested.append((DO, self.expression(update, depth), at))
             if test is not None:
@@ -57,7 +59,12 @@ class Statements(Declarations):
             return nested if kind == "do_statement" else [*before, (LOOP, tuple(terms), None, tuple(nested), at)]
         if kind == "for_range_loop":
             over, body, type_node, declarator = fields(node, "right", "body", "type", "declarator")
-            name, _, indirect = self.declarator(declarator)
+            bound = structured_binding(declarator)
+            name, _, indirect = self.declarator(declarator) if bound is None else ("", None, True)
+            if bound is not None:
+                whole, *elements = self.bindings(bound, (DECLARE, "auto", "", None, True, False, span(bound)))
+                bound_over = self.expression(over, depth) if over is not None else None
+                return [(LOOP, (whole,), bound_over, (*elements, *self.nested_statements(body, depth)), at)]
             terms = [(DECLARE, self.type_text(type_node), name, None, indirect, False, at)] if name else []
             elements = self.expression(over, depth) if over is not None else None
             return [(LOOP, tuple(terms), elements, tuple(self.nested_statements(body, depth)), at)]

@@ -19,7 +19,7 @@ from .overloads import bound
 from .resolution import Resolution
 from .scope import MAX_CALLS, MAX_CLOSURES, MAX_WAYS, MEMBER, Scope, Scopes
 from .static_types import OWNED
-from .terms import BRACES, CALL, FIELD, INDEX, LAMBDA, NAME, Function, Parameter, Term, Unit, short_name
+from .terms import BRACES, CALL, FIELD, INDEX, LAMBDA, NAME, UNPARSED, Function, Parameter, Term, Unit, short_name
 from .types import element_type
 from .values import (
     MAX_ALTERNATIVES,
@@ -128,6 +128,8 @@ class Calls(Resolution):
             if repeated is not None:
                 return repeated
         if owner is None:
+            if (of_tuple := self.tuple_call(function, arguments, place, scope)) is not None:
+                return of_tuple
             if function[0] == NAME and (instance := self.construct_class(function[1], term, scope)) is not None:
                 return instance
             if function[0] == NAME and self.library.structure(function[1]):
@@ -157,6 +159,9 @@ class Calls(Resolution):
         if name in ("size", "ARRAY_SIZE", "countof", "array_size", "ARRAYSIZE", "arraysize") and len(arguments) == 1:
             return self.count_value(self.sole(arguments[0], scope), place)
         values = [self.value(argument, scope) for argument in arguments]
+        for value in values:
+            if isinstance(sole_value(value), Closure):
+                self.call_back(sole_value(value), place, scope)
         return self.external_call(term, name, owner, values, scope)
 
     def local_callable(self, name: str, scope: Scope) -> Closure | Routine | None:
@@ -173,6 +178,12 @@ class Calls(Resolution):
         class_name, namespace = closure.class_name or scope.class_name, closure.namespace or scope.namespace
         body = Function("", class_name, "", closure.parameters, closure.body, place, namespace)
         return self.execute(body, term, scope, closure.this_object, closure.scopes)
+
+    def call_back(self, closure: Closure, place: Span, scope: Scope) -> None:
+        """Executes a lambda that an unknown function takes, with unknown arguments."""
+        scope.unknown_loops += 1
+        self.call_closure(closure, (CALL, (NAME, "", place), tuple((UNPARSED, "", place) for _ in closure.parameters), place), scope)
+        scope.unknown_loops -= 1
 
     def construct_class(self, kind: str, term: Term, scope: Scope) -> Value | None:
         """Returns an object of a class of the program, built by its constructor; None for other types and if several constructors match."""

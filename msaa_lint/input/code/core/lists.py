@@ -10,8 +10,8 @@ from msaa_lint.core.text.span import Span
 from .escapes import forget
 from .guards import ALWAYS
 from .scope import MEMBER, Scope
-from .structures import Structures
 from .terms import CALL, FIELD, INDEX, LITERAL, NAME, Term
+from .tuples import Tuples
 from .types import element_type
 from .values import (
     UNKNOWN,
@@ -46,7 +46,7 @@ class Receiver(NamedTuple):
     content: Value
 
 
-class ListMethods(Structures):
+class ListMethods(Tuples):
     """The list methods of one file."""
 
     def method(self, receiver: Receiver, name: str, arguments: Sequence[Term], place: Span, scope: Scope) -> Value | None:
