@@ -6,7 +6,7 @@ import re
 from collections.abc import Sequence
 
 from msaa_lint.core.text.span import Span
-from msaa_lint.input.code.core.terms import ADDRESS, BRACES, CALL, DECLARE, FIELD, INDEX, LITERAL, NAME, UNPARSED, Term
+from msaa_lint.input.code.core.terms import ADDRESS, BRACES, CALL, DECLARE, FIELD, INDEX, LITERAL, NAME, TARGET, UNPARSED, Term
 
 _MACRO = re.compile(r"_*[A-Z][A-Z0-9_]*")
 
@@ -102,9 +102,19 @@ def loop_variable(term: Term) -> tuple[Term, Term] | None:
     return ((DECLARE, "auto", name[1], None, True, False, name[-1]), over) if name[0] == NAME else None
 
 
-def iterated(declared: list[Term]) -> tuple[tuple[Term, ...], Term] | None:
-    """Returns the variable and the list of a loop with an iterator, `for (auto it = list.begin(); it != list.end(); ++it)`, or None."""
+def iterated(declared: list[Term], body: list[Term]) -> tuple[tuple[Term, ...], Term] | None:
+    """Returns the variable and the list of a loop with an iterator, `for (auto it = list.begin(); it != list.end(); ++it)`, or None. The
+    body must use the iterator only for the element."""
     value = declared[0][3] if len(declared) == 1 else None
     if value is None or value[0] != CALL or value[1][0] != FIELD or value[1][2] not in ("begin", "cbegin"):
         return None
+    stack: list[object] = list(body)
+    while stack:
+        term = stack.pop()
+        if not isinstance(term, tuple) or isinstance(term, Span) or not term:
+            continue
+        if term[:2] == (NAME, declared[0][2]):
+            return None
+        is_element = term[0] in (TARGET, FIELD) and isinstance(term[1], tuple) and term[1][:2] == (NAME, declared[0][2])
+        stack += term[2:] if is_element else term
     return ((*declared[0][:3], None, True, *declared[0][5:]),), value[1][1]

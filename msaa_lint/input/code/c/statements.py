@@ -50,7 +50,7 @@ class Statements(Declarations):
             terms = self.declared(first, depth) if first is not None and first.type == "declaration" else []
             before = [(DO, self.expression(first, depth), at)] if first is not None and not terms else []
             nested = self.nested_statements(body, depth)
-            if update is not None and (iterated := shapes.iterated(terms)) is not None:
+            if update is not None and (iterated := shapes.iterated(terms, nested)) is not None:
                 return [(LOOP, iterated[0], iterated[1], tuple(nested), at)]
             if update is not None:
                 nested.append((DO, self.expression(update, depth), at))
@@ -62,12 +62,12 @@ class Statements(Declarations):
             bound = structured_binding(declarator)
             name, _, indirect = self.declarator(declarator) if bound is None else ("", None, True)
             if bound is not None:
-                whole, *elements = self.bindings(bound, (DECLARE, "auto", "", None, True, False, span(bound)))
-                bound_over = self.expression(over, depth) if over is not None else None
-                return [(LOOP, (whole,), bound_over, (*elements, *self.nested_statements(body, depth)), at)]
-            terms = [(DECLARE, self.type_text(type_node), name, None, indirect, False, at)] if name else []
+                whole, *parts = self.bindings(bound, (DECLARE, "auto", "", None, True, False, span(bound)))
+            else:
+                whole, parts = (DECLARE, self.type_text(type_node), name, None, indirect, False, at), []
             elements = self.expression(over, depth) if over is not None else None
-            return [(LOOP, tuple(terms), elements, tuple(self.nested_statements(body, depth)), at)]
+            declared = (whole,) if whole[2] else ()
+            return [(LOOP, declared, elements, (*parts, *self.nested_statements(body, depth)), at)]
         if kind in CHAIN_TESTS:
             return self.preprocessor_block(node, depth)
         if kind == "switch_statement":
