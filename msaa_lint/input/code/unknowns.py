@@ -21,7 +21,7 @@ MAX_OCCURRENCES = 2000
 """The number of uses of a name that are looked at."""
 
 _CAST = re.compile(r"\(\s*(?:const\s+)?(?:Vk\w+|vk::[\w:]+|u?int\w*|unsigned)\s*\)\s*|static_cast<[^<>]*>\s*|^[&*(\s]+")
-_PATH = re.compile(r"(?P<path>(?:this->)?[A-Za-z_]\w*(?:(?:\.|->|::)[A-Za-z_]\w*|\[[^\[\]]{0,40}\])*)\s*(?P<call>\()?")
+_PATH = re.compile(r"(?<!\w)(?P<path>(?:this->)?[A-Za-z_]\w*(?:(?:\.|->|::)[A-Za-z_]\w*|\[[^\[\]]{0,40}\])*)\s*(?P<call>\()?")
 _KNOWN = re.compile(r"(?:VK_|vk::|MTL|\.)\w|(?:true|false|nullptr|NULL|nil)\b")
 _LAST = re.compile(r"[A-Za-z_]\w*(?=(?:\[[^\]]*\])*\Z)")
 _MACRO = re.compile(r"[A-Z][A-Z0-9_]{2,}\Z")

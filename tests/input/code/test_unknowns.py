@@ -101,3 +101,11 @@ def test_names_in_many_files_take_no_time(tmp_path: Path) -> None:
     for number in range(3):
         (tmp_path / f"a{number}.cpp").write_text(text, encoding="utf-8")
     assert len(check(tmp_path, ".")[1]) == 3
+
+
+def test_a_number_is_no_name(tmp_path: Path) -> None:
+    (tmp_path / "state.h").write_text(HEADER + "enum Flags { MULTI = 0x00000400 };\ninline bool isMulti() { return MULTI & 0x00000C00; }\n")
+    value = "isMulti() ? VK_SAMPLE_COUNT_4_BIT : level()"
+    (tmp_path / "a.cpp").write_text(IMAGE.format(function="create(VkDevice device, VkImage image)", value=value))
+    text, _ = check(tmp_path, ".")
+    assert "x00000" not in text, text
