@@ -21,7 +21,7 @@ MAX_PARTS = 16
 MAX_SPLITS = 64
 """The maximum number of cases that are distinguished to determine whether conditions cover all of them."""
 
-MAX_KEPT = 1 << 12
+MAX_KEPT = 1 << 14
 """The number of answers about conditions that are kept, since the same ones are asked for many times."""
 
 
@@ -114,10 +114,23 @@ def excluded(guards: Guards, configuration: Mapping[str, bool]) -> bool:
     return len(guards) > 1 and configuration.get(brief(str(sorted(guards)))) is False
 
 
+def remaining(guards: Guards, configuration: Mapping[str, bool]) -> Guards | None:
+    """Returns the conditions that a configuration leaves open, or None if it denies one of them."""
+    rest = []
+    for guard in guards:
+        way = chosen(guard[0], configuration)
+        if way is None:
+            rest.append(guard)
+        elif way is not guard[1]:
+            return None
+    left = guards if len(rest) == len(guards) else frozenset(rest)
+    return None if excluded(left, configuration) else left
+
+
 @lru_cache(MAX_KEPT)
-def configuration(guards: Guards) -> Mapping[str, bool]:
-    """Returns the values of conditions where guards hold."""
-    return dict(guards)
+def remaining_under(guards: Guards, known: Guards) -> Guards | None:
+    """Returns the conditions that are open where others hold, or None if they cannot hold together."""
+    return remaining(guards, dict(known))
 
 
 @lru_cache(MAX_KEPT)

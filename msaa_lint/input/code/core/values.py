@@ -6,12 +6,12 @@ configuration, which decides conditions, a value may have a single alternative.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple, Protocol
 
 from msaa_lint.core.text.span import Span
 
-from .guards import ALWAYS, Conjunction, Guards, chosen, configuration, contradicts, covers, excluded
+from .guards import ALWAYS, Conjunction, Guards, contradicts, covers, remaining, remaining_under
 
 MAX_ALTERNATIVES = 12
 """The maximum number of alternatives of a value; with more, it is unknown."""
@@ -76,7 +76,7 @@ class Cell:
         if not self.writes or not self.writes[-1].guards:
             # Nothing shows through an unconditional write.
             return self.writes[-1:]
-        return possible_writes(self.writes, configuration(guards))
+        return _visible(self.writes, lambda own: remaining_under(own, guards))
 
 
 class SplitCell(Cell):
@@ -125,27 +125,30 @@ def limited(writes: Value, at: Span) -> Value:
 
 
 def possible_writes(writes: Value, conditions: Mapping[str, bool]) -> Value:
-    """Returns the writes that are visible under conditions: from the last back to the first from which on one certainly happens."""
+    """Returns the writes that are visible under conditions."""
+    return _visible(writes, lambda guards: remaining(guards, conditions))
+
+
+def _visible(writes: Value, remainder: Callable[[Guards], Guards | None]) -> Value:
+    """Returns the writes from the last back to the first from which on one certainly happens. `remainder` returns the conditions under
+    which a write happens, or None."""
     if writes and not writes[-1].guards:
         return writes[-1:]
     alternatives: list[Alternative] = []
     tests: set[tuple[str, bool]] = set()
+    opposite = False
     for write in reversed(writes):
-        rest = []
-        for guard in write.guards:
-            way = chosen(guard[0], conditions)
-            if way is None:
-                rest.append(guard)
-            elif way is not guard[1]:
-                break
-        else:
-            if excluded(frozenset(rest), conditions):
-                continue
-            alternatives.append(Alternative(write.value, write.at, frozenset(rest)) if len(rest) < len(write.guards) else write)
-            opposite = any((text, not way) in tests or isinstance(text, Conjunction) for text, way in (*rest, *tests))
-            tests.update(rest)
-            if not rest or (opposite and covers(tuple(a.guards for a in alternatives))):
-                break
+        rest = remainder(write.guards)
+        if rest is None:
+            continue
+        alternatives.append(write if rest is write.guards else Alternative(write.value, write.at, rest))
+        if not rest:
+            break
+        # Conditions can only cover all cases if some of them are opposite.
+        opposite = opposite or any((text, not way) in tests or isinstance(text, Conjunction) for text, way in rest)
+        tests.update(rest)
+        if opposite and covers(tuple(a.guards for a in alternatives)):
+            break
     return tuple(reversed(alternatives))
 
 
