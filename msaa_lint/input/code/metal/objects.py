@@ -269,6 +269,9 @@ class MetalObjects(Interpreter):
         obj = self.objects.get(key)
         if obj is None:
             obj = self.objects[key] = ApiObject(kind, key, place, info)
+        elif kind == "pipeline" and "passes" in obj.info.fields:
+            # The call is executed again; what was drawn with it stays known.
+            info.fields.setdefault("passes", obj.info.fields["passes"])
         obj.info = info
         self.current_objects[key] = obj
         return obj

@@ -35,6 +35,8 @@ class DescriptionWriter(Textures):
         super().__init__(program, defaults)
         self.platform = platform
         self.maybe_loaded: set[int] = set()
+        self.equal_passes: dict[int, ApiObject] = {}
+        """The pass that stands for each pass that is encoded, by its id."""
 
     def read(self, whole: Span) -> Read | None:
         """Returns the description, or None if the program does not use Metal multisampling."""
@@ -85,7 +87,7 @@ class DescriptionWriter(Textures):
         distinct: dict[tuple[Any, ...], ApiObject] = {}
         for obj in self.current_objects:
             if obj.kind == "pass":
-                distinct.setdefault((obj.info.at, self.signature(obj.info)), obj)
+                self.equal_passes[id(obj)] = distinct.setdefault((obj.info.at, self.signature(obj.info)), obj)
         return sorted(distinct.values(), key=lambda obj: obj.at.start)
 
     def signature(self, info: Struct) -> tuple[Any, ...]:
@@ -173,7 +175,8 @@ class DescriptionWriter(Textures):
         info = obj.info
         entries: list[Entry] = []
         drawings = info.fields["passes"].writes if "passes" in info.fields else ()
-        drawn = next((write.value for write in drawings if id(write.value) in passes and self.settle((write,))), None)
+        drawn_in = [self.equal_passes.get(id(write.value)) for write in drawings if self.settle((write,))]
+        drawn = next((item for item in drawn_in if id(item) in passes), None)
         if drawn is not None:
             entries.append(("renderPass", obj.at, scalar(passes[id(drawn)], obj.at)))
         counted = False
