@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, NamedTuple
 from msaa_lint.core.text.node_builder import mapping
 from msaa_lint.core.text.source import Source, Unreadable
 from msaa_lint.core.text.span import Span
-from msaa_lint.input.code.c.description_trees import file_syntax
 from msaa_lint.input.code.c.macros import NO_MACROS, Definitions, Macros
 from msaa_lint.input.code.c.preprocessor import definitions
 from msaa_lint.input.code.core.assumed_values import Assume, assuming
@@ -25,6 +24,10 @@ from .merge import MAX_REACH, File, merged
 
 if TYPE_CHECKING:
     from msaa_lint.core.cache import Cache
+
+
+PREPROCESSED = ("c", "cpp", "objc", "objcpp")
+"""The languages with macros."""
 
 
 class ProgramFile(NamedTuple):
@@ -70,7 +73,8 @@ def read(
     for number, (file, offset) in enumerate(zip(files, starts(files), strict=True)):
         try:
             code = file.code
-            visible = macros.visible(number, code.text, reach(files, number)) | _built(file) if code.language in ("c", "cpp") else NO_MACROS
+            is_preprocessed = code.language in PREPROCESSED
+            visible = macros.visible(number, code.text, reach(files, number)) | _built(file) if is_preprocessed else NO_MACROS
             syntax = kept_syntax(cache, code, visible, length, partial(_syntax, code, visible))
         except Missing:
             raise
@@ -94,10 +98,9 @@ def read(
 
 
 def _syntax(code: Code, macros: Macros) -> FileSyntax:
-    """Returns the syntax of a file; `macros` are those of C and C++ that other files define."""
-    if code.language in ("c", "cpp"):
-        return file_syntax(code, macros)
-    syntax: FileSyntax = import_module(f"msaa_lint.input.code.{MODULES[code.language]}").file_syntax(code)
+    """Returns the syntax of a file; `macros` are those that other files define."""
+    module = import_module(f"msaa_lint.input.code.{MODULES[code.language]}")
+    syntax: FileSyntax = module.file_syntax(code, macros) if code.language in PREPROCESSED else module.file_syntax(code)
     return syntax
 
 

@@ -44,7 +44,7 @@ def test_a_second_run_says_the_same(project: Path, tmp_path: Path, monkeypatch: 
     def read(*_: object) -> None:
         raise AssertionError("the program is read again")
 
-    monkeypatch.setattr("msaa_lint.input.code.project.reading.file_syntax", read)
+    monkeypatch.setattr("msaa_lint.input.code.c.description_trees.file_syntax", read)
     second = check(project, tmp_path / "kept")
     assert (second.stdout, second.returncode) == (first.stdout, first.returncode)
 
@@ -69,7 +69,7 @@ def test_of_a_program_only_the_files_that_change_are_parsed(project: Path, tmp_p
     check(project, tmp_path / "kept")
     parsed = []
     monkeypatch.setattr(
-        "msaa_lint.input.code.project.reading.file_syntax", lambda code, macros: parsed.append(code.text) or file_syntax(code, macros)
+        "msaa_lint.input.code.c.description_trees.file_syntax", lambda code, macros: parsed.append(code.text) or file_syntax(code, macros)
     )
     write(project, {"settings.h": settings(1) + FILLER})
     done = check(project, tmp_path / "kept")
