@@ -104,12 +104,13 @@ class Read(NamedTuple):
 
 def span(node: SyntaxNode) -> Span:
     """Returns the location of a node. A byte of the parser's input is a character of the file."""
-    return Span(node.start_byte, node.end_byte)
+    # There are several for each line: the constructor of the tuple is called directly.
+    return tuple.__new__(Span, node.byte_range)
 
 
 def fields(node: SyntaxNode, *names: str) -> "tuple[SyntaxNode | None, ...]":
     """Returns the children of a node in some fields."""
-    return tuple(node.child_by_field_name(name) for name in names)
+    return tuple(map(node.child_by_field_name, names))
 
 
 def without_comments(node: "SyntaxNode | None") -> list[SyntaxNode]:

@@ -51,11 +51,12 @@ class Declarations(Expressions):
         text = self.type_text(node.child_by_field_name("type"))
         fixed = any(c.type == "type_qualifier" and self.text_of(c) in ("const", "constexpr") for c in node.named_children)
         terms: list[Term] = []
-        for n, child in enumerate(node.children):
-            field = node.field_name_for_child(n)
-            if field == "default_value" and terms:
-                terms[-1] = (*terms[-1][:3], self.value(child, terms[-1][1], depth), *terms[-1][4:])
-            if field != "declarator":
+        defaults = node.children_by_field_name("default_value")
+        declarators = node.children_by_field_name("declarator")
+        for child in sorted((*declarators, *defaults), key=lambda child: child.start_byte) if defaults else declarators:
+            if child in defaults:
+                if terms:
+                    terms[-1] = (*terms[-1][:3], self.value(child, terms[-1][1], depth), *terms[-1][4:])
                 continue
             value: Term | None = None
             target, value_node = fields(child, "declarator", "value") if child.type == "init_declarator" else (child, None)

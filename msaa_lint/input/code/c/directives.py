@@ -94,6 +94,9 @@ class Sections:
             self._around.append(open_sections[-1] if open_sections else -1)
             open_sections.append(n)
 
+    def __bool__(self) -> bool:
+        return bool(self._sections)
+
     def starts_in(self, start: int, end: int) -> bool:
         """Returns whether a section starts inside a range."""
         n = bisect_right(self._starts, start)

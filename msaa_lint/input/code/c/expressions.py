@@ -41,6 +41,9 @@ API_TYPES = ("vk::", "Vk", "VULKAN")
 OWNERS = frozenset({"make_unique", "make_shared", "MakeUnique", "MakeShared", "CreateRef", "CreateScope"})
 """Functions that construct an object of the type that is their template argument."""
 
+KEYWORDS = re.compile(r"\b(?:const|struct|typename|class)\b")
+"""Words that types may have or not."""
+
 CASTS = frozenset({"static_cast", "reinterpret_cast", "const_cast", "bit_cast"})
 
 
@@ -75,7 +78,8 @@ class Expressions(SyntaxReader, ABC):
             return ""
         if node.type in CLASSES or node.type == "enum_specifier":
             return self.text_of(node.child_by_field_name("name"))
-        return self.resolve_aliases(BLANKS.sub("", re.sub(r"\b(?:const|struct|typename|class)\b", " ", self.text_of(node))))
+        text = self.text_of(node)
+        return self.resolve_aliases(text if text.isidentifier() else BLANKS.sub("", KEYWORDS.sub(" ", text)))
 
     def resolve_aliases(self, name: str) -> str:
         """Returns a name with aliases resolved: those of `namespace v = vk;` and `using Samples = ...;`."""
@@ -90,7 +94,11 @@ class Expressions(SyntaxReader, ABC):
             name = self.text_of(node)
             if len(name) > MAX_NAME:
                 return (UNPARSED, "", at)
-            return (LITERAL, None, at) if name == "VK_NULL_HANDLE" else (NAME, self.resolve_aliases(BLANKS.sub("", name)), at)
+            return (
+                (LITERAL, None, at)
+                if name == "VK_NULL_HANDLE"
+                else (NAME, self.resolve_aliases(name if name.isidentifier() else BLANKS.sub("", name)), at)
+            )
         if kind == "field_expression":
             member = node.child_by_field_name("field")
             if member is None:
@@ -171,7 +179,9 @@ class Expressions(SyntaxReader, ABC):
                 return self.expression(argument_nodes[0], depth)
         if len(argument_nodes) == 1 and self.text_of(function) in ("std::move", "std::as_const"):
             return self.expression(argument_nodes[0], depth)
-        arguments = tuple(self.ordered_arguments(argument_nodes, (self.expression(child, depth) for child in argument_nodes)))
+        terms = (self.expression(child, depth) for child in argument_nodes)
+        shifted = list_node is not None and list_node.has_error and self.has_directives(argument_nodes)
+        arguments = tuple(self.ordered_arguments(argument_nodes, terms, shifted) if shifted or self.sections else terms)
         term = self.expression(function, depth)
         if term[0] == CALL and len(term[2]) == 1 and term[2][0][0] == NAME and term[1][0] == NAME and term[1][1].isupper():
             # `VK_CALL(vkCreateImage)(device)`
@@ -209,7 +219,7 @@ class Expressions(SyntaxReader, ABC):
     def items(self, node: SyntaxNode, depth: int) -> Iterator[tuple[tuple[str | int, ...] | None, Term]]:
         """Yields the items in braces: the designated members or None, and the term."""
         nodes = node.named_children
-        if self.has_directives(nodes):
+        if node.has_error and self.has_directives(nodes):
             # The result of the preprocessor is unknown.
             at = span(node)
             yield None, (SOME, "#", True, (UNPARSED, "", at), at)
@@ -239,6 +249,8 @@ class Expressions(SyntaxReader, ABC):
 
     def conditional_item(self, node: SyntaxNode, term: Term) -> Term:
         """Returns the term of a list item with the conditions under which it exists; an item that is only partly conditional is unknown."""
+        if not self.sections:
+            return term
         sections = self.sections.of(node.start_byte)
         if sections is None or (self.sections.starts_in(node.start_byte, node.end_byte) and term[0] not in (BRACES, CALL, LAMBDA)):
             return (UNPARSED, "", term[-1])
@@ -246,9 +258,8 @@ class Expressions(SyntaxReader, ABC):
             term = (SOME, section.text, section.way, term, term[-1])
         return term
 
-    def ordered_arguments(self, nodes: list[SyntaxNode], terms: Iterator[Term]) -> Iterator[Term]:
-        """Yields arguments; from the first conditional argument on, they are unknown."""
-        shifted = self.has_directives(nodes)
+    def ordered_arguments(self, nodes: list[SyntaxNode], terms: Iterator[Term], shifted: bool) -> Iterator[Term]:
+        """Yields arguments; from the first conditional argument on, or if they are `shifted`, they are unknown."""
         for node, term in zip(nodes, terms, strict=True):
             argument = self.conditional_item(node, term)
             shifted = shifted or argument[0] == SOME

@@ -41,6 +41,8 @@ def number(text: str) -> int | float | None:
     """Returns the value of a literal, or None."""
     if len(text) > MAX_DIGITS:
         return None
+    if text.isdecimal() and (text[0] != "0" or len(text) == 1):
+        return int(text)
     match = NUMBER.fullmatch(text)
     if match is not None:
         digits = match[1].replace("'", "")

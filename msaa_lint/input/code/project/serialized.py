@@ -41,11 +41,14 @@ def loads_reads(data: bytes) -> list[Read]:
 
 
 def _span_type(offset: int) -> type[Span]:
+    # There may be a million of them.
+    new = tuple.__new__
+
     class Moved(Span):
         """Creates places with the offset added."""
 
         def __new__(cls, start: int, end: int) -> Span:  # type: ignore[misc]
-            return Span(start + offset, end + offset)
+            return new(Span, (start + offset, end + offset))
 
     return Moved
 
