@@ -88,6 +88,18 @@ def test_a_count(body: str, count: int | None) -> None:
     assert images["image"].get("samples") == count
 
 
+LONG = f"static const uint32_t shader[] = {{2, 4, {'0x08, ' * 200}}};\n"
+"""A list that is too long to say something of a frame, such as the code of a shader. It is not parsed."""
+
+
+@pytest.mark.parametrize(("body", "count"), [("info.samples = (VkSampleCountFlagBits)shader[1];", None), SAMPLES[0]])
+def test_a_long_list_of_numbers_is_unknown(body: str, count: int | None) -> None:
+    images = read(image(body, LONG)).get("images")
+    assert isinstance(images, dict)
+    assert images["image"].get("samples") == count
+    assert node(image(SAMPLES[0][0], LONG), "images", "image", "samples").start == image(SAMPLES[0][0], LONG).index("VK_SAMPLE_COUNT_4_BIT")
+
+
 def test_what_hangs_on_the_same_condition_goes_the_same_way() -> None:
     """The multisampled configuration is described, whatever the condition is called."""
     for condition in ("msaa", "level > 1", "level != 1", "settings.samples > VK_SAMPLE_COUNT_1_BIT", "isOn()"):

@@ -55,6 +55,7 @@ _UNNAMED = re.compile(r"\s*(?:(?:typedef|static|const)\s+)*(?:struct|union|enum|
 _QUALIFIERS = frozenset({"const", "noexcept", "override", "final", "volatile", "mutable", "try", "&", "&&"})
 _TOKEN = re.compile(r"\w+|&+|\S")
 _COMMENT = re.compile(r"//[^\n]*|/\*.*?(?:\*/|\Z)|^[ \t]*#[^\n]*", re.DOTALL | re.MULTILINE)
+_TABLE = re.compile(r"=\s*+\{[\s0-9a-fA-FxXuUlL.,+\-']{400,}+\}")
 _CALLED = re.compile(r"\b([A-Za-z_]\w*+)\s*+\(")
 _WORD = re.compile(r"[A-Za-z_]\w*")
 _DEFINITION = re.compile(r"#[ \t]*define[ \t]+(\w+)((?:[^\n\\]|\\\r?\n|\\.)*)")
@@ -176,11 +177,16 @@ def without_irrelevant_bodies(text: str, macros: Macros) -> str:
         if not matters and not is_accessor(text[body.start : body.end]):
             parts += (text[last : body.start], blank(text[body.start : body.end]))
             last = body.end
-    return "".join((*parts, text[last:]))
+    return without_tables("".join((*parts, text[last:])))
 
 
 def _mentions(text: str, words: Set[str]) -> bool:
     return any(word in text for word in words) and not words.isdisjoint(_WORD.findall(text))
+
+
+def without_tables(text: str) -> str:
+    """Returns a text in which long lists of numbers, such as the code of shaders, are an unknown name; offsets stay."""
+    return _TABLE.sub(lambda match: "=" + blank(match[0][1:-1]) + "_", text) if "{" in text else text
 
 
 def _relevant_macros(text: str, macros: Macros) -> set[str]:
