@@ -201,6 +201,22 @@ def swift_cases(count: int) -> str:
     return "        let d = MTLTextureDescriptor()\n        switch quality {\n" + cases + "        default: break\n        }\n"
 
 
+def swift_returning_cases(count: int) -> str:
+    cases = repeated("            case {n}: return {m}\n", count)
+    choice = (
+        "        func count(_ quality: Int) -> Int {\n            switch quality {\n"
+        + cases
+        + "            default: return 1\n            }\n        }\n"
+    )
+    return "        let d = MTLTextureDescriptor()\n" + choice + "        d.sampleCount = count(quality)\n"
+
+
+def swift_assumptions(count: int) -> str:
+    return repeated(
+        "        let d{n} = MTLTextureDescriptor()\n        d{n}.sampleCount = settings{n}.samples // msaa-lint: assume samples=4\n", count
+    )
+
+
 def swift_closures(count: int) -> str:
     return repeated("        let f{n} = {{ (x: Int) in d.sampleCount = x }}\n        f{n}(4)\n", count)
 
@@ -292,6 +308,8 @@ SHAPES: tuple[Shape, ...] = (
     swift("branches", swift_branches),
     swift("nested branches", swift_nested_branches),
     swift("switch cases", swift_cases),
+    swift("switch cases that return", swift_returning_cases),
+    swift("assumptions", swift_assumptions),
     swift("closures", swift_closures),
     swift("closures that call the last twice", swift_closure_tree),
     swift("optionals", swift_optionals),
