@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import re
+from collections import Counter
+
 from msaa_lint.input.code.core.terms import ADDRESS, ASSIGN, BINARY, BRACES, CALL, DECLARE, FIELD, NAME, TARGET, Term, Unit
 
 from .masks import COUNTS, Expressions, name_of
@@ -11,6 +14,9 @@ MAX_NAMES = 12
 """The maximum number of names that hold a count."""
 
 _CAPS = frozenset({"min", "MIN", "Min", "clamp", "Clamp", "CLAMP", "qMin", "qBound", "SDL_min"})
+_LIMIT = re.compile(r"(?:m_|_)?(?:max|limit|supported)", re.IGNORECASE)
+"""Members that say what a device offers. Which count is chosen is decided by what reads them."""
+
 _SAMPLES = ("samples", "rasterizationSamples", "sampleCount", "rasterization_samples", "sample_count")
 """Members that many structures have, such as those that describe images."""
 
@@ -22,6 +28,8 @@ class Caps:
         self.expressions = expressions
         self._targets: dict[str, list[str]] = {}
         self._limits: dict[str, list[int]] = {}
+        self._mentions: Counter[str] = Counter()
+        """How often each member is mentioned, less the assignments to it."""
         for function in unit.functions:
             for term in parts(function.body):
                 self._read(term)
@@ -32,6 +40,9 @@ class Caps:
 
     def of(self, name: str) -> int | None:
         """Returns the count that caps the value of a variable or function, 0 if the cap is unknown, and None if there is none."""
+        if _LIMIT.match(name) and name in self._mentions and not self._mentions[name]:
+            # What a device offers is only reported.
+            return 0
         holders = [name]
         for holder in holders:
             holders += [item for item in dict.fromkeys(self._targets.get(holder, ())) if item not in holders][: MAX_NAMES - len(holders)]
@@ -40,6 +51,10 @@ class Caps:
 
     def _read(self, term: Term) -> None:
         kind = term[0]
+        if kind == FIELD:
+            self._mentions[term[2]] += 1
+        elif kind == ASSIGN and term[1] == "=" and term[2][0] == FIELD:
+            self._mentions[term[2][2]] -= 1
         if kind == DECLARE and term[3] is not None:
             self._assigned(last(term[2]), term[3])
         elif kind == ASSIGN and term[1] == "=":
