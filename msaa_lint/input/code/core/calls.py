@@ -11,8 +11,6 @@ from typing import Any
 from msaa_lint.core.text.span import Span
 
 from .classes import pointed
-from .conditions import canonical_text
-from .guards import brief
 from .library import Library
 from .limits import Work
 from .overloads import bound
@@ -120,7 +118,7 @@ class Calls(Resolution):
                 result = self.call_function(callee, term, scope, this_object)
                 is_method = bool(callee.class_name) and owner is not None and owner[:2] != (NAME, "this")
                 if is_method and (this_object is None or self.is_pointed(this_object, scope)):
-                    result = self.result_of_unknown_object(result, callee, term, before)
+                    result = self.result_of_unknown_object(result, callee, term, before, scope)
                 if place in self.results:
                     self.results[place] = self.results[place][0], result
                 return result
@@ -260,13 +258,13 @@ class Calls(Resolution):
         of_function = all(start <= a.at.start < end for a in value)
         return tuple(a._replace(at=b.at) for a, b in zip(value, source, strict=True)) if of_function else value
 
-    def result_of_unknown_object(self, value: Value, function: Function, term: Term, before: int) -> Value:
+    def result_of_unknown_object(self, value: Value, function: Function, term: Term, before: int, scope: Scope) -> Value:
         """Returns the result of a method of an object that is unknown: what is known of its class, but not an image or another API object
         that a member holds, since each object has its own. `before` is the number of API objects before the call."""
         created = list(islice(reversed(self.current_objects.values()), len(self.current_objects) - before))
         kind = function.return_type
         is_handle = self.library.is_type(kind) and not self.library.is_scalar(kind)
-        own = Symbol(brief(canonical_text(term)), function.name)
+        own = Symbol(self.key_of_call(term, scope), function.name)
         return tuple(
             a._replace(value=own)
             if (isinstance(a.value, ApiObject) and a.value not in created) or (isinstance(a.value, Symbol) and is_handle)

@@ -117,6 +117,10 @@ class ConditionEvaluator(Elements):
                     stack += subterm[2]
         return brief(canonical_text(term, names))
 
+    def key_of_call(self, term: Term, scope: Scope) -> str:
+        """Returns what stands for the unknown result of a call. In a loop, each call has its own arguments, and its own result."""
+        return self.canonical_condition(term, scope) if scope.iterations else brief(canonical_text(term))
+
     def number(self, name: Term, scope: Scope) -> int | None:
         """Returns the value of a variable or constant if it is a known integer, otherwise None."""
         value = self.library.constant(name[1])

@@ -8,7 +8,7 @@ from typing import Any
 from msaa_lint.core.text.span import Span
 from msaa_lint.input.code.core.conditions import canonical_text
 from msaa_lint.input.code.core.escapes import mark_escaped
-from msaa_lint.input.code.core.guards import ALWAYS, Guards, brief
+from msaa_lint.input.code.core.guards import ALWAYS, Guards
 from msaa_lint.input.code.core.scope import MAX_CLOSURES, MEMBER, Scope
 from msaa_lint.input.code.core.structures import Items
 from msaa_lint.input.code.core.terms import ASSIGN, CALL, FIELD, NAME, Function, Term, labeled
@@ -297,7 +297,7 @@ class MetalInterpreter(MetalInstances):
             return UNKNOWN_VALUE
         for value in values:
             self.escape(value, place, scope)
-        return (Alternative(Symbol(brief(canonical_text(term)), name, bool(self.library.is_count_choice(name))), place),)
+        return (Alternative(Symbol(self.key_of_call(term, scope), name, bool(self.library.is_count_choice(name))), place),)
 
     def escape(self, value: Value, place: Span, scope: Scope) -> None:
         """Handles an argument of a function outside the program, which may change descriptors, read textures, and call closures."""

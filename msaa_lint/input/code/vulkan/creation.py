@@ -13,10 +13,8 @@ from typing import Any, NamedTuple
 
 from msaa_lint.core.text.span import Span
 from msaa_lint.frame.vulkan.enums import VALUES
-from msaa_lint.input.code.core.conditions import canonical_text
 from msaa_lint.input.code.core.escapes import forget, forget_captures, mark_escaped, mark_used, settle_under
 from msaa_lint.input.code.core.executions import Results
-from msaa_lint.input.code.core.guards import brief
 from msaa_lint.input.code.core.limits import Work
 from msaa_lint.input.code.core.scope import Scope, name_objects
 from msaa_lint.input.code.core.structures import Items
@@ -212,7 +210,7 @@ class VulkanInterpreter(ForeignCode):
         helper_value = self.initializer(term, name, values, place)
         if helper_value is not None:
             return helper_value
-        return (Alternative(Symbol(brief(canonical_text(term)), name, bool(self.library.is_count_choice(name))), place),)
+        return (Alternative(Symbol(self.key_of_call(term, scope), name, bool(self.library.is_count_choice(name))), place),)
 
     def declared_parameter(self, name: str, position: int) -> Parameter | None:
         """Returns the parameter that an argument is passed to, if the file declares the function."""
