@@ -157,14 +157,31 @@ def _parallel(tasks: Mapping[int, Task], jobs: int, backend: str | None, measure
 
     owner = os.getpid()
     calls = [joblib.delayed(_attempt_in_worker)(owner, number, measure, task) for number, task in tasks.items()]
+    starting: Callable[[], contextlib.AbstractContextManager[None]] = _interrupts_held
     with joblib.parallel_config(backend=backend or "loky", n_jobs=jobs):
         try:
             parallel, step = joblib.Parallel(return_as="generator_unordered", batch_size=1), len(calls)
         except ValueError:
+            starting = contextlib.nullcontext
             # A backend without a stream of results (Ray's) returns a list: run one task per worker at a time, so that few are lost.
             parallel, step = joblib.Parallel(batch_size=1), max(joblib.effective_n_jobs(jobs), 1)
     for start in range(0, len(calls), step):
-        yield from parallel(calls[start : start + step])
+        with starting():
+            results = parallel(calls[start : start + step])
+        yield from results
+
+
+@contextlib.contextmanager
+def _interrupts_held() -> Iterator[None]:
+    """Holds interrupts back while processes start, which inherit that: an interrupt does not end them before they ignore it."""
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def _attempt_in_worker(owner: int, number: int, measure: Measure, task: Task) -> tuple[int, Point | str]:
