@@ -47,6 +47,9 @@ COPIES = frozenset({"memcpy", "memmove", "copy", "copy_n"})
 MAX_REPEATED_STEPS = 50_000
 """The steps after which, in each execution of a program, a call is not followed more often than MAX_WAYS..."""
 
+MAX_EQUAL_STEPS = 10_000
+"""The steps after which a call without arguments is not followed again for the same object: it would do the same."""
+
 MAX_CREATING_STEPS = 400_000
 """...unless the function creates something, until as many steps are taken: a helper creates something else at each call."""
 
@@ -70,6 +73,7 @@ class Calls(Resolution):
         self.results.clear()
         self.reserve = self.work.left - MAX_REPEATED_STEPS
         self.creating_reserve = self.work.left - MAX_CREATING_STEPS
+        self.equal_reserve = self.work.left - MAX_EQUAL_STEPS
 
     @abstractmethod
     def external_call(self, term: Term, name: str, owner: Term | None, values: Sequence[Value], scope: Scope) -> Value:
@@ -113,6 +117,10 @@ class Calls(Resolution):
             callee = called.function if isinstance(called, Routine) else None
         if callee is not None:
             this_object = self.this_of(callee, receiver, scope)
+            if not arguments and not scope.iterations and self.work.left <= self.equal_reserve:
+                repeated = self.repeated_result(callee, term, scope, this_object)
+                if repeated is not None:
+                    return repeated
             if self.may_follow(callee, place, scope):
                 before = len(self.current_objects)
                 result = self.call_function(callee, term, scope, this_object)
