@@ -12,6 +12,7 @@ from msaa_lint.input.code.core.guards import Guards, covers
 from msaa_lint.input.code.core.values import UNKNOWN, ApiObject, Array, Cell, Ref, Struct, Symbol, Value, sole_value
 
 from .creation import VulkanInterpreter
+from .enumerants import named
 from .names import first_version
 from .reads import Reads
 
@@ -76,8 +77,9 @@ class VulkanConfiguration(Configuration):
         value = self.settle(cell.writes)
         if struct.zeroed and value and not covers(tuple(a.guards for a in value)):
             return UNKNOWN, struct.at
+        at = value[-1].at if value else struct.at
         constant = sole_value(value)
-        return constant, value[-1].at if value else struct.at
+        return named(name, constant, at) if struct.kind else constant, at
 
     def known_value(self, struct: Struct, name: str) -> Any:
         value = self.get(struct, name)[0]

@@ -11,22 +11,11 @@ from msaa_lint.core.text.span import Span
 from msaa_lint.frame.vulkan.names import parse_enum, parse_flags
 from msaa_lint.input.code.core.values import UNKNOWN, ApiObject, Array, Flags, Struct
 
+from .enumerants import ENUMS, FLAGS
 from .multisampling import Multisampling
 
 Item = tuple[str, Span, Node]
 _T = TypeVar("_T")
-
-ENUMS = {
-    "format": "VkFormat", "loadOp": "VkAttachmentLoadOp", "storeOp": "VkAttachmentStoreOp", "stencilLoadOp": "VkAttachmentLoadOp",
-    "stencilStoreOp": "VkAttachmentStoreOp", "initialLayout": "VkImageLayout", "finalLayout": "VkImageLayout", "imageType": "VkImageType",
-    "tiling": "VkImageTiling", "sharingMode": "VkSharingMode", "depthResolveMode": "VkResolveModeFlagBits",
-    "stencilResolveMode": "VkResolveModeFlagBits", "resolveMode": "VkResolveModeFlagBits",
-}  # fmt: skip
-
-FLAGS = {
-    "usage": "VkImageUsageFlagBits", "srcStageMask": "VkPipelineStageFlagBits2", "dstStageMask": "VkPipelineStageFlagBits2",
-    "srcAccessMask": "VkAccessFlagBits2", "dstAccessMask": "VkAccessFlagBits2", "memory": "VkMemoryPropertyFlagBits",
-}  # fmt: skip
 
 ZERO = {
     "loadOp": "LOAD", "storeOp": "STORE", "stencilLoadOp": "LOAD", "stencilStoreOp": "STORE", "initialLayout": "UNDEFINED",

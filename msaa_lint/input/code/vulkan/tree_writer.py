@@ -15,7 +15,8 @@ from msaa_lint.frame.vulkan.names import parse_enum
 from msaa_lint.input.code.core.values import UNKNOWN, ApiObject, Array, Struct, Symbol, sole_value
 from msaa_lint.input.code.parsing import Read
 
-from .members import FLAGS, Item, complete, flags_of, head_of
+from .enumerants import FLAGS
+from .members import Item, complete, flags_of, head_of
 from .names import first_version
 from .passes import Passes
 from .renderings import Commands

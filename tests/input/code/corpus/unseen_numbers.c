@@ -83,7 +83,7 @@ int init_images(VkDevice dev, unsigned w, unsigned h)
     ci->usage = 0x10 | 0x40;
     err = vkCreateImage(dev, ci, NULL, &g_image);
     ci->format = 126;
-    ci->usage = 0x20 | 0x40 | 0x4; /* expect-later: MSAA404 */
+    ci->usage = 0x20 | 0x40 | 0x4; /* expect: MSAA404 */
     err |= vkCreateImage(dev, ci, NULL, &g_depth_image);
     free(ci);
     return err;
