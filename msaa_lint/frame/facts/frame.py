@@ -270,14 +270,15 @@ class Frame:
         # A target may leave an aspect of the source out, not add one (VUID-...-03181, 03182).
         known = target.format or (source.format if source is not None else None)
         certain = target.format is not None or (known is not None and len(known.aspects) == 1)
-        for aspect, stated, member in (
-            ("depth", chained.depthResolveMode, "depthResolveMode"),
-            ("stencil", chained.stencilResolveMode, "stencilResolveMode"),
+        for aspect, stated, other, member in (
+            ("depth", chained.depthResolveMode, chained.stencilResolveMode, "depthResolveMode"),
+            ("stencil", chained.stencilResolveMode, chained.depthResolveMode, "stencilResolveMode"),
         ):
             # A mode for an aspect that the target's format lacks is ignored (VUID-VkSubpassDescriptionDepthStencilResolve-...-03178).
             if known is not None and aspect not in known.aspects:
                 continue
-            mode = stated if certain or stated == "NONE" else None
+            # A target that lacked the aspect would have none that is resolved if the other mode is NONE.
+            mode = stated if certain or "NONE" in (stated, other) else None
             resolve = Resolve("subpass", aspect, chained, chained.path)
             resolve.source, resolve.target, resolve.mode = source, target, mode
             resolve.mode_at = chained.place(member)

@@ -16,7 +16,7 @@ from .limits import Work
 from .overloads import bound
 from .resolution import Resolution
 from .scope import MAX_CALLS, MAX_CLOSURES, MAX_WAYS, MEMBER, Scope, Scopes
-from .static_types import OWNED
+from .static_types import OWNED, made_list
 from .terms import BRACES, CALL, FIELD, INDEX, LAMBDA, NAME, UNPARSED, Function, Parameter, Term, Unit, short_name
 from .types import element_type
 from .values import (
@@ -146,7 +146,7 @@ class Calls(Resolution):
                 return self.list_value("", [(None, item) for item in arguments], place, scope)
             if function[0] == NAME and len(arguments) == 1 and (_CAST.match(function[1]) or self.library.is_cast(function[1])):
                 return self.value(arguments[0], scope)
-            inner = element_type(function[1]) if function[0] == NAME else None
+            inner = made_list(function[1]) or element_type(function[1]) if function[0] == NAME else None
             if inner is not None:
                 return self.sized_list(inner, arguments, place, scope)
         else:

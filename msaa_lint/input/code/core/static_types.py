@@ -14,6 +14,9 @@ from .types import element_type
 OWNED = re.compile(r"(?:\w+::)*(?:make_unique|make_shared|MakeUnique|MakeShared|CreateRef|CreateScope|make_ref|New)<([\w:]+)>$")
 """Functions that construct an object of a type."""
 
+OWNED_LIST = re.compile(r"(?:\w+::)*(?:make_unique|make_shared|MakeUnique|MakeShared)(?:_for_overwrite)?<([\w:]+)\[\]>$")
+"""Functions that construct a list of a type."""
+
 SAME = frozenset({"get", "Get", "value", "lock", "operator->", "operator*", "release", "ptr", "raw", "c_ptr"})
 """Methods of a pointer that return what it points to."""
 
@@ -89,3 +92,9 @@ def _common_type(functions: Sequence[Function]) -> str:
     kinds = {function.return_type for function in functions}
     kind = kinds.pop() if len(kinds) == 1 else ""
     return "" if kind == "auto" else kind
+
+
+def made_list(function: str) -> str | None:
+    """Returns the type of the elements of the list that a function constructs, or None."""
+    match = OWNED_LIST.match(function)
+    return match[1] if match is not None else None

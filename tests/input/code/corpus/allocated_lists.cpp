@@ -38,7 +38,7 @@ VkRenderPass ofNew(VkDevice device, VkRenderPass pass) {
 
 VkRenderPass ofPointer(VkDevice device, VkRenderPass pass) {
     auto attachments = std::make_unique<VkAttachmentDescription[]>(2);
-    attachments[0] = describe(VK_SAMPLE_COUNT_4_BIT, VK_ATTACHMENT_STORE_OP_STORE);  // expect-later: MSAA201
+    attachments[0] = describe(VK_SAMPLE_COUNT_4_BIT, VK_ATTACHMENT_STORE_OP_STORE);  // expect: MSAA201
     attachments[1] = describe(VK_SAMPLE_COUNT_1_BIT, VK_ATTACHMENT_STORE_OP_STORE);
     VkAttachmentReference color = {0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
     VkAttachmentReference target = {1, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};

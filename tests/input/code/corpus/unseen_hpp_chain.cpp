@@ -35,7 +35,7 @@ struct Pass2 {
                 .setColorAttachments(colorRef)
                 .setResolveAttachments(resolveRef)
                 .setPDepthStencilAttachment(&depthRef),
-            v::SubpassDescriptionDepthStencilResolve{v::ResolveModeFlagBits::eAverage,  // expect-later: MSAA703
+            v::SubpassDescriptionDepthStencilResolve{v::ResolveModeFlagBits::eAverage,  // expect: MSAA703
                                                      v::ResolveModeFlagBits::eNone, &depthResolveRef},
         };
         handle = device.createRenderPass2(v::RenderPassCreateInfo2{}.setAttachments(attachments).setSubpasses(subpass.get()));
