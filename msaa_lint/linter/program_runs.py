@@ -39,8 +39,11 @@ MIN_DIVIDED = 300_000
 
 
 class ProgramRuns:
-    """The results of linting programs, by their numbers. `lint` lints one; besides its files and settings, that depends on `depends_on`;
-    if that is None, in this process alone, and nothing is kept."""
+    """The results of linting programs, by their numbers.
+
+    `lint` lints one program. Its result depends on the program's files, on its settings, and on `depends_on`. If `depends_on` is None,
+    programs are linted in this process alone, and no result is kept.
+    """
 
     def __init__(
         self, workspace: Workspace, programs: Sequence[ProgramInput], lint: Callable[[ProgramInput], RunPart], depends_on: str | None

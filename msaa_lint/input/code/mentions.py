@@ -55,34 +55,34 @@ _API_FILE = re.compile(
 """The names of files of Vulkan itself and of its allocator, whose definitions are known."""
 
 
-def _has(text: str, words: Words) -> bool:
+def has(text: str, words: Words) -> bool:
     """Returns whether a text has one of some words."""
     return any(word in text and (not pattern or re.search(pattern, text) is not None) for word, pattern in words)
 
 
 def is_related(text: str) -> bool:
     """Returns whether a file can matter to others that use multisampling."""
-    return _has(text, _RELATED)
+    return has(text, _RELATED)
 
 
 def mentions_api(text: str) -> bool:
     """Returns whether a text mentions an API that the rules check."""
-    return _has(text, _API)
+    return has(text, _API)
 
 
 def may_have_findings(text: str) -> bool:
     """Returns whether a text states what rules check in a program, such as a usage that it passes to a function of another file."""
-    return mentions_api(text) or _has(text, _STATED)
+    return mentions_api(text) or has(text, _STATED)
 
 
 def mentions_multisampling(text: str) -> bool:
     """Returns whether a text mentions multisampling."""
-    return _has(text.lower(), _MULTISAMPLING) or _has(text, _COUNT)
+    return has(text.lower(), _MULTISAMPLING) or has(text, _COUNT)
 
 
 def speaks(text: str) -> bool:
     """Returns whether a text mentions both an API that the rules check and multisampling."""
-    return mentions_api(text) and _has(text.lower(), _MULTISAMPLING)
+    return mentions_api(text) and has(text.lower(), _MULTISAMPLING)
 
 
 def is_api(path: str) -> bool:

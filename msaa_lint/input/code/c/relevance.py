@@ -6,35 +6,35 @@ import re
 from collections.abc import Iterable, Sequence, Set
 from typing import NamedTuple
 
+from msaa_lint.input.code.mentions import Words, has
 from msaa_lint.input.code.parsing import blank
 
 from .macros import Macros
 
-_API = ("Vk", "VK_", "vk::", "vkC", "MTL")
+_API: Words = (("Vk", ""), ("VK_", ""), ("vk::", ""), ("vkC", ""), ("MTL", ""))
 """What names of a graphics API start with."""
 
-_WORDS = (
-    "attachment", "msaa", "multisampl", "multi_sampl", "renderpass", "render_pass", "createimage", "create_image", "imagecreateinfo",
-    "imageview", "image_view", "imageusage", "image_usage", "textureusage",
+_GRAPHICS: Words = (
+    ("attachment", ""), ("msaa", ""), ("multisampl", ""), ("multi_sampl", ""), ("renderpass", ""), ("render_pass", ""), ("createimage", ""),
+    ("create_image", ""), ("imagecreateinfo", ""), ("imageview", ""), ("image_view", ""), ("imageusage", ""), ("image_usage", ""),
+    ("textureusage", ""),
 )  # fmt: skip
-"""Words in a function, in any case, that make it relevant, and its file one about graphics."""
+"""Words in a function, in lower case, that make it relevant, and its file one about graphics."""
 
-_WEAK = (
-    "resolve", "copyimage", "blitimage", "addtexture", "vk_format_d", "vk_format_s", "vk_format_x8_d", "format::ed", "format::es",
-    "format::ex8d",
+_IN_GRAPHICS: Words = (
+    *_GRAPHICS, ("resolve", ""), ("copyimage", ""), ("blitimage", ""), ("addtexture", ""), ("vk_format_d", ""), ("vk_format_s", ""),
+    ("vk_format_x8_d", ""), ("format::ed", ""), ("format::es", ""), ("format::ex8d", ""), ("descriptor", "image|view|texture"),
+    ("sampl", r"(?<!up)(?<!down)(?<!re)(?<!over)(?<!sub)sampl(?:es?(?!r|d|_?rate(?!_?shading)|_?type|_?format)|ing)"),
+    ("transient", "transient(?!_?(?:command|cmd|buffer|pool|memory|heap))"),
+    ("frame", "frame_?buffer(?!_?(?:scale|size|width|height|dim|resiz))"),
 )  # fmt: skip
 """Words that make a function of such a file relevant."""
 
-_PARTS = {
-    "sampl": re.compile(r"(?<!up)(?<!down)(?<!re)(?<!over)(?<!sub)sampl(?:es?(?!r|d|_?rate(?!_?shading)|_?type|_?format)|ing)"),
-    "transient": re.compile(r"transient(?!_?(?:command|cmd|buffer|pool|memory|heap))"),
-    "frame": re.compile(r"frame_?buffer(?!_?(?:scale|size|width|height|dim|resiz))"),
-    "descriptor": re.compile(r"image|view|texture"),
-}
-"""Words that do, too, if the text also matches a pattern."""
-
-_DRAWING = re.compile(r"texture|image|render|frame_?buffer|swap_?chain")
+_DRAWING = "texture|image|render|frame_?buffer|swap_?chain"
 """What a file mentions whose sample counts are not those of sound."""
+
+_FILE: Words = (*_GRAPHICS, ("samplecount", _DRAWING), ("sample_count", _DRAWING))
+"""Words of a file about graphics, in lower case."""
 
 MAX_ROUNDS = 4
 """The maximum length of a chain of calls that ends in a relevant function and whose functions are all relevant."""
@@ -137,19 +137,13 @@ def bodies(text: str) -> list[Body]:
 
 def is_relevant(text: str) -> bool:
     """Returns whether a text mentions multisampling, or what it takes part in, other than in comments. Samplers alone do not."""
-    text = _COMMENT.sub(" ", text).lower()
-    if any(word in text for word in _WORDS) or any(word in text for word in _WEAK):
-        return True
-    return any(word in text and pattern.search(text) is not None for word, pattern in _PARTS.items())
+    return has(_COMMENT.sub(" ", text).lower(), _IN_GRAPHICS)
 
 
 def is_about_graphics(text: str) -> bool:
     """Returns whether a file mentions a graphics API or multisampling. If not, words such as `resolve` mean something else in it."""
     text = _COMMENT.sub(" ", text)
-    if any(word in text for word in _API):
-        return True
-    text = text.lower()
-    return any(word in text for word in _WORDS) or (("samplecount" in text or "sample_count" in text) and _DRAWING.search(text) is not None)
+    return has(text, _API) or has(text.lower(), _FILE)
 
 
 def is_accessor(body: str) -> bool:

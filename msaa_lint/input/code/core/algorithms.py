@@ -7,7 +7,8 @@ from collections.abc import Sequence
 from msaa_lint.core.text.span import Span
 
 from .calls import Calls
-from .scope import MAX_TURNS, Scope
+from .lists import few_elements
+from .scope import Scope
 from .terms import CALL, FIELD, NAME, Term, short_name
 from .values import UNKNOWN_VALUE, Array, Cell, Closure, Routine, Value
 
@@ -46,8 +47,9 @@ class Algorithms(Calls):
     def apply(self, source: Term, target: Term | None, function: Term | None, place: Span, scope: Scope) -> None:
         """Calls a function for each element of a list, and writes the results, or the elements, to the target."""
         content = self.target(source, scope)
-        known = isinstance(content, Array) and content.complete and len(content.items) <= MAX_TURNS and (content.items or not content.unset)
-        items = content.items if isinstance(content, Array) and known else [Cell(content.kind if isinstance(content, Array) else "")]
+        few = few_elements(content)
+        known = few is not None
+        items = few if few is not None else [Cell(content.kind if isinstance(content, Array) else "")]
         called = self.sole(function, scope) if function is not None else None
         outer, scope.scopes = scope.scopes, (*scope.scopes, {})
         iterations = scope.iterations

@@ -11,6 +11,7 @@ from typing import Any
 from msaa_lint.core.text.span import Span
 
 from .classes import pointed
+from .executions import callable_key
 from .library import Library
 from .limits import Work
 from .overloads import bound
@@ -44,14 +45,15 @@ _CAST = re.compile(r"(?:std::)?u?int(?:8|16|32|64|ptr)?_t$|(?:std::)?size_t$|(?:
 
 COPIES = frozenset({"memcpy", "memmove", "copy", "copy_n"})
 
-MAX_REPEATED_STEPS = 50_000
-"""The steps after which, in each execution of a program, a call is not followed more often than MAX_WAYS..."""
-
 MAX_EQUAL_STEPS = 10_000
-"""The steps after which a call without arguments is not followed again for the same object: it would do the same."""
+"""The steps after which, in each execution of a program, a call without arguments is not followed again for the same object: it would do
+the same."""
+
+MAX_REPEATED_STEPS = 50_000
+"""The steps after which a call is followed at most MAX_WAYS times, unless the function creates something."""
 
 MAX_CREATING_STEPS = 400_000
-"""...unless the function creates something, until as many steps are taken: a helper creates something else at each call."""
+"""The steps after which that holds for every call. A helper that creates something creates something else at each call."""
 
 
 class Calls(Resolution):
@@ -66,7 +68,7 @@ class Calls(Resolution):
         self.results: dict[Span, tuple[Hashable, Value]] = {}
         """The arguments and the result of the last execution of each call."""
         self.creating: set[Span] = set()
-        """The functions that create objects or structures of the API, or that take structures to fill them in."""
+        """The functions that create objects of the API or declare its structures."""
 
     def begin(self) -> None:
         super().begin()
@@ -110,7 +112,7 @@ class Calls(Resolution):
             return self.call_closure(closure, term, scope)
         receiver = self.received(owner, scope) if owner is not None else None
         callee = closure.function if closure is not None else self.find_function(name, arguments, function, receiver, scope)
-        if callee is None and name in self.callable_names:
+        if callee is None and self.is_callable(name):
             called = sole_value(self.read(function, scope))
             if isinstance(called, Closure):
                 return self.call_closure(called, term, scope)
@@ -169,6 +171,11 @@ class Calls(Resolution):
             if isinstance(sole_value(value), Closure):
                 self.call_back(sole_value(value), place, scope)
         return self.external_call(term, name, owner, values, scope)
+
+    def is_callable(self, name: str) -> bool:
+        """Returns whether functions are assigned to variables or members of a name."""
+        self.consulted.add(callable_key(name))
+        return name in self.callable_names
 
     def local_callable(self, name: str, scope: Scope) -> Closure | Routine | None:
         for variables in reversed(scope.scopes):

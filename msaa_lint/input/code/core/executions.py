@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Set
+from collections.abc import Collection, Iterable, Mapping, Set
 from typing import Any, NamedTuple
 
 from msaa_lint.core.text.span import Span
@@ -84,9 +84,27 @@ def contents(summary: Mapping[str, Value], work: Work) -> dict[str, Known]:
     return {key: _contents(writes, 0, work) for key, writes in summary.items()}
 
 
-def is_news(known: Known, before: Known | None) -> bool:
-    """Returns whether something is known of a member that was not known before."""
-    return not known <= (before or _NOTHING)
+class Seen:
+    """What the executions of a program have shown so far."""
+
+    def __init__(self) -> None:
+        self._known: dict[str, Known] = {}
+        self._parts: dict[str, int] = {}
+        self._callables: frozenset[str] = frozenset()
+
+    def news(self, known: dict[str, Known], parts: Mapping[str, Collection[str]], callables: Set[str]) -> set[str]:
+        """Returns the members of which an execution has shown something else: a value, a member of theirs, or that they are functions."""
+        news = {key for key, values in known.items() if not values <= self._known.get(key, _NOTHING)}
+        news.update(key for key, names in parts.items() if len(names) != self._parts.get(key))
+        news.update(map(callable_key, callables - self._callables))
+        self._known, self._parts = known, {key: len(names) for key, names in parts.items()}
+        self._callables = frozenset(callables)
+        return news
+
+
+def callable_key(name: str) -> str:
+    """Returns the key of what is known of the variables and members of a name as functions."""
+    return f"{name}()"
 
 
 def _contents(writes: Value, depth: int, work: Work) -> Known:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import sys
 from abc import abstractmethod
-from collections.abc import Iterable, Iterator, Sequence, Set
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
 from msaa_lint.core.text.span import Span
@@ -20,7 +20,7 @@ from .classes import pointed
 from .conditions import canonical_text
 from .escapes import mark_escaped
 from .evaluate import ALLOCATORS
-from .executions import Execution, Summary, add, contents, emptied, is_news, joined, mark
+from .executions import Execution, Seen, Summary, add, contents, emptied, joined, mark
 from .guards import ALWAYS, Guards, brief, contradicts, decided, either, negated
 from .limits import WorkLimitExceeded
 from .loops import Loops
@@ -83,7 +83,7 @@ class Interpreter(Loops):
         sys.setrecursionlimit(max(depth, MAX_FRAMES))
         try:
             executions: dict[Span, Execution] = {}
-            changed: Set[str] = frozenset()
+            seen, changed = Seen(), set[str]()
             for _ in range(MAX_PASSES):
                 self.begin()
                 results, writes = emptied(self.collected()), Summary()
@@ -93,11 +93,10 @@ class Interpreter(Loops):
                         execution = executions[function.at] = self.executed(function)
                     add(results, execution.results)
                     writes.add(function.at, execution.writes)
-                emptied(self.collected())
                 add(self.collected(), results)
                 if self.fragments:
                     self.create_from_fragments(self.overlay)
-                changed = self.summarize(writes)
+                changed = self.summarize(writes, seen)
                 if not changed:
                     break
         except (WorkLimitExceeded, RecursionError) as error:
@@ -123,8 +122,7 @@ class Interpreter(Loops):
         return not self.fragments
 
     def executed(self, function: Function) -> Execution:
-        """Executes an entry point. Nothing else is then in the results."""
-        emptied(self.collected())
+        """Executes an entry point, whose results alone are collected."""
         self.overlay, self.initial, self.started, self.entry = {}, {}, {}, function.at
         self.consulted = set()
         self.run_entry_point(function)
@@ -134,24 +132,15 @@ class Interpreter(Loops):
             writes += ((key, self.summarized(write, key)) for write in cell.writes if id(write) not in before)
         return Execution(self.consulted.union(self.initial), writes, emptied(self.collected()))
 
-    def summarize(self, writes: Summary) -> Set[str]:
+    def summarize(self, writes: Summary, seen: Seen) -> set[str]:
         """Learns what entry points write to members. Returns the members of which something is known that was not."""
-        before = self.known
-        changed = {
-            key for key, entries in writes.writers.items() if entries != self.writers.get(key) and element_type(self.type_of_key(key))
-        }
+        lists = (key for key, entries in writes.writers.items() if entries != self.writers.get(key) and element_type(self.type_of_key(key)))
+        changed = set(lists)
         self.add_to_classes(writes.writes)
         self.summary, self.writers = writes.values(), writes.writers
         self.object_summary = self.members_of_objects()
-        self.known = contents({**self.object_summary, **self.summary}, self.work)
-        changed.update(key for key, known in self.known.items() if is_news(known, before.get(key)))
-        if self.callable_names != self.called_before:
-            self.called_before = set(self.callable_names)
-            changed.update(self.known, self.overlay)
-        parts = {key: len(names) for key, names in self.parts.items()}
-        changed.update(key for key, count in parts.items() if count != self.parts_before.get(key))
-        self.parts_before = parts
-        return changed
+        known = contents({**self.object_summary, **self.summary}, self.work)
+        return changed | seen.news(known, self.parts, self.callable_names)
 
     def summarized(self, write: Alternative, key: str) -> Alternative:
         """Returns what an entry point writes to a member as others find it. A list that it appends to may have other elements, too."""

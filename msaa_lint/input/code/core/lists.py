@@ -9,7 +9,7 @@ from msaa_lint.core.text.span import Span
 
 from .escapes import forget
 from .guards import ALWAYS
-from .scope import MEMBER, Scope
+from .scope import MAX_TURNS, MEMBER, Scope
 from .terms import CALL, FIELD, INDEX, LITERAL, NAME, Term
 from .tuples import Tuples
 from .types import element_type
@@ -213,3 +213,8 @@ class ListMethods(Tuples):
                     forget(value)
                 elif isinstance(value, Struct) and target[0] == FIELD:
                     value.cell(self.library.member(target[2])).write(UNKNOWN_VALUE, target[-1], ALWAYS)
+
+
+def few_elements(value: object) -> list[Cell] | None:
+    """Returns the elements of a list if they are known and few enough for a loop over them, otherwise None."""
+    return value.items if isinstance(value, Array) and value.is_known and len(value.items) <= MAX_TURNS else None

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Sequence
 
 from .algorithms import Algorithms
 from .guards import ALWAYS, Guards
+from .lists import few_elements
 from .scope import MAX_TURNS, Scope
 from .terms import ASSIGN, BINARY, DO, NAME, UNARY, Term, at
 from .values import UNKNOWN, UNKNOWN_VALUE, Alternative, Array, Cell, sole_value
@@ -75,11 +76,7 @@ class Loops(Algorithms):
 
     def range_elements(self, declared: Sequence[Term], over: Term, scope: Scope) -> list[Cell] | None:
         """Returns the elements of a list if they are known and few, otherwise None."""
-        value = self.target(over, scope)
-        known = (
-            isinstance(value, Array) and value.complete and declared and len(value.items) <= MAX_TURNS and (value.items or not value.unset)
-        )
-        return value.items if known else None
+        return few_elements(self.target(over, scope)) if declared else None
 
 
 def _update(body: Sequence[Term]) -> Term:

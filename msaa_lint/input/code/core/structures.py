@@ -265,8 +265,7 @@ class Structures(Evaluator):
 
     def count_value(self, value: Any, place: Span) -> Value:
         value = pointee(value)
-        known = isinstance(value, Array) and value.complete and (value.items or not value.unset)
-        return (Alternative(len(value.items), place),) if known else UNKNOWN_VALUE
+        return (Alternative(len(value.items), place),) if isinstance(value, Array) and value.is_known else UNKNOWN_VALUE
 
     def copy_memory(self, target: Term, source: Term, scope: Scope) -> None:
         """Executes `memcpy(&a, &b, sizeof a)` and the like."""

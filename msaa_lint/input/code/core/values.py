@@ -73,9 +73,6 @@ class Cell:
 
     def read(self, guards: Guards) -> Value:
         """Returns the possible values under some conditions."""
-        if not self.writes or not self.writes[-1].guards:
-            # Nothing shows through an unconditional write.
-            return self.writes[-1:]
         return _visible(self.writes, lambda own: remaining_under(own, guards))
 
 
@@ -132,7 +129,8 @@ def possible_writes(writes: Value, conditions: Mapping[str, bool]) -> Value:
 def _visible(writes: Value, remainder: Callable[[Guards], Guards | None]) -> Value:
     """Returns the writes from the last back to the first from which on one certainly happens. `remainder` returns the conditions under
     which a write happens, or None."""
-    if writes and not writes[-1].guards:
+    if not writes or not writes[-1].guards:
+        # Nothing shows through an unconditional write.
         return writes[-1:]
     alternatives: list[Alternative] = []
     tests: set[tuple[str, bool]] = set()
@@ -231,6 +229,11 @@ class Array:
         """Whether it is a member that was not used yet. Then its length is not known, although it starts empty."""
         self.alike = False
         """Whether it consists of what one loop of unknown length appends, of which one element is known."""
+
+    @property
+    def is_known(self) -> bool:
+        """Whether all its elements are known."""
+        return self.complete and bool(self.items or not self.unset)
 
 
 class Ref(NamedTuple):

@@ -10,7 +10,6 @@ from msaa_lint.core.text.span import Span
 from .aliases import without_aliases
 from .classes import Classes, pointed
 from .copies import Copier
-from .executions import Known
 from .library import Library
 from .limits import Work, WorkLimitExceeded
 from .scope import MEMBER, Scope
@@ -58,10 +57,6 @@ class Variables(ABC):
         """The objects of classes that were created."""
         self.object_summary: dict[str, Value] = {}
         """The values of their members."""
-        self.known: dict[str, Known] = {}
-        """What is known of members, to be compared."""
-        self.parts_before: dict[str, int] = {}
-        self.called_before: set[str] = set()
         self.consulted: set[str] = set()
         """The members whose summary the current entry point uses, beside those in `initial`."""
         self.overlay: dict[str, Cell] = {}
