@@ -7,7 +7,9 @@ from msaa_lint.core.finding import Finding
 
 from .advice import Advice
 from .points import Point
+from .shading import Shading
 from .tasks import FailedPoint
+from .time_model import TimeModel
 
 
 class SceneSummary(NamedTuple):
@@ -31,8 +33,12 @@ class Study(NamedTuple):
     """A study.
 
     `device` is the source of the times, empty without any; `model` is the device whose traffic the cost model estimates, empty for none in
-    particular. `points` are in the order of the scenes and techniques, with the Pareto-optimal ones marked. `wrong` are findings that say
-    why an input could not be used; `records` and `pictures` are the paths of the files written.
+    particular. `points` are in the order of the scenes, shading costs, and techniques, with the Pareto-optimal ones marked. `wrong` are
+    findings that say why an input could not be used; `records` and `pictures` are the paths of the files written.
+
+    `software` says that the device is a CPU: its times are labelled as such, and advice does not use them. `shadings` are the costs of
+    shading, as calibrated, and `models` the fitted times of the scenes. `budget_ms` is what a technique may add to the time of one sample,
+    None without a budget.
     """
 
     device: str
@@ -47,7 +53,11 @@ class Study(NamedTuple):
     wrong: Sequence[Finding] = ()
     records: Sequence[str] = ()
     pictures: Sequence[str] = ()
+    software: bool = False
+    shadings: Sequence[Shading] = ()
+    models: Sequence[TimeModel] = ()
+    budget_ms: float | None = None
 
-    def of(self, scene: str) -> list[Point]:
-        """The points of one scene."""
-        return [point for point in self.points if point.scene == scene]
+    def of(self, scene: str, shading: str | None = None) -> list[Point]:
+        """The points of one scene, or those of one of its shading costs."""
+        return [point for point in self.points if point.scene == scene and shading in (None, point.shading)]

@@ -44,9 +44,16 @@ class Point(NamedTuple):
     `rmse`, `max_error` and `bias` (measured minus exact) are of coverage in [0, 1] over the pixels that an edge crosses, or of linear color
     in units of display white for scenes without coverage; `rmse_all` is over all pixels. `psnr_db` is of linear color, `psnr_display_db`
     of sRGB-encoded color clipped to [0, 1], both over all pixels and infinite where nothing differs. `ssim` is None unless requested.
-    `time_ms` is the time on the device that `time_from` names, None if unknown; `ratio` is that time over the time of one sample.
-    `bytes_per_frame` is the cost model's. `simulated_ms` is the time that the simulation took, which says nothing about a GPU. `effects`
-    are the stages that ran.
+    `flip` is the mean of FLIP (Andersson and others 2020) of display-encoded color, and `flicker` the root mean square of the change of the
+    error from frame to frame while the picture moves in steps of 1/64 of a pixel, over the pixels that an edge crosses; None where not
+    measured.
+
+    `shading` names the cost of shading under which the point was timed (study/shading.py). `time_ms` is the median time on the device that
+    `time_from` names, None if unknown; `low_ms` and `high_ms` bound it with 95 % confidence; `ratio` is that time over the time of one
+    sample. `resolve_ms` is the part of the time that resolving takes (SSAA: downscaling), `fill_ms` the rest without shading, and
+    `shading_ms` what shading adds. `invocations` are the device's fragment shader invocations (pipeline statistics), and
+    `expected_invocations` those that the model expects. `bytes_per_frame` is the cost model's. `simulated_ms` is the time that the
+    simulation took, which says nothing about a GPU, and `stages` the part of it that each effect took. `effects` are the stages that ran.
     """
 
     scene: str
@@ -62,13 +69,24 @@ class Point(NamedTuple):
     edge_pixels: int
     effects: tuple[str, ...] = ()
     ssim: float | None = None
+    flip: float | None = None
+    flicker: float | None = None
+    shading: str = ""
     time_ms: float | None = None
+    low_ms: float | None = None
+    high_ms: float | None = None
     time_from: str = ""
     ratio: float | None = None
+    fill_ms: float | None = None
+    shading_ms: float | None = None
+    resolve_ms: float | None = None
+    invocations: int | None = None
+    expected_invocations: int | None = None
     bytes_per_frame: float | None = None
     milliwatts: float | None = None
     memory_mib: float | None = None
     simulated_ms: float = 0.0
+    stages: tuple[tuple[str, float], ...] = ()
     best: bool = False
 
 
