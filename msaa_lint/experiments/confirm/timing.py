@@ -42,6 +42,11 @@ def ranks(count: int, confidence: float = CONFIDENCE) -> tuple[int, int, float]:
 
     The number of values below the true median has a binomial distribution, whatever the distribution of the values. The narrowest symmetric
     pair is chosen; if even the first and the last value do not reach the confidence, those.
+
+    This is the calibrated bootstrap without resampling: the distribution of the median of resamples is known in closed form (Efron 1979,
+    "Bootstrap methods: another look at the jackknife", section 3), and its percentiles are ordered values. For 15 values those of 2.5 and
+    97.5 % are the same ranks. For some counts they are one rank closer to the median, and contain it less often than stated: 87.5 % of the
+    time for 7 values.
     """
     if count < 1:
         raise ValueError("no values to take the median of")
@@ -57,8 +62,10 @@ def ranks(count: int, confidence: float = CONFIDENCE) -> tuple[int, int, float]:
 
 
 def timing(values: Sequence[float], source: str = "wall", confidence: float = CONFIDENCE) -> Timing:
-    """The timing of the repeats of a pass."""
+    """The timing of the repeats of a pass. ValueError without values, and for NaN and infinity."""
     ordered = sorted(values)
+    if not all(map(math.isfinite, ordered)):
+        raise ValueError("a time is not a finite number")
     low, high, covered = ranks(len(ordered), confidence)
     return Timing(median(ordered), ordered[low], ordered[high], len(ordered), covered, source)
 

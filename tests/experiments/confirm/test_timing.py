@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import itertools
+import math
 import random
+from fractions import Fraction
 
 import pytest
 from hypothesis import given
@@ -41,9 +43,64 @@ def test_interval_holds_the_true_median_as_often_as_it_says() -> None:
     assert held / 2000 == pytest.approx(0.965, abs=0.0125)
 
 
+def resampled_ranks(count: int) -> tuple[int, int]:
+    """The ranks (from 0) of the 2.5th and 97.5th percentile of the median of resamples of an odd number of values."""
+    # The median of a resample is at most the k-th value where more than half of its draws are: those of a binomial distribution.
+    shares = [
+        sum(
+            math.comb(count, n) * Fraction(k, count) ** n * (1 - Fraction(k, count)) ** (count - n)
+            for n in range(count // 2 + 1, count + 1)
+        )
+        for k in range(1, count + 1)
+    ]
+    low, high = (next(k for k, share in enumerate(shares) if share >= level) for level in (Fraction(1, 40), Fraction(39, 40)))
+    return low, high
+
+
+@pytest.mark.parametrize("count", [1, 3, 5, 7, 9, 11, 15, 21, 25, 31, 51, 63])
+def test_interval_is_that_of_the_bootstrap_or_one_rank_wider_where_that_falls_short(count: int) -> None:
+    low, high = resampled_ranks(count)
+    held = Fraction(sum(math.comb(count, n) for n in range(low + 1, high + 1)), 2**count)
+    found = ranks(count)[:2]
+    if held >= Fraction(95, 100) or (low, high) == (0, count - 1):
+        assert found == (low, high)
+    else:
+        assert found == (low - 1, high + 1)
+
+
+def test_percentiles_in_closed_form_are_those_of_resamples() -> None:
+    chance = random.Random(11)
+    medians = sorted(sorted(chance.choices(range(11), k=11))[5] for _ in range(20000))
+    assert (medians[500], medians[19500]) == resampled_ranks(11)
+
+
+@pytest.mark.parametrize("count", [1, 2, 3, 5, 6, 15, 100])
+def test_interval_of_equal_values_is_the_value(count: int) -> None:
+    found = timing([0.1] * count)
+    assert (found.low, found.median, found.high) == (0.1, 0.1, 0.1)
+    assert 0.0 <= found.confidence <= 1.0
+
+
+def test_outliers_do_not_widen_the_interval() -> None:
+    assert timing([1.0] * 12 + [1000.0, 1e9, 1e300])[:3] == (1.0, 1.0, 1.0)
+
+
+@given(TIMES, st.randoms(use_true_random=False))
+def test_the_order_of_the_repeats_does_not_matter(values: list[float], chance: random.Random) -> None:
+    shuffled = list(values)
+    chance.shuffle(shuffled)
+    assert timing(shuffled) == timing(values)
+
+
 def test_nothing_has_no_median() -> None:
     with pytest.raises(ValueError):
         timing([])
+
+
+@pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf])
+def test_what_is_not_a_time_has_no_median(value: float) -> None:
+    with pytest.raises(ValueError, match="a time is not a finite number"):
+        timing([1.0, value, 2.0])
 
 
 def of(middle: float, spread: float = 0.01, n: int = 15) -> Timing:
