@@ -7,7 +7,7 @@ from typing import Any
 from . import parts, pipelines
 from .binding import chain
 from .opening import DeviceObjects, OpenDevice
-from .parts import NONE, Dependency, Framebuffer, Pass, Plan, Reference
+from .parts import NONE, Dependency, Framebuffer, Image, Pass, Plan, Reference
 from .scene import VERTEX_BYTES
 
 DEVICE_LOCAL, HOST_VISIBLE, COHERENT, CACHED, LAZY = 0x1, 0x2, 0x4, 0x8, 0x10
@@ -22,14 +22,60 @@ ALL_GRAPHICS = 0x8000
 """VK_PIPELINE_STAGE_ALL_GRAPHICS_BIT."""
 
 
+class SharedImages(DeviceObjects):
+    """The images of plans that are drawn in turn: those with the same parameters are the same, so that memory does not grow with the number
+    of plans. What one plan leaves in them is undefined for the next one."""
+
+    def __init__(self, opened: OpenDevice) -> None:
+        super().__init__(opened)
+        self._images: dict[Image, list[Any]] = {}
+
+    def image(self, image: Image, number: int = 0) -> Any:
+        """The image of a plan; `number` tells images of one plan with the same parameters apart."""
+        images = self._images.setdefault(image._replace(name=""), [])
+        while len(images) <= number:
+            images.append(create_image(self, image))
+        return images[number]
+
+
+def create_image(objects: DeviceObjects, image: Image, more_usage: int = 0) -> Any:
+    """An image with its memory."""
+    vk, handle = objects.vk, objects.opened.handle
+    create = vk.VkImageCreateInfo(
+        flags=image.flags,
+        imageType=image.type,
+        format=image.format,
+        extent=vk.VkExtent3D(image.width, image.height, image.depth),
+        mipLevels=image.levels,
+        arrayLayers=image.layers,
+        samples=image.samples,
+        tiling=image.tiling,
+        usage=image.usage | more_usage,
+    )
+    created = objects.own(vk.vkDestroyImage, vk.vkCreateImage(handle, create, None))
+    needs = vk.vkGetImageMemoryRequirements(handle, created)
+    properties = (LAZY, DEVICE_LOCAL) if image.lazy else (DEVICE_LOCAL,)
+    kind = objects.opened.memory_type(needs.memoryTypeBits, *properties)
+    allocate = vk.VkMemoryAllocateInfo(allocationSize=needs.size, memoryTypeIndex=kind)
+    memory = objects.own(vk.vkFreeMemory, vk.vkAllocateMemory(handle, allocate, None))
+    # Memory must be freed after the image that is bound to it is destroyed.
+    objects._created[-2:] = reversed(objects._created[-2:])
+    vk.vkBindImageMemory(handle, created, memory, 0)
+    return created
+
+
 class FrameObjects(DeviceObjects):
     """The objects of a plan on a device. Images are created when something needs them; `close` destroys everything.
 
-    `more_usage` are usages by image besides those of the plan, needed for reading images back.
+    `more_usage` are usages by image besides those of the plan, needed for reading images back; `shared` are images that several plans use
+    in turn.
     """
 
-    def __init__(self, opened: OpenDevice, plan: Plan, more_usage: dict[int, int] | None = None) -> None:
+    def __init__(
+        self, opened: OpenDevice, plan: Plan, more_usage: dict[int, int] | None = None, shared: SharedImages | None = None
+    ) -> None:
         super().__init__(opened)
+        self.shared = shared
         self.plan = plan
         self.images: dict[int, Any] = {}
         self.render_passes: dict[int, Any] = {}
@@ -94,32 +140,15 @@ class FrameObjects(DeviceObjects):
         """An image with its memory."""
         if number not in self.images:
             with self.opened.session.about(self.plan.images[number].name):
-                self.images[number] = self._image(number)
+                image, usage = self.plan.images[number], self.more_usage.get(number, 0)
+                made = self.shared.image(image, self._alike(number)) if self.shared is not None else create_image(self, image, usage)
+                self.images[number] = made
         return self.images[number]
 
-    def _image(self, number: int) -> Any:
-        vk, handle, image = self.vk, self.opened.handle, self.plan.images[number]
-        create = vk.VkImageCreateInfo(
-            flags=image.flags,
-            imageType=image.type,
-            format=image.format,
-            extent=vk.VkExtent3D(image.width, image.height, image.depth),
-            mipLevels=image.levels,
-            arrayLayers=image.layers,
-            samples=image.samples,
-            tiling=image.tiling,
-            usage=(image.usage | self.more_usage.get(number, 0)),
-        )
-        created = self.own(vk.vkDestroyImage, vk.vkCreateImage(handle, create, None))
-        needs = vk.vkGetImageMemoryRequirements(handle, created)
-        properties = (LAZY, DEVICE_LOCAL) if image.lazy else (DEVICE_LOCAL,)
-        kind = self.opened.memory_type(needs.memoryTypeBits, *properties)
-        allocate = vk.VkMemoryAllocateInfo(allocationSize=needs.size, memoryTypeIndex=kind)
-        memory = self.own(vk.vkFreeMemory, vk.vkAllocateMemory(handle, allocate, None))
-        # Memory must be freed after the image that is bound to it is destroyed.
-        self._created[-2:] = reversed(self._created[-2:])
-        vk.vkBindImageMemory(handle, created, memory, 0)
-        return created
+    def _alike(self, number: int) -> int:
+        """The number of images before this one that have the same parameters."""
+        images = [image._replace(name="") for image in self.plan.images[: number + 1]]
+        return images.count(images[-1]) - 1
 
     def view(self, number: int, layers: int = 1, aspects: int = 0, format: int = 0) -> Any:
         """A view of the first layers of an image, with all its aspects or some of them."""

@@ -165,5 +165,6 @@ class Child:
 
 def _patience(limit: float, request: Mapping[str, Any]) -> float:
     """Seconds after which the child ends by itself if the parent is gone: more than the parent would ever wait."""
-    repeats = int((request.get("want") or {}).get("repeats", 0))
-    return min(limit * (2 + len(request.get("passes") or ())) * (1 + repeats) + 5, 1e6)
+    want = request.get("want") or {}
+    repeats = int(want.get("repeats", 0) or want.get("rounds", 0))
+    return min(limit * (2 + len(request.get("passes") or request.get("items") or ())) * (1 + repeats) + 5, 1e6)

@@ -12,6 +12,8 @@ from .defined_contents import Contents
 from .layouts import Layouts
 from .parts import CLEAR, COLOR, DEPTH, DEPTH_READ_LAYOUT, NONE, READ_LAYOUT, SOURCE_LAYOUT, STENCIL, TARGET_LAYOUT, Pass, PassCommand, Step
 from .scene import BACKDROP, CLEARED, CLEARED_INTEGERS, CLEARED_STENCIL
+from .timed import Work
+from .workload import Workload
 
 PEAK, HDR_PEAK = 1.0, 8.0
 """The peak brightness of the scene."""
@@ -23,8 +25,10 @@ ALL_LEVELS = 1000.0
 class Recorder:
     """Records the steps of a plan in order, and tracks the layouts and contents of the images."""
 
-    def __init__(self, built: FrameObjects) -> None:
+    def __init__(self, built: FrameObjects, work: tuple[Workload, Work] | None = None) -> None:
+        """`work` is what the built-in fragment shaders of `shaded` pipelines do."""
         self.built = built
+        self.work = work
         self.vk = built.vk
         self.call = built.opened.call
         self.plan = built.plan
@@ -154,7 +158,10 @@ class Recorder:
                 self._dynamic(buffer, pipeline, count)
                 peak = HDR_PEAK if self.plan.hdr else PEAK
                 pushed = struct.pack("=fi", peak, rotation)
-                vk.vkCmdPushConstants(buffer, self.built.opened.layout("scene")[0], 1, 0, len(pushed), push_bytes(pushed))
+                layout = self.built.opened.layout("shaded" if pipeline.shaded else "scene")[0]
+                vk.vkCmdPushConstants(buffer, layout, 1, 0, len(pushed), push_bytes(pushed))
+                if self.work is not None and pipeline.shaded:
+                    self.work[0].bind(buffer, self.work[1])
                 first = 0 if (inner.backdrop and not filled) or self.plan.vertices else BACKDROP
                 vk.vkCmdDraw(buffer, vertices - first, 1, first, 0)
                 rotation += 1

@@ -238,7 +238,7 @@ class OpenDevice:
         return self.vk.vkCreateShaderModule(self.handle, self.vk.VkShaderModuleCreateInfo(codeSize=len(code), pCode=code), None)
 
     def layout(self, kind: str) -> tuple[Any, Any]:
-        """The pipeline layout of `scene`, `read` or `samples`, and its descriptor set layout, if any."""
+        """The pipeline layout of `scene`, `shaded`, `read` or `samples`, and its descriptor set layout, if any."""
         if kind not in self._layouts:
             self._layouts[kind] = self._new_layout(kind)
         found: tuple[Any, Any] = self._layouts[kind]
@@ -246,7 +246,7 @@ class OpenDevice:
 
     def _new_layout(self, kind: str) -> tuple[Any, Any]:
         vk = self.vk
-        stage = {"scene": 1, "read": 16, "samples": 32}[kind]
+        stage = {"scene": 1, "shaded": 16, "read": 16, "samples": 32}[kind]
         bindings = []
         if kind != "scene":
             bindings.append(vk.VkDescriptorSetLayoutBinding(binding=0, descriptorType=1, descriptorCount=1, stageFlags=stage))
@@ -255,7 +255,9 @@ class OpenDevice:
         sets = []
         if bindings:
             sets.append(vk.vkCreateDescriptorSetLayout(self.handle, vk.VkDescriptorSetLayoutCreateInfo(pBindings=bindings), None))
-        pushed = [vk.VkPushConstantRange(stageFlags=stage, offset=0, size=16)] if kind != "samples" else []
+        pushed = [vk.VkPushConstantRange(stageFlags=1 if kind == "shaded" else stage, offset=0, size=16)] if kind != "samples" else []
+        if kind == "shaded":
+            pushed.append(vk.VkPushConstantRange(stageFlags=stage, offset=16, size=16))
         create = vk.VkPipelineLayoutCreateInfo(pSetLayouts=sets, pPushConstantRanges=pushed)
         return vk.vkCreatePipelineLayout(self.handle, create, None), sets[0] if sets else None
 
@@ -265,10 +267,10 @@ class OpenDevice:
             self._vertices = self.buffer(vertices())
         return self._vertices[0], len(vertices()) // VERTEX_BYTES
 
-    def buffer(self, data: bytes) -> tuple[Any, Any]:
-        """A vertex buffer with data, and its memory. The caller must destroy them."""
+    def buffer(self, data: bytes, usage: int = VERTEX_BUFFER) -> tuple[Any, Any]:
+        """A buffer with data, and its memory. The caller must destroy them."""
         vk = self.vk
-        buffer = vk.vkCreateBuffer(self.handle, vk.VkBufferCreateInfo(size=len(data), usage=VERTEX_BUFFER), None)
+        buffer = vk.vkCreateBuffer(self.handle, vk.VkBufferCreateInfo(size=len(data), usage=usage), None)
         needs = vk.vkGetBufferMemoryRequirements(self.handle, buffer)
         kind = self.memory_type(needs.memoryTypeBits, VISIBLE)
         memory = vk.vkAllocateMemory(self.handle, vk.VkMemoryAllocateInfo(allocationSize=needs.size, memoryTypeIndex=kind), None)

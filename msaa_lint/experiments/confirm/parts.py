@@ -160,7 +160,8 @@ class Stage(NamedTuple):
 
 class Pipeline(NamedTuple):
     """VkGraphicsPipelineCreateInfo. `formats` are those of the color attachments in dynamic rendering, 0 for unused ones; `sample_shading`
-    is minSampleShading, -1 if sample shading is disabled."""
+    is minSampleShading, -1 if sample shading is disabled. With `shaded`, a built-in fragment shader does the work that a timing asks for
+    (workload.py)."""
 
     name: str
     subpass: int
@@ -185,6 +186,7 @@ class Pipeline(NamedTuple):
     stencil_format: int = 0
     view_mask: int = 0
     stages: tuple[Stage, ...] = ()
+    shaded: bool = False
 
 
 class PassCommand(NamedTuple):

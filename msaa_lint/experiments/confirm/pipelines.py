@@ -34,8 +34,9 @@ def create_pipeline(objects: DeviceObjects, frame_pass: Pass, pipeline: Pipeline
     if draws_scene:
         stages[VERTEX] = _stage(objects, VERTEX, opened.module("scene.vert"))
     if FRAGMENT not in stages and any(kinds) and not pipeline.discard:
-        stages[FRAGMENT] = _stage(objects, FRAGMENT, opened.module("scene.frag", kinds))
-    return _create(objects, frame_pass, pipeline, render_pass, list(stages.values()), opened.layout("scene")[0], draws_scene=draws_scene)
+        stages[FRAGMENT] = _stage(objects, FRAGMENT, opened.module("shaded.frag" if pipeline.shaded else "scene.frag", kinds))
+    layout = opened.layout("shaded" if pipeline.shaded else "scene")[0]
+    return _create(objects, frame_pass, pipeline, render_pass, list(stages.values()), layout, draws_scene=draws_scene)
 
 
 def create_reader(objects: DeviceObjects, frame_pass: Pass, like: Pipeline, render_pass: Any, shader: str) -> Any:
@@ -43,7 +44,7 @@ def create_reader(objects: DeviceObjects, frame_pass: Pass, like: Pipeline, rend
     plain = tuple(Blend() for _ in like.blends)
     pipeline = like._replace(
         sample_shading=-1.0, mask=(), alpha_to_coverage=False, alpha_to_one=False, dynamic=(VIEWPORT, SCISSOR), depth_test=False,
-        depth_write=False, stencil_test=False, blends=plain, stages=(), depth_bias=False, polygon_mode=0,
+        depth_write=False, stencil_test=False, blends=plain, stages=(), depth_bias=False, polygon_mode=0, shaded=False,
     )  # fmt: skip
     opened = objects.opened
     stages = [_stage(objects, VERTEX, opened.module("cover.vert")), _stage(objects, FRAGMENT, opened.module(shader, outputs(like)))]

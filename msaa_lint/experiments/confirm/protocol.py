@@ -14,9 +14,11 @@ from typing import Any
 MAX_LINE = 8 << 20
 """Maximum size of a line in bytes: a plan with many passes, or a long message of the layer."""
 
-EVENTS = frozenset({"opened", "devices", "failed", "pass", "created", "message", "pixels", "time", "sample", "done"})
+EVENTS = frozenset(
+    {"opened", "devices", "failed", "pass", "created", "message", "pixels", "time", "sample", "warmed", "invocations", "done"}
+)
 """The child's answers. `opened` has the device and the layer; `failed` has the reason and its `kind` (`environment`, `memory`, `program`);
-the others come from `execute.run`."""
+the others come from `execute.run` and `interleaved.run`."""
 
 Event = dict[str, Any]
 
@@ -70,6 +72,8 @@ _WELL_FORMED: dict[str, Callable[[Event], bool]] = {
     "pixels": lambda found: _image(found, "format", "width", "height"),
     "sample": lambda found: _image(found, "format", "width", "height", "samples"),
     "time": lambda found: _numbered(found) and isinstance(found.get("ms"), (int, float)) and 0 <= found["ms"] < 1e9,
+    "warmed": lambda found: isinstance(found.get("stable"), bool),
+    "invocations": lambda found: _numbered(found) and isinstance(found.get("count"), int) and found["count"] >= 0,
     "failed": lambda found: isinstance(found.get("reason"), str),
     "opened": lambda found: isinstance(found.get("device"), dict),
     "devices": lambda found: isinstance(found.get("devices"), list),

@@ -14,6 +14,7 @@ from msaa_lint.core.scratch import ScratchFolder
 from .child import Child, ChildExit, Limits
 from .frame_results import FrameRun, PassOutcome, RunCollector
 from .protocol import Event
+from .timed import Item, TimedCollector, TimedRun, TimingOptions
 from .vulkan_errors import Unusable, missing_package
 from .worker import EXECUTE
 
@@ -149,6 +150,26 @@ class Session:
                 return FrameRun(done, tuple(collected.messages), {}, False, failed)
         return FrameRun(done, whole=False, failed=failed)
 
+    def time(self, items: Sequence[Item], want: TimingOptions) -> TimedRun:
+        """Times items in turn. An item that kills the driver is left out, and the others are timed again. Unusable if the device cannot be
+        opened any more."""
+        ended: dict[int, str] = {}
+        while True:
+            left = [number for number in range(len(items)) if number not in ended]
+            collected = TimedCollector(left, ended)
+            try:
+                if left:
+                    request = {"do": "time", "items": [items[number] for number in left], "want": want._asdict()}
+                    self._answered(request, collected)
+            except ChildExit as died:
+                guilty = left[collected.at or 0]
+                ended[guilty] = str(died)
+                if len(ended) < MAX_DEATHS:
+                    continue
+                ended |= dict.fromkeys(left, f"skipped: {MAX_DEATHS} techniques killed the driver")
+                collected = TimedCollector([], ended)
+            return collected.run(len(items))
+
     def _alone(self, plan: Any, number: int, want: Mapping[str, Any], ended: ChildExit) -> PassOutcome:
         """Runs a pass during which the child died, alone in a fresh child. A pass that timed out is not repeated."""
         if ended.how == "timed-out":
@@ -166,9 +187,12 @@ class Session:
         return ran._replace(end="died", signal=ended.signal, reason=f"{ended} (only together with other passes, not alone)")
 
     def _collect(self, plan: Any, passes: Sequence[int], want: Mapping[str, Any], into: RunCollector) -> None:
+        self._answered({"do": "run", "plan": plan, "passes": list(passes), "want": dict(want)}, into)
+
+    def _answered(self, request: Mapping[str, Any], into: RunCollector | TimedCollector) -> None:
+        """Sends a request and collects the answers."""
         self.open()
         assert self._child is not None
-        request = {"do": "run", "plan": plan, "passes": list(passes), "want": dict(want)}
         try:
             self._child.send(request)
             meanwhile, self.meanwhile = self.meanwhile, None

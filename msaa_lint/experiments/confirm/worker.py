@@ -21,6 +21,7 @@ from .protocol import MAX_LINE, Event, line
 from .vulkan_errors import Unusable
 
 EXECUTE = "msaa_lint.experiments.confirm.execute"
+INTERLEAVED = "msaa_lint.experiments.confirm.interleaved"
 
 
 def main(arguments: list[str]) -> int:
@@ -83,6 +84,8 @@ def _answer(module: Any, session: Any, request: dict[str, Any], emit: Callable[[
     elif request["do"] == "open":
         session = module.Session(request["device"], request["validation"], tuple(request["vendors"]))
         emit({"event": "opened", "device": session.device, "layer": session.layer})
+    elif request["do"] == "time":
+        importlib.import_module(INTERLEAVED).run(session, request["items"], request["want"], emit)
     else:
         module.run(session, module.from_json(request["plan"]), request["passes"], module.RunOptions(**request["want"]), emit)
     return session

@@ -63,7 +63,7 @@ def test_the_tools_are_there() -> None:
 
 
 def test_every_shader_has_its_code() -> None:
-    assert SHADERS == ["cover.vert", "read.frag", "read_samples.frag", "samples.comp", "scene.frag", "scene.vert"]
+    assert SHADERS == ["cover.vert", "read.frag", "read_samples.frag", "samples.comp", "scene.frag", "scene.vert", "shaded.frag"]
     assert sorted(path.name for path in FOLDER.glob("*.spv")) == [f"{name}.spv" for name in SHADERS]
 
 

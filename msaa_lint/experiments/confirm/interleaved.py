@@ -1,0 +1,192 @@
+"""Times plans in turn, frame by frame, so that a device that slows down or speeds up affects all of them. Only `worker` calls this."""
+
+from __future__ import annotations
+
+import random
+import time
+from collections.abc import Iterator, Mapping, Sequence
+from statistics import median
+from typing import Any, NamedTuple
+
+from .build import FrameObjects, SharedImages
+from .draw import Recorder
+from .execute import segments
+from .opening import Emit, OpenDevice, Session
+from .parts import Step, from_json
+from .submit import Submitter
+from .timed import Item, TimingOptions, Work
+from .vulkan_errors import VulkanError
+from .workload import Workload
+
+STEADY = 0.01
+"""Clocks are stable when the medians of two successive groups of frames differ by less than this share."""
+
+GROUP = 8
+"""Frames in a group."""
+
+MIN_SPAN = 0.5
+"""Milliseconds that a measurement takes at least on a GPU: shorter frames are repeated within it, as clocks tick in microseconds."""
+
+MAX_LOOPS = 32
+
+FRAGMENT_INVOCATIONS = 0x80
+"""VK_QUERY_PIPELINE_STATISTIC_FRAGMENT_SHADER_INVOCATIONS_BIT."""
+
+PIPELINE_STATISTICS = 1
+"""VK_QUERY_TYPE_PIPELINE_STATISTICS."""
+
+
+class _Built(NamedTuple):
+    """An item on the device."""
+
+    number: int
+    objects: FrameObjects
+    steps: list[Step]
+    works: tuple[Work, ...]
+
+
+def run(session: Session, items: Sequence[Any], want: Mapping[str, Any], emit: Emit) -> None:
+    """Times items in their JSON form: pairs of a plan and its costs of shading."""
+    restored = [Item(from_json(plan), tuple(Work(*work) for work in works)) for plan, works in items]
+    measure(session, restored, TimingOptions(**want), emit)
+
+
+def measure(session: Session, items: Sequence[Item], want: TimingOptions, emit: Emit) -> None:
+    """Times items in rounds; each round times every item under each of its costs, in another order.
+
+    The events are `pass` with the number of an item before it is touched, `created`, `warmed`, `invocations` (those of fragment shaders in
+    a frame, where the device counts them), `time` with the item, the cost, the round, and milliseconds, and `done`.
+    """
+    session.at = None
+    session.telling(emit)
+    opened = session.opened(items[0].plan) if items else None
+    if opened is None:
+        emit({"event": "done"})
+        return
+    shared, workload = SharedImages(opened), Workload(opened)
+    built: list[_Built] = []
+    timer: _Timer | None = None
+    try:
+        for work in {work for item in items for work in item.works}:
+            workload.prepare(work)
+        built += _built(opened, items, shared, emit)
+        timer = _Timer(opened, workload)
+        if built:
+            timer.warm(built, want.warm_seconds, emit)
+        for each in built:
+            timer.prepare(each, emit)
+        # Always in the same sequence of orders.
+        orders = random.Random(1)
+        for turn in range(want.rounds):
+            pairs = [(each, number) for each in built for number in range(len(each.works))]
+            orders.shuffle(pairs)
+            for each, number in pairs:
+                emit({"event": "pass", "pass": each.number})
+                for ms in timer.times(each, number, want.frames):
+                    emit({"event": "time", "pass": each.number, "work": number, "round": turn, "ms": ms, "source": timer.source})
+    finally:
+        if timer is not None:
+            timer.close()
+        for each in built:
+            each.objects.close()
+        workload.close()
+        shared.close()
+    emit({"event": "done"})
+
+
+def _built(opened: OpenDevice, items: Sequence[Item], shared: SharedImages, emit: Emit) -> Iterator[_Built]:
+    """The items that the device can create."""
+    for number, item in enumerate(items):
+        emit({"event": "pass", "pass": number})
+        objects = FrameObjects(opened, item.plan, shared=shared)
+        passes = [n for n, frame_pass in enumerate(item.plan.passes) if not (frame_pass.refused or frame_pass.failed)]
+        try:
+            for each in passes:
+                objects.create_pass(each)
+        except VulkanError as error:
+            objects.close()
+            emit({"event": "created", "pass": number, "ok": False, "error": error.name})
+            continue
+        emit({"event": "created", "pass": number, "ok": True, "error": ""})
+        steps = [step for _, group in segments(item.plan, passes) for step in group]
+        yield _Built(number, objects, steps, item.works)
+
+
+class _Timer:
+    """Draws frames and measures their time."""
+
+    def __init__(self, opened: OpenDevice, workload: Workload) -> None:
+        self.vk, self.opened, self.workload = opened.vk, opened, workload
+        self.submitter = Submitter(opened, timed=True)
+        self.source = self.submitter.source
+        self.software = opened.session.device["properties"]["deviceType"] == self.vk.VK_PHYSICAL_DEVICE_TYPE_CPU
+        self.loops: dict[tuple[int, int], int] = {}
+        self.statistics: Any = None
+        if opened.session.device["features"].get("pipelineStatisticsQuery"):
+            create = self.vk.VkQueryPoolCreateInfo(queryType=PIPELINE_STATISTICS, queryCount=1, pipelineStatistics=FRAGMENT_INVOCATIONS)
+            self.statistics = self.vk.vkCreateQueryPool(opened.handle, create, None)
+
+    def frame(self, each: _Built, number: int, loops: int = 1) -> float:
+        """The milliseconds of one frame of an item under one of its costs, as the mean of `loops`."""
+        buffer = self.submitter.begin()
+        self.submitter.start()
+        for _ in range(loops):
+            recorder = Recorder(each.objects, (self.workload, each.works[number]))
+            recorder.layouts.fence(buffer)
+            for step in each.steps:
+                recorder.step(buffer, step)
+        self.submitter.stop()
+        return self.submitter.end(buffer, timed=True) / loops
+
+    def warm(self, built: Sequence[_Built], seconds: float, emit: Emit) -> None:
+        """Draws the items until the times of one of them are stable, or for `seconds`. A CPU needs no warming beyond a few frames."""
+        first = built[0]
+        emit({"event": "pass", "pass": first.number})
+        end = time.monotonic() + seconds
+        before, stable = 0.0, False
+        while not stable and time.monotonic() < end:
+            group = median(self.frame(first, 0) for _ in range(3 if self.software else GROUP))
+            stable = abs(group - before) < STEADY * group
+            before = group
+        emit({"event": "warmed", "stable": stable or self.software})
+
+    def prepare(self, each: _Built, emit: Emit) -> None:
+        """Draws an item under each cost once or twice, decides how often a frame is repeated, and counts its invocations."""
+        emit({"event": "pass", "pass": each.number})
+        for number in range(len(each.works)):
+            if not self.software:
+                self.frame(each, number)
+            span = self.frame(each, number)
+            self.loops[each.number, number] = 1 if self.software or span <= 0 else min(max(int(MIN_SPAN / span) + 1, 1), MAX_LOOPS)
+        if self.statistics is not None:
+            emit({"event": "invocations", "pass": each.number, "count": self._invocations(each)})
+
+    def times(self, each: _Built, number: int, frames: int) -> Iterator[float]:
+        """The milliseconds of some frames in succession, after one that is not counted."""
+        loops = self.loops[each.number, number]
+        if not self.software:
+            self.frame(each, number, loops)
+        for _ in range(frames):
+            yield round(self.frame(each, number, loops), 6)
+
+    def _invocations(self, each: _Built) -> int:
+        vk, handle = self.vk, self.opened.handle
+        buffer = self.submitter.begin()
+        vk.vkCmdResetQueryPool(buffer, self.statistics, 0, 1)
+        recorder = Recorder(each.objects, (self.workload, each.works[0]))
+        recorder.layouts.fence(buffer)
+        vk.vkCmdBeginQuery(buffer, self.statistics, 0, 0)
+        for step in each.steps:
+            recorder.step(buffer, step)
+        vk.vkCmdEndQuery(buffer, self.statistics, 0)
+        self.submitter.end(buffer)
+        read = vk.ffi.new("uint64_t[1]")
+        # VK_QUERY_RESULT_64_BIT and VK_QUERY_RESULT_WAIT_BIT.
+        vk.vkGetQueryPoolResults(handle, self.statistics, 0, 1, 8, read, 8, 3)
+        return int(read[0])
+
+    def close(self) -> None:
+        """Destroys its objects."""
+        if self.statistics is not None:
+            self.vk.vkDestroyQueryPool(self.opened.handle, self.statistics, None)
+        self.submitter.close()
