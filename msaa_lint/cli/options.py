@@ -295,6 +295,7 @@ COMMANDS = {
             "Times": (
                 Option("device", "text", "Measure times on this Vulkan device, by part of its name.", "NAME", default="no times"),
                 Option("repeats", "integer", "Number of timed runs of each technique.", "N", default="15"),
+                Option("budget", "text", "Recommend what adds at most this time to one sample: 0.5ms, 500us.", "TIME"),
             ),
             "Output": (
                 _output(*TEXT_FORMATS),

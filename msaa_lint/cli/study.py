@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import gc
 import os
+import re
 import sys
 from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
@@ -13,6 +14,7 @@ from typing import IO, Any, NamedTuple
 
 from msaa_lint.core.extras import needs_extra
 from msaa_lint.core.finding import Finding
+from msaa_lint.core.quote import quoted
 from msaa_lint.experiments.confirm.vulkan_errors import NotWritten
 from msaa_lint.experiments.confirm.vulkan_errors import Unusable as NoDevice
 from msaa_lint.experiments.study.checkpoint import Checkpoint
@@ -43,6 +45,8 @@ from .options import TEXT_FORMATS, Arguments
 from .report.escape import escape
 from .study_subjects import Subject, errors_of, subjects
 
+MAX_BUDGET_MS = 1000.0
+
 Costs = Mapping[str, Mapping[Technique, Cost]]
 """What each technique costs, by scene."""
 
@@ -57,6 +61,7 @@ class StudyOptions(NamedTuple):
     ssim: bool
     jobs: int
     backend: str | None
+    budget_ms: float | None
 
 
 def study(arguments: Arguments) -> int:
@@ -99,7 +104,17 @@ def parse_options(arguments: Arguments) -> StudyOptions:
         bool(arguments.get("ssim")),
         arguments.get("jobs") or (-1 if arguments.get("backend") in ("dask", "ray") else _cores()),
         arguments.get("backend"),
+        parse_budget(arguments["budget"]) if "budget" in arguments else None,
     )
+
+
+def parse_budget(text: str) -> float:
+    """The milliseconds of `0.5ms`, `500us`, or `0.5`. UsageError for anything else, and for more than a second."""
+    match = re.fullmatch(r"([0-9]{1,9}(?:\.[0-9]{1,9})?|\.[0-9]{1,9}) ?(ms|us|µs)?", text)
+    budget = float(match[1]) * (1e-3 if match[2] in ("us", "µs") else 1.0) if match else 0.0
+    if not 0 < budget <= MAX_BUDGET_MS:
+        raise UsageError(f"`--budget` must be a time above 0 and up to {MAX_BUDGET_MS:g}ms, as in 0.5ms or 500us; found {quoted(text)}")
+    return budget
 
 
 def _cores() -> int:
@@ -140,6 +155,7 @@ def _study(arguments: Arguments, options: StudyOptions) -> int:
         else:
             points.append(with_cost(result, costs[result.scene], device))
     outcome = _outcome(size, options.bits, studied, points, failures, costs, device, errors)
+    outcome = outcome._replace(budget_ms=options.budget_ms)
     if "crops" in arguments:
         outcome = outcome._replace(pictures=_write_crops(arguments["crops"], bool(arguments.get("force")), options, studied))
     if "plot" in arguments:

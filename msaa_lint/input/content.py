@@ -36,7 +36,7 @@ _STRING = re.compile(r'"(?:[^"\\]|\\.)*+"', re.DOTALL)
 _VULKAN = re.compile(rb'"vk[A-Z]|"gfxrecon-version"|>Vulkan</driver>|name="vk[A-Z]|\AFOSSILIZEDB|\A\x81')
 """What a capture of a Vulkan program has in its head. Captures of other APIs, and other tools' logs of calls, have the same structure."""
 
-_LEAVES = frozenset({"enum", "flags", "bool", "samples", "int", "number", "text", "name", "word", "caseless", "subpass", "slot"})
+_LEAVES = frozenset({"enum", "flags", "bool", "samples", "shading", "int", "number", "text", "name", "word", "caseless", "subpass", "slot"})
 _CAMEL_CASE = re.compile(r"[a-z][A-Z]")
 _RASTER_SAMPLES = re.compile(r"(?:rasterizationSamples|rasterSampleCount)\Z", re.IGNORECASE)
 

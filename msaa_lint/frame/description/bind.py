@@ -125,6 +125,8 @@ class Binder(ValueBinder):
             return self.boolean(node, path)
         if kind == "samples":
             return self.samples(node, path)
+        if kind == "shading":
+            return self.shading(node, path)
         if kind == "int":
             return self.integer(shape[1], shape[2], node, path)
         if kind == "number":

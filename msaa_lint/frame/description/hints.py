@@ -13,7 +13,7 @@ from msaa_lint.frame.vulkan.names import from_value
 
 from .problems import list_hint
 from .record import Record
-from .scalars import SAMPLE_COUNTS, enumerant, nearest_enumerant
+from .scalars import SAMPLE_COUNTS, enumerant, nearest_enumerant, shading_cost
 from .shapes import Shape
 
 MAX_LISTED = 20
@@ -157,6 +157,15 @@ def samples_hint(node: Node) -> str:
     numbers = re.findall(r"[0-9]+", text)
     is_count = len(numbers) == 1 and numbers[0] in map(str, SAMPLE_COUNTS) and not text.startswith("-")
     return f"; write `{numbers[0]}`" if is_count else ""
+
+
+def shading_hint(node: Node) -> str:
+    """The cost in `200 operations`, `4.2 MS` or `[200]`."""
+    if node.kind != "scalar":
+        return single_hint(node)
+    match = re.match(r"([0-9.]{1,20})\s*([onm])", node.text.lower())
+    cost = shading_cost(match[1] + {"o": "ops", "n": "ns", "m": "ms"}[match[2]]) if match else None
+    return f"; write `{cost}`" if cost else ""
 
 
 def single_hint(node: Node) -> str:

@@ -19,6 +19,7 @@ Offset = Annotated[int, ("int", -MAX_INT32 - 1, MAX_INT32)]
 PositiveNumber = Annotated[float, ("number", True)]
 Share = Annotated[float, ("share",)]
 Samples = Annotated[int, ("samples",)]
+ShadingCost = Annotated[str, ("shading",)]
 SubpassIndex = Annotated[int | str, ("subpass",)]
 
 ImageName = Annotated[str, ("name", "images")]

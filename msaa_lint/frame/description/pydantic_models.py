@@ -39,7 +39,18 @@ from pydantic_core import CoreSchema
 from .members import MAX_UINT32
 from .models import AttachmentReference, Command
 from .record import Record
-from .scalars import EXTERNAL, SAMPLE_COUNTS, caseless, enumerant, finite, flags, sample_count
+from .scalars import (
+    EXTERNAL,
+    MAX_SHADING,
+    SAMPLE_COUNTS,
+    SHADING_LEVELS,
+    caseless,
+    enumerant,
+    finite,
+    flags,
+    sample_count,
+    shading_cost,
+)
 from .shapes import Shape
 
 JsonSchema = dict[str, Any]
@@ -143,6 +154,10 @@ def type_of(shape: Shape) -> Any:
         case ("samples",):
             pattern = f"^((VK_)?SAMPLE_COUNT_)?({'|'.join(map(str, SAMPLE_COUNTS))})(_BIT)?$"
             return _checked(sample_count, {"anyOf": [{"enum": list(SAMPLE_COUNTS)}, {"type": "string", "pattern": pattern}]})
+        case ("shading",):
+            pattern = f"^({'|'.join(SHADING_LEVELS)}|[0-9]{{1,12}}(ops)?|[0-9]{{1,12}}(\\.[0-9]{{1,9}})?(ns|ms))$"
+            operations = {"type": "integer", "minimum": 0, "maximum": MAX_SHADING["ops"]}
+            return _checked(shading_cost, {"anyOf": [{"enum": list(SHADING_LEVELS)}, {"type": "string", "pattern": pattern}, operations]})
         case ("enum", enums):
             names = [{ENUMERANT: enum} for enum in enums.split("|")]
             return _checked(lambda value: _enumerant(enums, value), names[0] if len(names) == 1 else {"anyOf": names})

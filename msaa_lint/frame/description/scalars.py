@@ -17,6 +17,14 @@ EXTERNAL = ("EXTERNAL", "SUBPASS_EXTERNAL", "VK_SUBPASS_EXTERNAL")
 
 UNUSED = ("UNUSED", "ATTACHMENT_UNUSED", "VK_ATTACHMENT_UNUSED")
 
+SHADING_LEVELS = ("none", "light", "medium", "heavy")
+"""The costs of shading that have a name."""
+
+MAX_SHADING = {"ops": 1_000_000, "ns": 1e9, "ms": 1000.0}
+"""The greatest cost of shading by unit: operations of an invocation, nanoseconds of a million invocations, milliseconds of a screen."""
+
+_SHADING = re.compile(r"([0-9]{1,12}(?:\.[0-9]{1,9})?)(ops|ns|ms)?")
+
 _COUNT = re.compile(r"(?:(?:VK_)?SAMPLE_COUNT_)?(1|2|4|8|16|32|64)(?:_BIT)?")
 
 
@@ -28,6 +36,21 @@ def sample_count(value: object) -> int | None:
     if isinstance(value, bool) or not isinstance(value, int) or value not in SAMPLE_COUNTS:
         return None
     return value
+
+
+def shading_cost(value: object) -> str | None:
+    """The cost of shading that `medium`, `200` or `200ops` (operations), `500000ns` (of a million invocations), or `4.2ms` (of a
+    full screen at one sample) states, in one spelling for each cost; None for other values."""
+    text = str(value) if type(value) in (str, int) else ""
+    if text in SHADING_LEVELS:
+        return text
+    match = _SHADING.fullmatch(text)
+    if match is None:
+        return None
+    unit, number = match[2] or "ops", float(match[1])
+    if number > MAX_SHADING[unit] or (unit == "ops" and not number.is_integer()):
+        return None
+    return f"{number:.9g}{unit}" if number else "none"
 
 
 def enumerant(enums: str, text: str) -> str | None:

@@ -8,6 +8,7 @@ A shape is a tuple of a kind and its parameters:
 | `("int", low, high)`, `("number", positive)` | an integer in a range; a finite number, above 0 if `positive` |
 | `("share",)` | a fraction above 0 and up to 1 |
 | `("samples",)` | a sample count: `4`, `SAMPLE_COUNT_4` or `VK_SAMPLE_COUNT_4_BIT` |
+| `("shading",)` | a cost of shading: `medium`, `200`, `200ops`, `500000ns` or `4.2ms` |
 | `("enum", enums)`, `("flags", enum)` | an enumerant of one of the enums, which `|` joins; a list of flag bits, or names joined by `|` |
 | `("word", words)`, `("caseless", words)` | one of some words; one of some lowercase words, written in any case |
 | `("name", section)` | the name of an entry of a section, such as `images` or `metal.textures`; names may be integers, as keys may |

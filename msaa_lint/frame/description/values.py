@@ -13,10 +13,21 @@ from msaa_lint.frame.vulkan.names import from_value
 
 from . import dumps
 from .dumps import DECISIVE, is_number
-from .hints import boolean_hint, enumerant_hint, joined_flags, meant, null_hint, number_hint, question_or_names, samples_hint, single_hint
+from .hints import (
+    boolean_hint,
+    enumerant_hint,
+    joined_flags,
+    meant,
+    null_hint,
+    number_hint,
+    question_or_names,
+    samples_hint,
+    shading_hint,
+    single_hint,
+)
 from .members import MAX_UINT32
 from .problems import MAX_PROBLEMS, Mention, Problem, found, head_of, member_of, one_of, quote_hint
-from .scalars import ATTACHMENT_UNUSED, EXTERNAL, SAMPLE_COUNTS, enumerant, finite, flags, sample_count
+from .scalars import ATTACHMENT_UNUSED, EXTERNAL, SAMPLE_COUNTS, SHADING_LEVELS, enumerant, finite, flags, sample_count, shading_cost
 
 _SAMPLE_COUNTS = f"{', '.join(map(str, SAMPLE_COUNTS[:-1]))} or {SAMPLE_COUNTS[-1]}"
 
@@ -126,6 +137,13 @@ class ValueBinder:
         if count is None:
             self.mismatch(node, path, _SAMPLE_COUNTS, samples_hint(node))
         return count
+
+    def shading(self, node: Node, path: str) -> str | None:
+        cost = shading_cost(node.value)
+        if cost is None:
+            expected = f"{', '.join(SHADING_LEVELS)}, or a cost of at most 1000000ops, 1000000000ns or 1000ms"
+            self.mismatch(node, path, expected, shading_hint(node) or self.suggestion(node.text, SHADING_LEVELS))
+        return cost
 
     def text(self, node: Node, path: str) -> str | None:
         if node.kind != "scalar" or not (isinstance(node.value, str) or self.dumped):

@@ -80,6 +80,7 @@ def _type(shape: Shape) -> str:
     words = {
         "bool": "true or false",
         "samples": "1, 2, 4, 8, 16, 32 or 64",
+        "shading": "none, light, medium, heavy, or a cost such as 200ops",
         "int": "an integer",
         "number": "a number",
         "text": "a string",

@@ -106,6 +106,13 @@ def test_help_names_every_option(tmp_path: Path) -> None:
         (["edge-fan", "--plot", "a.gif"], "`--plot` must be the name of an .svg or .png file, found `a.gif`"),
         (["edge-fan", "--profile", "mali-g67"], "no profile `mali-g67` in `--profile`: did you mean `mali-g76`?"),
         (["edge-fan", "--record"], "--record needs a description in a file"),
+        *(
+            (
+                ["edge-fan", "--budget", text],
+                f"`--budget` must be a time above 0 and up to 1000ms, as in 0.5ms or 500us; found `{text}`",
+            )
+            for text in ("0", "fast", "-1ms", "1001ms", "1s", "nan", "1e3")
+        ),
         (["edge-fan", "--bits", "5"], "unknown value `5` of `--bits`: expected one of 4, 8"),
     ],
 )
@@ -113,6 +120,11 @@ def test_what_says_nothing_ends_with_2(tmp_path: Path, arguments: list[str], wor
     done = run(tmp_path, *arguments)
     assert (done.returncode, done.stdout) == (2, "")
     assert words in done.stderr and "\x1b" not in done.stderr
+
+
+@pytest.mark.parametrize(("text", "milliseconds"), [("0.5ms", 0.5), ("500us", 0.5), ("500 µs", 0.5), (".5", 0.5), ("16.67", 16.67)])
+def test_a_budget_is_a_time(text: str, milliseconds: float) -> None:
+    assert command.parse_budget(text) == pytest.approx(milliseconds, rel=1e-12)
 
 
 def test_no_path_ends_with_2(tmp_path: Path) -> None:

@@ -82,6 +82,8 @@ def by_shape(shape: tuple[Any, ...]) -> st.SearchStrategy[Json]:
             return st.integers(0, 2**32 - 1) | st.sampled_from(["EXTERNAL", "VK_SUBPASS_EXTERNAL"])
         case "samples":
             return st.sampled_from([1, 2, 4, 8, 16, 32, 64, "4", "SAMPLE_COUNT_8", "VK_SAMPLE_COUNT_16_BIT", "VK_SAMPLE_COUNT_2"])
+        case "shading":
+            return st.sampled_from(["none", "medium", 200, 0, "200", "200ops", "500000ns", "4.2ms", "0.5ns"])
         case "bool":
             return st.booleans()
         case "int":

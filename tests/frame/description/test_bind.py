@@ -46,7 +46,7 @@ def check(marked: str, code: str, message: str, help: str = "", path: str | None
         (
             "scene: {⟦qqq⟧: 1}",
             "unknown key `qqq` in scene: expected one of edges, depth, color, peak, depthResolveWants, "
-            "toneMapping, alphaTest, textureDetail",
+            "toneMapping, alphaTest, textureDetail, shading",
             "",
             "scene.qqq",
         ),
@@ -232,6 +232,14 @@ IS_NO = "MSAA903"
         ("commands: [readImage: {samples: ⟦4⟧}]", "`samples` must be 1 or ALL, found `4`", ""),
         ("commands: [readImage: {samples: ⟦1.0⟧}]", "`samples` must be 1 or ALL, found `1.0`", ""),
         ("commands: [readImage: {samples: ⟦true⟧}]", "`samples` must be 1 or ALL, found `true`", ""),
+        # Costs of shading.
+        (
+            "scene: {shading: ⟦meduim⟧}",
+            "`shading` must be none, light, medium, heavy, or a cost of at most 1000000ops, 1000000000ns or 1000ms, found `meduim`; "
+            "did you mean `medium`?",
+            "",
+        ),
+        *((f"scene: {{shading: ⟦{text}⟧}}", None, "") for text in ("1000001", "1.5ops", "1001ms", "-1", "1.5", "true", "1e99ms")),
         # Attachments.
         (
             "renderPasses: {r: {subpasses: [{colorAttachments: [⟦true⟧]}]}}",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from ..members import NO_ENTRIES, Format, MemoryProperties, PositiveNumber, ResolveModes, Samples, Share, Size
+from ..members import NO_ENTRIES, Format, MemoryProperties, PositiveNumber, ResolveModes, Samples, ShadingCost, Share, Size
 from ..record import Record
 from .commands import RecordedCommand
 from .metal import Metal
@@ -134,6 +134,7 @@ class Scene(Record):
     toneMapping: Literal["AFTER_RESOLVE", "IN_PASS", "NONE"] | None = None
     alphaTest: bool | None = None
     textureDetail: bool | None = None
+    shading: Annotated[ShadingCost, "What a fragment shader invocation costs: the study's --shading."] | None = None
 
 
 SampleCountLimit = Literal[
