@@ -74,8 +74,13 @@ def alpha_coverage(alpha: Floats, thresholds: Floats | None, samples: int) -> Bi
     Alpha that is 0, negative or NaN covers no sample; 1 and above cover all of them.
     """
     share = np.clip(np.where(alpha > 0, alpha, np.float32(0)), 0, 1) * np.float32(samples)
-    count = np.ceil(share) if thresholds is None else np.floor(share + thresholds)
-    bits: Bits = ((1 << np.minimum(count, samples).astype(np.uint32)) - 1).astype(np.uint16)
+    if thresholds is None:
+        count = np.ceil(share)
+    else:
+        # As floor(share + thresholds), but exact: that sum is rounded, up to the next integer where it is just below.
+        count = np.floor(share)
+        count += share - count >= np.float32(1) - thresholds
+    bits: Bits = ((1 << count.astype(np.uint32)) - 1).astype(np.uint16)
     return bits
 
 
