@@ -13,12 +13,12 @@ from pathlib import Path
 from docs.study_cases.alpha_cases import alpha_to_coverage
 from docs.study_cases.coverage_cases import coverages, phases
 from docs.study_cases.depth_cases import depths
-from docs.study_cases.resolve_cases import averages, lights, sums
+from docs.study_cases.resolve_cases import averages, lights, sums, weighted_resolves
 from docs.study_cases.row import Row
 
 PAGE = Path(__file__).parent / "study-numbers.md"
 
-GROUPS: tuple[Callable[[], Iterator[Row]], ...] = (coverages, phases, alpha_to_coverage, averages, lights, depths, sums)
+GROUPS: tuple[Callable[[], Iterator[Row]], ...] = (coverages, phases, alpha_to_coverage, averages, lights, weighted_resolves, depths, sums)
 
 
 def rows() -> list[Row]:
@@ -26,25 +26,35 @@ def rows() -> list[Row]:
     return [row for group in GROUPS for row in group()]
 
 
-def written(value: float) -> str:
+def written(value: float, digits: int = 5) -> str:
     """A number with few digits, the same on every machine."""
     if math.isnan(value):
         return "NaN"
     if math.isinf(value):
         return "infinite" if value > 0 else "-infinite"
-    if value == int(value) and abs(value) < 1e15:
+    if abs(value) >= 1e15:
+        return f"{value:.{digits}g}"
+    if value == int(value):
         return f"{value:,.0f}"
-    return f"{value:,.1f}" if abs(value) >= 1e5 else f"{value:.5g}"
+    return f"{value:,.{digits - 4}f}" if abs(value) >= 1e5 else f"{value:,.{digits}g}"
+
+
+def cell(row: Row, value: float) -> str:
+    """A result, struck through where it is wrong, with enough digits to differ from the exact answer."""
+    if row.right(value):
+        return written(value)
+    digits = next((count for count in range(5, 17) if written(value, count) != written(row.exact, count)), 17)
+    return f"~~{written(value, digits)}~~"
 
 
 def tables(cases: Sequence[Row]) -> str:
-    """A table in Markdown for each group of cases; wrong results are struck through."""
+    """A table in Markdown for each group of cases."""
     lines: list[str] = []
     for group, members in itertools.groupby(cases, lambda row: row.group):
         lines += ["", f"### {group[0].upper()}{group[1:]}", "", "| case | exact | naive | float64 | ours |", "|---|---:|---:|---:|---:|"]
         for row in members:
-            cells = [written(each) if row.right(each) else f"~~{written(each)}~~" for each in (row.naive, row.double, row.ours)]
-            lines.append(f"| {row.case} | {written(row.exact)} | {' | '.join(cells)} |")
+            results = " | ".join(cell(row, value) for value in (row.naive, row.double, row.ours))
+            lines.append(f"| {row.case} | {written(row.exact)} | {results} |")
     return "\n".join(lines[1:])
 
 

@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from msaa_lint.experiments.study.effects import store_half
 from msaa_lint.experiments.study.measure import total
-from msaa_lint.experiments.study.resolve import average, to_srgb, to_unorm, tone_map, weighted
+from msaa_lint.experiments.study.resolve import LUMA, average, to_srgb, to_unorm, tone_map, weighted
 
 from .row import Row
+
+Color = tuple[float, float, float]
 
 
 def sequential(samples: list[float], kind: type[np.floating[Any]]) -> float:
@@ -96,16 +99,104 @@ def lights() -> Iterator[Row]:
               float(store_half(np.array([65519.99], np.float32))[0]))  # fmt: skip
 
 
+LUMA_SHARES = [Fraction(str(share)) for share in LUMA]
+
+
+def exact_weighted(samples: Sequence[Color]) -> list[Fraction]:
+    """The weighted resolve in rational arithmetic; negative light counts as none."""
+    light = [[max(Fraction(float(np.float32(value))), Fraction(0)) for value in color] for color in samples]
+    weights = [1 / (1 + sum((a * b for a, b in zip(LUMA_SHARES, color, strict=True)), Fraction(0))) for color in light]
+    parts = [sum((weight * color[channel] for weight, color in zip(weights, light, strict=True)), Fraction(0)) for channel in range(3)]
+    return [part / sum(weights, Fraction(0)) for part in parts]
+
+
+def floating_weighted(samples: Sequence[Color], kind: type[np.floating[Any]]) -> float:
+    """The red of the weighted resolve as a shader has it, in a precision."""
+    with np.errstate(all="ignore"):
+        light = np.array(samples).astype(kind)
+        weights = kind(1) / (kind(1) + (light * np.array(LUMA, kind)).sum(axis=1, dtype=kind))
+        return float((light[:, 0] * weights).sum(dtype=kind) / weights.sum(dtype=kind))
+
+
+def mapped_back(samples: Sequence[Color], kind: type[np.floating[Any]]) -> float:
+    """The average of mapped samples x / (1 + x), mapped back by y / (1 - y)."""
+    light = np.array(samples)[:, 0].astype(kind)
+    mean = (light / (kind(1) + light)).sum(dtype=kind) / kind(len(light))
+    return float(mean / (kind(1) - mean))
+
+
+def weighted_resolves() -> Iterator[Row]:
+    """The red of weighted resolves at both ends of what formats hold."""
+
+    def made(samples: Sequence[Color]) -> float:
+        pixels = np.ones((len(samples), 1, 4), np.float32)
+        pixels[:, 0, :3] = samples
+        return float(weighted(pixels)[0, 0])
+
+    def gray(*values: float) -> list[Color]:
+        return [(value, value, value) for value in values]
+
+    most, half_step, single_step = 65504.0, 2.0**-24, 2.0**-149
+    for samples, words, naive in (
+        (gray(*[most] * 16), "16 samples of 65504; naive: mapped, averaged, mapped back", mapped_back),
+        (gray(most, half_step, half_step, half_step), "65504 and three of 2^-24; naive: in half precision", None),
+        (
+            [(most, 0, 0), (0, most, 0), (0, 0, most), (0, 0, 0)],
+            "65504 of red, of green, of blue, and black; naive: in half precision",
+            None,
+        ),
+    ):
+        low = naive(samples, np.float32) if naive else floating_weighted(samples, np.float16)
+        double = (naive or floating_weighted)(samples, np.float64)
+        yield Row("light", f"weighted resolve of {words}", float(exact_weighted(samples)[0]), low, double, made(samples), 1e-6)
+    for step, words in ((half_step, "2^-24, the smallest of half precision"), (single_step, "2^-149, the smallest of single precision")):
+        samples = gray(*[step] * 4)
+        case = f"weighted resolve of 4 samples of {words}; naive: subnormals flushed to zero"
+        yield Row("light", case, float(exact_weighted(samples)[0]), 0.0, floating_weighted(samples, np.float64), made(samples), 1e-6)
+    greatest = float(np.finfo(np.float32).max)
+    samples = gray(*[greatest] * 4)
+    naive_sum = float(np.float32(sequential([greatest] * 4, np.float32)))
+    case = "weighted resolve of 4 samples of 2^128 - 2^104, the greatest of single precision; naive: added without weights"
+    yield Row("light", case, greatest, naive_sum, floating_weighted(samples, np.float64), made(samples), 1e-6)
+    for value in (-1.0, -2.0):
+        samples = gray(value, 1, 1, 1)
+        case = f"weighted resolve of {value:.0f} and three of 1, where negative light counts as none; naive: weight of 1 / (1 + luma)"
+        in_single, in_double = (floating_weighted(samples, kind) for kind in (np.float32, np.float64))
+        yield Row("light", case, float(exact_weighted(samples)[0]), in_single, in_double, made(samples), 1e-6)
+    infinite = [(0.0, math.inf, 0.0)] * 4
+    in_single, in_double = (floating_weighted(infinite, kind) for kind in (np.float32, np.float64))
+    yield Row(
+        "light", "red of 4 samples of infinite green, weighted; naive: weight of 1 / (1 + luma)", 0.0, in_single, in_double, made(infinite)
+    )
+
+
 def sums() -> Iterator[Row]:
-    count = 2**24 + 4096
-    ones = np.ones(count, np.float32)
-    yield Row("sums", f"{count:,} squared errors of 1; naive: added one by one", count, float(np.cumsum(ones, dtype=np.float32)[-1]),
-              float(count), total(ones))  # fmt: skip
+    """Sums of 2^24 values and more, from which on a single-precision counter of ones stands still."""
+    for count, words in ((2**24 + 1, "2^24 + 1"), (2**24 + 4096, "2^24 + 4,096"), (2**25, "2^25")):
+        yield _sum(f"{words} squared errors of 1", np.ones(count, np.float32), Fraction(count))
+    pixels = 7680 * 4320
+    tenth = np.float32(0.1)
+    yield _sum("errors of 0.1 in 7680 x 4320 pixels", np.full(pixels, tenth), Fraction(float(tenth)) * pixels)
+    small = np.full(2**24 + 1, np.float32(2.0**-10))
+    small[0] = np.float32(65504.0**2)
+    yield _sum("65504 squared and 2^24 of 2^-10", small, Fraction(float(small[0])) + 2**14)
+    mixed = np.full(2**24, np.float32(2.0**-10))
+    mixed[0::2] += np.float32(4096)
+    mixed[1::2] -= np.float32(4096)
+    yield _sum("2^24 errors of 4096 + 2^-10 and -4096 + 2^-10 in turn", mixed, Fraction(2**14))
     numbers = np.arange(6_220_800, dtype=np.int64) * 40503 % 65536
-    exact = float(Fraction(int(np.sum(numbers * numbers)), 65536**2))
-    values = numbers / 65536
-    single = values.astype(np.float32)
-    one_by_one = float(np.cumsum(single * single, dtype=np.float32)[-1])
-    squares = values * values
-    words = "squared errors of 1920 x 1080 pixels of 3 channels; naive: added one by one"
-    yield Row("sums", words, exact, one_by_one, float(np.sum(squares)), total(squares), 1e-15)
+    squares = (numbers / 65536) ** 2
+    yield _sum("squared errors of 1920 x 1080 pixels of 3 channels", squares, Fraction(int(np.sum(numbers * numbers)), 65536**2), 1e-15)
+
+
+def _sum(words: str, values: NDArray[np.floating[Any]], exact: Fraction, within: float = 1e-15) -> Row:
+    one_by_one = float(np.add.accumulate(values, dtype=np.float32)[-1])
+    return Row(
+        "sums",
+        f"{words}; naive: added one by one",
+        float(exact),
+        one_by_one,
+        float(np.sum(values, dtype=np.float64)),
+        total(values),
+        within,
+    )

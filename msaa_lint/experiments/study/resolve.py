@@ -35,23 +35,19 @@ def average(samples: NDArray[np.float32] | NDArray[np.float16]) -> Floats:
 
 
 def weighted(samples: NDArray[np.float32] | NDArray[np.float16]) -> Floats:
-    """Samples (N, ..., 4) averaged with weights of 1 / (1 + luma); alpha is averaged without weights. An infinite sample has no weight;
-    where all are infinite, so is the average."""
-    count = len(samples)
-    total: Floats | None = None
-    weights: Floats | None = None
+    """Samples (N, ..., 4) averaged with weights of 1 / (1 + luma); alpha is averaged without weights. Negative light counts as none, as for
+    the tone mapping. An infinite sample has no weight; infinite samples alone are averaged without weights."""
+    light = np.maximum(samples[..., :3].astype(np.float32), np.float32(0))
+    resolved = np.empty((*samples.shape[1:-1], 4), np.float32)
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-        for sample in np.asarray(samples):
-            light = sample[..., :3].astype(np.float32)
-            luma = light[..., 0] * np.float32(LUMA[0]) + light[..., 1] * np.float32(LUMA[1]) + light[..., 2] * np.float32(LUMA[2])
-            weight = (np.float32(1) / (np.float32(1) + luma))[..., None]
-            part = np.where(weight == 0, np.float32(0), light * weight)
-            total = part if total is None else total + part
-            weights = weight if weights is None else weights + weight
-        assert total is not None and weights is not None
-        resolved = np.empty((*total.shape[:-1], 4), np.float32)
-        resolved[..., :3] = np.where(weights == 0, np.float32(np.inf), total / weights)
-        resolved[..., 3] = _divide(_sum(samples[..., 3]), count)
+        luma = light[..., 0] * np.float32(LUMA[0]) + light[..., 1] * np.float32(LUMA[1]) + light[..., 2] * np.float32(LUMA[2])
+        weights = np.reciprocal(np.float32(1) + luma)[..., None].astype(np.float32)
+        total = _sum(weights)
+        parts: Floats = np.where(weights == 0, np.float32(0), light * weights)
+        resolved[..., :3] = _sum(parts) / total
+    infinite = total[..., 0] == 0
+    resolved[infinite, :3] = average(light[:, infinite])
+    resolved[..., 3] = average(samples[..., 3])
     return resolved
 
 

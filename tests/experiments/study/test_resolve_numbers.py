@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from docs import study_numbers
 from docs.study_cases.alpha_cases import THRESHOLDS, exact_count
+from docs.study_cases.resolve_cases import exact_weighted
 from docs.study_cases.row import Row
 from msaa_lint.experiments.study.effects import alpha_coverage, store_half, store_srgb
 from msaa_lint.experiments.study.resolve import (
@@ -163,6 +164,23 @@ def test_infinite_light_is_displayed_as_white_and_weighs_nothing() -> None:
     assert weighted(light([math.inf, 1, 1, 1]))[0].tolist() == [1, 1, 1, 1]
     assert weighted(light([math.inf] * 4))[0].tolist() == [math.inf] * 3 + [1]
     assert np.isnan(weighted(light([math.nan, 1, 1, 1]))[0, 0])
+    red = light([math.inf] * 4)
+    red[..., 1:3] = 0
+    assert weighted(red)[0].tolist() == [math.inf, 0, 0, 1]
+
+
+@given(st.lists(st.floats(width=32, allow_nan=False, allow_infinity=False), min_size=1, max_size=16))
+def test_weights_neither_overflow_nor_vanish(values: list[float]) -> None:
+    found = weighted(light(values))[0, 0]
+    due = exact_weighted([(value, value, value) for value in values])[0]
+    assert abs(Fraction(float(found)) - due) <= due / 10**5 + Fraction(1, 2**148)
+
+
+def test_negative_light_counts_as_none_in_the_weighted_resolve() -> None:
+    assert weighted(light([-1, 0, 0, 0]))[0].tolist() == [0, 0, 0, 1]
+    for value in (-0.5, -1, -2, -65504, -math.inf):
+        found = tone_map(weighted(light([value, 1, 1, 1])))[0, 0]
+        assert found == pytest.approx(average(tone_map(light([value, 1, 1, 1])))[0, 0], abs=1e-6)
 
 
 def test_tone_mapping_leaves_alpha_and_takes_negative_light_as_none() -> None:
