@@ -15,10 +15,21 @@ from docs.study_cases.coverage_cases import coverages, phases
 from docs.study_cases.depth_cases import depths
 from docs.study_cases.resolve_cases import averages, lights, sums, weighted_resolves
 from docs.study_cases.row import Row
+from docs.study_cases.time_cases import intervals
 
 PAGE = Path(__file__).parent / "study-numbers.md"
 
-GROUPS: tuple[Callable[[], Iterator[Row]], ...] = (coverages, phases, alpha_to_coverage, averages, lights, weighted_resolves, depths, sums)
+GROUPS: tuple[Callable[[], Iterator[Row]], ...] = (
+    coverages,
+    phases,
+    alpha_to_coverage,
+    averages,
+    lights,
+    weighted_resolves,
+    depths,
+    sums,
+    intervals,
+)
 
 
 def rows() -> list[Row]:

@@ -11,6 +11,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from docs.study_cases.time_cases import contained, disjoint, resampled_ranks
 from msaa_lint.experiments.confirm.timing import Timing, cannot_show, difference, is_software, ranks, rounds, timing
 
 TIMES = st.lists(st.floats(0, 1e6), min_size=1, max_size=60)
@@ -43,26 +44,11 @@ def test_interval_holds_the_true_median_as_often_as_it_says() -> None:
     assert held / 2000 == pytest.approx(0.965, abs=0.0125)
 
 
-def resampled_ranks(count: int) -> tuple[int, int]:
-    """The ranks (from 0) of the 2.5th and 97.5th percentile of the median of resamples of an odd number of values."""
-    # The median of a resample is at most the k-th value where more than half of its draws are: those of a binomial distribution.
-    shares = [
-        sum(
-            math.comb(count, n) * Fraction(k, count) ** n * (1 - Fraction(k, count)) ** (count - n)
-            for n in range(count // 2 + 1, count + 1)
-        )
-        for k in range(1, count + 1)
-    ]
-    low, high = (next(k for k, share in enumerate(shares) if share >= level) for level in (Fraction(1, 40), Fraction(39, 40)))
-    return low, high
-
-
 @pytest.mark.parametrize("count", [1, 3, 5, 7, 9, 11, 15, 21, 25, 31, 51, 63])
 def test_interval_is_that_of_the_bootstrap_or_one_rank_wider_where_that_falls_short(count: int) -> None:
     low, high = resampled_ranks(count)
-    held = Fraction(sum(math.comb(count, n) for n in range(low + 1, high + 1)), 2**count)
     found = ranks(count)[:2]
-    if held >= Fraction(95, 100) or (low, high) == (0, count - 1):
+    if contained(low, high, count) >= Fraction(95, 100) or (low, high) == (0, count - 1):
         assert found == (low, high)
     else:
         assert found == (low - 1, high + 1)
@@ -72,6 +58,14 @@ def test_percentiles_in_closed_form_are_those_of_resamples() -> None:
     chance = random.Random(11)
     medians = sorted(sorted(chance.choices(range(11), k=11))[5] for _ in range(20000))
     assert (medians[500], medians[19500]) == resampled_ranks(11)
+
+
+@pytest.mark.parametrize("count", [3, 4, 6])
+def test_the_chance_of_disjoint_intervals_is_the_share_of_the_orders(count: int) -> None:
+    low, high, _ = ranks(count)
+    orders = [(chosen, sorted(set(range(2 * count)) - set(chosen))) for chosen in itertools.combinations(range(2 * count), count)]
+    apart = sum(one[high] < other[low] or other[high] < one[low] for one, other in orders)
+    assert Fraction(apart, len(orders)) == disjoint(low, high, count)
 
 
 @pytest.mark.parametrize("count", [1, 2, 3, 5, 6, 15, 100])
