@@ -4,6 +4,8 @@ A plan consists of nested named tuples of numbers and texts, which JSON turns in
 none.
 """
 
+import zlib
+from base64 import b64decode, b64encode
 from typing import Any, NamedTuple, get_args
 
 NONE = -1
@@ -149,13 +151,38 @@ class Blend(NamedTuple):
     alpha_operation: int = 0
 
 
+class Descriptor(NamedTuple):
+    """A binding of a descriptor set of a stage. `type` is a VkDescriptorType and `view` a VkImageViewType; `format` and `samples` are those
+    of images and texel buffers. A sampler compares if `compares`, and takes the nearest texel if `nearest`. `contents` are those of a
+    buffer (`packed`). `attachment` is the index of an input attachment."""
+
+    set: int
+    binding: int
+    type: int
+    count: int = 1
+    view: int = NONE
+    format: int = 0
+    samples: int = 1
+    compares: bool = False
+    nearest: bool = False
+    size: int = 0
+    contents: str = ""
+    attachment: int = NONE
+
+
 class Stage(NamedTuple):
-    """VkPipelineShaderStageCreateInfo with the SPIR-V at `path`; `constants` are (id, value) of its specialization."""
+    """VkPipelineShaderStageCreateInfo with the SPIR-V at `path`, or in `code` (`packed`) without one; `constants` are (id, value) of its
+    specialization, `pushed` the contents of its push constants (`packed`). A device needs `features` and the `version` of SPIR-V."""
 
     stage: int
     path: str
     name: str
     constants: tuple[tuple[int, float], ...] = ()
+    code: str = ""
+    descriptors: tuple[Descriptor, ...] = ()
+    pushed: str = ""
+    features: tuple[str, ...] = ()
+    version: tuple[int, ...] = (1, 0)
 
 
 class Pipeline(NamedTuple):
@@ -267,6 +294,16 @@ def from_json(data: Any) -> Plan:
     """A plan from its JSON. TypeError or ValueError for data that is not a plan."""
     plan: Plan = _part(Plan, data)
     return plan
+
+
+def packed(data: bytes) -> str:
+    """Bytes as a text in a plan."""
+    return b64encode(zlib.compress(data)).decode("ascii")
+
+
+def unpacked(text: str) -> bytes:
+    """The bytes of `packed`."""
+    return zlib.decompress(b64decode(text))
 
 
 def _part(kind: Any, value: Any) -> Any:

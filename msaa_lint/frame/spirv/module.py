@@ -158,8 +158,9 @@ class Module:
 
 
 _ASKED = frozenset({
-    op.SPEC_ID, op.BUFFER_BLOCK, op.BUILT_IN, op.SAMPLE, op.LOCATION, op.COMPONENT, op.INDEX, op.BINDING, op.DESCRIPTOR_SET,
-    op.INPUT_ATTACHMENT_INDEX,
+    op.SPEC_ID, op.BLOCK, op.BUFFER_BLOCK, op.ROW_MAJOR, op.ARRAY_STRIDE, op.MATRIX_STRIDE, op.BUILT_IN, op.NO_PERSPECTIVE, op.FLAT,
+    op.CENTROID, op.SAMPLE, op.NON_WRITABLE, op.NON_READABLE, op.LOCATION, op.COMPONENT, op.INDEX, op.BINDING, op.DESCRIPTOR_SET,
+    op.OFFSET, op.INPUT_ATTACHMENT_INDEX,
 })  # fmt: skip
 """The decorations that are recorded."""
 
