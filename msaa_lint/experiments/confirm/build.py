@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Any
 
 from . import parts, pipelines
 from .binding import chain
+from .device_images import create_image
 from .opening import DeviceObjects, OpenDevice
 from .parts import NONE, Dependency, Framebuffer, Image, Pass, Plan, Reference
 from .scene import VERTEX_BYTES
-
-DEVICE_LOCAL, HOST_VISIBLE, COHERENT, CACHED, LAZY = 0x1, 0x2, 0x4, 0x8, 0x10
-"""VkMemoryPropertyFlagBits."""
+from .shader_bindings import ShaderBindings
 
 UNUSED = 0xFFFFFFFF
 """VK_ATTACHMENT_UNUSED and VK_SUBPASS_EXTERNAL."""
@@ -38,32 +38,6 @@ class SharedImages(DeviceObjects):
         return images[number]
 
 
-def create_image(objects: DeviceObjects, image: Image, more_usage: int = 0) -> Any:
-    """An image with its memory."""
-    vk, handle = objects.vk, objects.opened.handle
-    create = vk.VkImageCreateInfo(
-        flags=image.flags,
-        imageType=image.type,
-        format=image.format,
-        extent=vk.VkExtent3D(image.width, image.height, image.depth),
-        mipLevels=image.levels,
-        arrayLayers=image.layers,
-        samples=image.samples,
-        tiling=image.tiling,
-        usage=image.usage | more_usage,
-    )
-    created = objects.own(vk.vkDestroyImage, vk.vkCreateImage(handle, create, None))
-    needs = vk.vkGetImageMemoryRequirements(handle, created)
-    properties = (LAZY, DEVICE_LOCAL) if image.lazy else (DEVICE_LOCAL,)
-    kind = objects.opened.memory_type(needs.memoryTypeBits, *properties)
-    allocate = vk.VkMemoryAllocateInfo(allocationSize=needs.size, memoryTypeIndex=kind)
-    memory = objects.own(vk.vkFreeMemory, vk.vkAllocateMemory(handle, allocate, None))
-    # Memory must be freed after the image that is bound to it is destroyed.
-    objects._created[-2:] = reversed(objects._created[-2:])
-    vk.vkBindImageMemory(handle, created, memory, 0)
-    return created
-
-
 class FrameObjects(DeviceObjects):
     """The objects of a plan on a device. Images are created when something needs them; `close` destroys everything.
 
@@ -81,6 +55,8 @@ class FrameObjects(DeviceObjects):
         self.render_passes: dict[int, Any] = {}
         self.framebuffers: dict[tuple[int, int], Any] = {}
         self.pipelines: dict[tuple[int, int], Any] = {}
+        self.bindings: dict[tuple[int, int], ShaderBindings] = {}
+        """What pipelines with shaders from outside need to be bound."""
         self.more_usage = more_usage or {}
         self._views: dict[tuple[int, int, int, int], Any] = {}
         self._readers: dict[tuple[int, int, bool], Any] = {}
@@ -96,7 +72,15 @@ class FrameObjects(DeviceObjects):
             for index, framebuffer in enumerate(frame_pass.framebuffers):
                 self.framebuffers[number, index] = self._framebuffer(number, frame_pass, framebuffer)
         for index, pipeline in enumerate(frame_pass.pipelines):
-            self.pipelines[number, index] = pipelines.create_pipeline(self, frame_pass, pipeline, self.render_passes.get(number))
+            layout = None
+            if pipeline.stages:
+                bindings = self.bindings[number, index] = ShaderBindings(self, pipeline)
+                bindings.create_sets(frame_pass, self.plan.images, partial(self._attachment_view, frame_pass))
+                layout = bindings.layout
+            self.pipelines[number, index] = pipelines.create_pipeline(self, frame_pass, pipeline, self.render_passes.get(number), layout)
+
+    def _attachment_view(self, frame_pass: Pass, number: int, framebuffer: Framebuffer, aspects: int) -> Any:
+        return self.view(number, self.layers(frame_pass, framebuffer), aspects)
 
     def vertices(self) -> tuple[Any, int]:
         """The vertex buffer to draw and its number of vertices: from the plan's file, otherwise the scene's. ValueError for a file without

@@ -156,15 +156,24 @@ class Recorder:
                 pipeline = frame_pass.pipelines[inner.pipeline]
                 vk.vkCmdBindPipeline(buffer, 0, self.built.pipelines[step.number, inner.pipeline])
                 self._dynamic(buffer, pipeline, count)
-                peak = HDR_PEAK if self.plan.hdr else PEAK
-                pushed = struct.pack("=fi", peak, rotation)
-                layout = self.built.opened.layout("shaded" if pipeline.shaded else "scene")[0]
-                vk.vkCmdPushConstants(buffer, layout, 1, 0, len(pushed), push_bytes(pushed))
-                if self.work is not None and pipeline.shaded:
-                    self.work[0].bind(buffer, self.work[1])
+                self._bind(buffer, step, inner.pipeline, rotation)
                 first = 0 if (inner.backdrop and not filled) or self.plan.vertices else BACKDROP
-                vk.vkCmdDraw(buffer, vertices - first, 1, first, 0)
+                # The instance tells the generated vertex shader which draw this is; the built-in one has a push constant for it.
+                vk.vkCmdDraw(buffer, vertices - first, 1, first, rotation if pipeline.stages else 0)
                 rotation += 1
+
+    def _bind(self, buffer: Any, step: Step, number: int, rotation: int) -> None:
+        """Binds what the shaders of a pipeline read."""
+        pipeline = self.plan.passes[step.number].pipelines[number]
+        bindings = self.built.bindings.get((step.number, number))
+        if bindings is not None:
+            bindings.bind(buffer, step.framebuffer)
+            return
+        pushed = struct.pack("=fi", HDR_PEAK if self.plan.hdr else PEAK, rotation)
+        layout = self.built.opened.layout("shaded" if pipeline.shaded else "scene")[0]
+        self.vk.vkCmdPushConstants(buffer, layout, 1, 0, len(pushed), push_bytes(pushed))
+        if self.work is not None and pipeline.shaded:
+            self.work[0].bind(buffer, self.work[1])
 
     def _dynamic(self, buffer: Any, pipeline: parts.Pipeline, count: int) -> None:
         if parts.SAMPLES_DYNAMIC in pipeline.dynamic:

@@ -13,6 +13,7 @@ from .devices import describe
 from .instance import Device, Instance, Message, no_driver
 from .parts import Plan
 from .scene import VERTEX_BYTES, vertices
+from .shader_features import ENABLED
 from .shaders.spirv import read
 from .vulkan_errors import Unusable, VulkanError
 
@@ -179,6 +180,8 @@ class OpenDevice:
         self.pool = vk.vkCreateCommandPool(self.handle, pool, None)
         self.memory = vk.vkGetPhysicalDeviceMemoryProperties(session.physical)
         self.modules: dict[Any, Any] = {}
+        self.resources: DeviceObjects | None = None
+        """What the descriptors of shaders refer to (shader_resources.py)."""
         self._layouts: dict[str, Any] = {}
         self._functions: dict[str, Callable[..., Any]] = {}
         self._vertices: tuple[Any, Any] | None = None
@@ -188,9 +191,17 @@ class OpenDevice:
         own = {name: 1 for name, there in offered["features"].items() if there and name not in (*NOT_ENABLED, *without)}
         following = []
         for structure, names in {
-            "VkPhysicalDeviceVulkan11Features": ("multiview",),
-            "VkPhysicalDeviceVulkan12Features": ("separateDepthStencilLayouts", "imagelessFramebuffer"),
-            "VkPhysicalDeviceVulkan13Features": ("dynamicRendering", "synchronization2"),
+            "VkPhysicalDeviceVulkan11Features": ENABLED["VkPhysicalDeviceVulkan11Features"],
+            "VkPhysicalDeviceVulkan12Features": {
+                *ENABLED["VkPhysicalDeviceVulkan12Features"],
+                "separateDepthStencilLayouts",
+                "imagelessFramebuffer",
+            },
+            "VkPhysicalDeviceVulkan13Features": {
+                *ENABLED["VkPhysicalDeviceVulkan13Features"],
+                "dynamicRendering",
+                "synchronization2",
+            },
             "VkPhysicalDeviceExtendedDynamicState3FeaturesEXT": (
                 "extendedDynamicState3RasterizationSamples",
                 "extendedDynamicState3SampleMask",
@@ -267,12 +278,13 @@ class OpenDevice:
             self._vertices = self.buffer(vertices())
         return self._vertices[0], len(vertices()) // VERTEX_BYTES
 
-    def buffer(self, data: bytes, usage: int = VERTEX_BUFFER) -> tuple[Any, Any]:
-        """A buffer with data, and its memory. The caller must destroy them."""
+    def buffer(self, data: bytes, usage: int = VERTEX_BUFFER, properties: int = VISIBLE) -> tuple[Any, Any]:
+        """A buffer with data, and its memory, with the VkMemoryPropertyFlagBits `properties` if there is such memory. The caller must
+        destroy them."""
         vk = self.vk
         buffer = vk.vkCreateBuffer(self.handle, vk.VkBufferCreateInfo(size=len(data), usage=usage), None)
         needs = vk.vkGetBufferMemoryRequirements(self.handle, buffer)
-        kind = self.memory_type(needs.memoryTypeBits, VISIBLE)
+        kind = self.memory_type(needs.memoryTypeBits, properties, VISIBLE)
         memory = vk.vkAllocateMemory(self.handle, vk.VkMemoryAllocateInfo(allocationSize=needs.size, memoryTypeIndex=kind), None)
         vk.vkBindBufferMemory(self.handle, buffer, memory, 0)
         vk.vkMapMemory(self.handle, memory, 0, len(data), 0)[:] = data
@@ -290,6 +302,8 @@ class OpenDevice:
 
     def close(self) -> None:
         vk = self.vk
+        if self.resources is not None:
+            self.resources.close()
         for module in self.modules.values():
             vk.vkDestroyShaderModule(self.handle, module, None)
         for layout, own in self._layouts.values():
@@ -336,7 +350,7 @@ def formats(physical: Any) -> dict[str, dict[str, int]]:
     found = {}
     for number in range(1, MAX_FORMAT):
         features = vk.vkGetPhysicalDeviceFormatProperties(physical, number)
-        own = {"features": features.optimalTilingFeatures, "linear": features.linearTilingFeatures}
+        own = {"features": features.optimalTilingFeatures, "linear": features.linearTilingFeatures, "buffer": features.bufferFeatures}
         attachment = 0x10 if own["features"] & 0x80 else 0x20 if own["features"] & 0x200 else 0
         if attachment:
             for name, usage in FORMAT_USAGES.items():

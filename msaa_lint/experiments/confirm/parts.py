@@ -152,14 +152,14 @@ class Blend(NamedTuple):
 
 
 class Descriptor(NamedTuple):
-    """A binding of a descriptor set of a stage. `type` is a VkDescriptorType and `view` a VkImageViewType; `format` and `samples` are those
-    of images and texel buffers. A sampler compares if `compares`, and takes the nearest texel if `nearest`. `contents` are those of a
-    buffer (`packed`). `attachment` is the index of an input attachment."""
+    """A binding of a descriptor set of a stage. `type` is a VkDescriptorType, `length` the number of descriptors, and `view` a
+    VkImageViewType; `format` and `samples` are those of images and texel buffers. A sampler compares if `compares`, and takes the nearest
+    texel if `nearest`. `contents` are those of a buffer (`packed`). `attachment` is the index of an input attachment."""
 
     set: int
     binding: int
     type: int
-    count: int = 1
+    length: int = 1
     view: int = NONE
     format: int = 0
     samples: int = 1

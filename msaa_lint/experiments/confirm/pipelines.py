@@ -11,7 +11,7 @@ from msaa_lint.frame.spirv.module import MAX_BYTES, Module
 from . import parts, plan_shaders
 from .binding import chain
 from .opening import DeviceObjects
-from .parts import MASK_DYNAMIC, SCISSOR, VIEWPORT, Blend, Pass, Pipeline
+from .parts import MASK_DYNAMIC, SCISSOR, VIEWPORT, Blend, Pass, Pipeline, unpacked
 from .scene import DRAWN_STENCIL, VERTEX_BYTES
 
 KINDS = {"UINT": "uint", "SINT": "sint", "": ""}
@@ -25,17 +25,18 @@ ALWAYS, REPLACE = 7, 2
 """VkShaderStageFlagBits; VkCompareOp and VkStencilOp."""
 
 
-def create_pipeline(objects: DeviceObjects, frame_pass: Pass, pipeline: Pipeline, render_pass: Any) -> Any:
-    """A pipeline of a pass as planned. VulkanError where the driver fails to create it."""
+def create_pipeline(objects: DeviceObjects, frame_pass: Pass, pipeline: Pipeline, render_pass: Any, layout: Any = None) -> Any:
+    """A pipeline of a pass as planned, with the layout of its stages if it has any. VulkanError where the driver fails to create it."""
     opened = objects.opened
     kinds = outputs(pipeline)
     stages = {stage.stage: _described(objects, stage) for stage in pipeline.stages}
-    draws_scene = VERTEX not in stages
-    if draws_scene:
+    # A generated vertex shader has no file, and the input of the built-in one.
+    draws_scene = all(stage.path == "" for stage in pipeline.stages if stage.stage == VERTEX)
+    if VERTEX not in stages:
         stages[VERTEX] = _stage(objects, VERTEX, opened.module("scene.vert"))
     if FRAGMENT not in stages and any(kinds) and not pipeline.discard:
         stages[FRAGMENT] = _stage(objects, FRAGMENT, opened.module("shaded.frag" if pipeline.shaded else "scene.frag", kinds))
-    layout = opened.layout("shaded" if pipeline.shaded else "scene")[0]
+    layout = layout or opened.layout("shaded" if pipeline.shaded else "scene")[0]
     return _create(objects, frame_pass, pipeline, render_pass, list(stages.values()), layout, draws_scene=draws_scene)
 
 
@@ -62,7 +63,7 @@ def _stage(objects: DeviceObjects, stage: int, module: Any, name: str = "main", 
 
 def _described(objects: DeviceObjects, stage: parts.Stage) -> Any:
     vk = objects.vk
-    code = read(stage.path, MAX_BYTES, os.path.dirname(stage.path))
+    code = unpacked(stage.code) if stage.code else read(stage.path, MAX_BYTES, os.path.dirname(stage.path))
     module = objects.own(vk.vkDestroyShaderModule, objects.opened.compiled(code))
     specialization = None
     if stage.constants:

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from itertools import groupby
 
 from msaa_lint.frame.spirv import bindings
-from msaa_lint.frame.spirv.bindings import ImageType
 from msaa_lint.frame.spirv.bindings import Descriptor as Reflected
+from msaa_lint.frame.spirv.bindings import ImageType
 from msaa_lint.frame.spirv.words import SpirvError
 from msaa_lint.frame.vulkan.enums import VALUES
 
@@ -80,7 +80,7 @@ def _binding(number: int, binding: int, variables: Sequence[Reflected], contents
     images = {each.image for each in variables if each.image is not None}
     if len(images) > 1:
         raise Unmakeable(f"has images of different types at {where}")
-    counts = [each.count or RUNTIME_DESCRIPTORS for each in variables]
+    counts = [each.length or RUNTIME_DESCRIPTORS for each in variables]
     if max(counts) > MAX_DESCRIPTORS:
         raise Unmakeable(f"needs {max(counts)} descriptors at {where}; at most {MAX_DESCRIPTORS} are created")
     made = Descriptor(
@@ -89,7 +89,7 @@ def _binding(number: int, binding: int, variables: Sequence[Reflected], contents
         _TYPES[first.kind],
         max(counts),
         compares=any(each.compares for each in variables),
-        nearest=any(each.integer for each in variables) or any(image.component != "float" for image in images),
+        nearest=any(each.unfiltered for each in variables) or any(image.component != "float" for image in images),
     )
     if first.kind == bindings.ACCELERATION_STRUCTURE:
         raise Unmakeable(f"needs an acceleration structure at {where}, which is not created")
@@ -133,5 +133,3 @@ def _stated(image: ImageType, where: str) -> str:
     if image.format >= len(_FORMATS):
         raise Unmakeable(f"has an image of an unknown format at {where}")
     return _FORMATS[image.format]
-
-

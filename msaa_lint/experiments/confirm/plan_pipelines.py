@@ -121,7 +121,7 @@ def _dynamic(record: DescribedPipeline, pipeline: Pipeline, notes: Notes) -> Pip
 def _shaders(record: DescribedPipeline, pipeline: Pipeline, folder: str, notes: Notes) -> Pipeline:
     """Adds the described SPIR-V of the vertex and fragment stages."""
     described_stages = stages(record, folder, notes)
-    if record.vertexInputState is not None and not any(stage.stage == 1 for stage in described_stages):
+    if record.vertexInputState is not None and not any(stage.stage == 1 and stage.path for stage in described_stages):
         notes.append("the vertex input of {} is ignored: the built-in shader has its own vertices", record.key)
     return pipeline._replace(stages=described_stages)
 

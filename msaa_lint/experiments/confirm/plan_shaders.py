@@ -6,7 +6,7 @@ import math
 import os
 import struct
 import sys
-from collections.abc import Collection, Sequence
+from collections.abc import Sequence
 
 from msaa_lint.core.project import Outside, project_root, real_path
 from msaa_lint.core.quote import quoted_path
@@ -18,12 +18,10 @@ from msaa_lint.frame.spirv.module import MAX_BYTES, Module
 from msaa_lint.frame.spirv.words import SpirvError
 
 from .parts import Stage
+from .plan_descriptors import Unmakeable
 from .plan_integers import number
 from .plan_notes import Notes
-from .shaders.spirv import needs
-
-VERTEX = 1
-"""VK_SHADER_STAGE_VERTEX_BIT."""
+from .shader_stages import VERTEX, ReflectedStage, fragment_entry, reflected_stage, scene_stage
 
 _FLOATS = {16: "e", 32: "f", 64: "d"}
 """The formats of `struct` by width in bits."""
@@ -34,14 +32,14 @@ class UnusableShader(Exception):
 
 
 def stages(record: Pipeline, folder: str, notes: Notes) -> tuple[Stage, ...]:
-    """The vertex and fragment stages whose files exist and need nothing that is not described; notes say why others are left out.
+    """The vertex and fragment stages whose files exist and whose needs can be met, with a generated vertex shader if only the fragment
+    shader's can; notes say why others are left out.
 
     The instructions are not validated: the driver runs in its own process. UnusableShader for a file outside the project, one that cannot
     be read, and a constant that does not fit its type.
     """
     found: list[Stage] = []
-    reading: Stage | None = None
-    stated_stages = {stage_record.stage for stage_record in record.stages}
+    fragment: ReflectedStage | None = None
     for stage_record in record.stages:
         shader = f"the {(stage_record.stage or 'unnamed').lower()} shader of "
         title = shader + record.key
@@ -55,28 +53,45 @@ def stages(record: Pipeline, folder: str, notes: Notes) -> tuple[Stage, ...]:
         if code is None or stage_record.stage is None:
             notes.append(f"{shader}{{}} does not exist: a built-in one is used", record.key)
             continue
-        try:
-            inputs = needs(code)
-            reason = _undescribed(inputs, stage_record.stage, "VERTEX" in stated_stages)
-            module = Module(code)
-        except (SpirvError, ValueError) as error:
-            notes.append(f"{title} cannot be read ({error}): a built-in one is used")
-            continue
-        if reason:
-            notes.append(f"{shader}{{}} {reason}: a built-in one is used", record.key)
-            continue
         # The child process has another working folder.
         real = real_path(path, project_root(folder))
-        stage = number("VkShaderStageFlagBits", stage_record.stage)
-        found.append(Stage(stage, real, stage_record.name or "main", _constants(module, stage_record, title)))
-        if stage_record.stage == "FRAGMENT" and "inputs" in inputs:
-            reading = found[-1]
-    if reading is not None and all(stage.stage != VERTEX for stage in found):
-        notes.append(
-            "the fragment shader of {} has inputs that the built-in vertex shader does not write: a built-in one is used", record.key
-        )
-        found.remove(reading)
+        try:
+            reflected = _reflected(code, stage_record, real, title)
+        except SpirvError as error:
+            notes.append(f"{title} cannot be read ({error}): a built-in one is used")
+            continue
+        except Unmakeable as error:
+            notes.append(f"{shader}{{}} {error}: a built-in one is used", record.key)
+            continue
+        found.append(reflected.stage)
+        if stage_record.stage == "FRAGMENT":
+            fragment = reflected
+    if fragment is not None and all(stage.stage != VERTEX for stage in found):
+        try:
+            found.append(scene_stage(fragment))
+        except Unmakeable as error:
+            notes.append(f"the fragment shader of {{}} {error}: a built-in one is used", record.key)
+            return ()
+    if any(stage.descriptors or stage.pushed for stage in found):
+        notes.append("the contents of the descriptors and push constants of {} are not described: patterns are assumed", record.key)
     return tuple(found)
+
+
+def _reflected(code: bytes, record: ShaderStage, path: str, title: str) -> ReflectedStage:
+    """A stage with what it needs. Raises SpirvError; Unmakeable if it needs what a description does not state."""
+    module = Module(code)
+    entry = fragment_entry(module, record.name or "main") if record.stage == "FRAGMENT" else module.entry(record.name or "main")
+    constants = _constants(module, record, title)
+    reflected = reflected_stage(module, entry, number("VkShaderStageFlagBits", record.stage or ""), path, constants)
+    if record.stage == "VERTEX":
+        if reflected.interface.descriptors:
+            raise Unmakeable("reads descriptors, which are not described")
+        if reflected.interface.inputs:
+            raise Unmakeable("has inputs, which are not described")
+    feedback = next((each for each in reflected.interface.descriptors if each.reads and each.writes), None)
+    if feedback is not None:
+        raise Unmakeable(f"reads what it writes to set {feedback.set}, binding {feedback.binding}, so that pictures may differ")
+    return reflected
 
 
 def _code(path: str, title: str, folder: str) -> bytes | None:
@@ -90,15 +105,6 @@ def _code(path: str, title: str, folder: str) -> bytes | None:
     except (OSError, Unreadable) as error:
         reason = (error.strerror if isinstance(error, OSError) else None) or str(error)
         raise UnusableShader(f"{title}, {quoted_path(path)}, cannot be read: {reason}") from None
-
-
-def _undescribed(inputs: Collection[str], stage: str, has_vertex_stage: bool) -> str:
-    """What a shader needs that no description states; empty if it needs nothing."""
-    if "descriptors" in inputs:
-        return "reads descriptors, which are not described"
-    if "inputs" in inputs and (stage == "VERTEX" or not has_vertex_stage):
-        return "has inputs, which are not described"
-    return ""
 
 
 def _constants(module: Module, record: ShaderStage, title: str) -> tuple[tuple[int, float], ...]:

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 from msaa_lint.frame.facts.frame import Frame
 
-from . import gate, plan, resolve_check
+from . import gate, plan, resolve_check, shader_support
 from .agreement import agreement
 from .frame_results import FrameRun
 from .inputs import Input
@@ -37,6 +37,11 @@ class Planner:
         """The plan of a frame. It never raises for what the frame contains."""
         frame_plan = plan.plan(frame, file=file, size=size, samples=samples, api=self.api)
         return PlannedFrame(frame_plan, frame_plan.passes, (*_metal_notes(frame), *frame_plan.defaults))
+
+    def supported(self, planned: PlannedFrame, device: Mapping[str, Any]) -> PlannedFrame:
+        """A plan with built-in shaders in place of those that a device does not support."""
+        found = shader_support.supported(planned.plan, device)
+        return PlannedFrame(found, found.passes, (*planned.defaults, *found.defaults[len(planned.plan.defaults) :]))
 
     def gate(self, planned: PlannedFrame, device: Mapping[str, Any]) -> dict[int, str]:
         """The passes that a device does not support, by number, and why."""

@@ -5,7 +5,8 @@ from __future__ import annotations
 import os
 from typing import Any
 
-from .build import CACHED, COHERENT, HOST_VISIBLE, FrameObjects
+from .build import FrameObjects
+from .device_images import CACHED, COHERENT, HOST_VISIBLE
 from .draw import Recorder
 from .opening import Emit
 from .parts import COLOR, DEPTH, DEPTH_READ_LAYOUT, READ_LAYOUT, SOURCE_LAYOUT, STENCIL, TRANSFER_SOURCE, Image

@@ -9,8 +9,9 @@ ALWAYS = frozenset({0, 1, 40, 43, 44, 46, 47, 50, 51, 52, 61, 62, 63, 64, 65, 66
 """Capabilities of SPIR-V that need no feature. Devices without the operations of subgroups in fragment shaders are not known."""
 
 _NEEDS = {
-    2: "geometryShader", 3: "tessellationShader", 9: "shaderFloat16", 10: "shaderFloat64", 11: "shaderInt64", 12: "shaderBufferInt64Atomics",
-    22: "shaderInt16", 25: "shaderImageGatherExtended", 27: "shaderStorageImageMultisample", 28: "shaderUniformBufferArrayDynamicIndexing",
+    2: "geometryShader", 3: "tessellationShader", 9: "shaderFloat16", 10: "shaderFloat64", 11: "shaderInt64",
+    12: "shaderBufferInt64Atomics", 22: "shaderInt16", 25: "shaderImageGatherExtended",
+    27: "shaderStorageImageMultisample", 28: "shaderUniformBufferArrayDynamicIndexing",
     29: "shaderSampledImageArrayDynamicIndexing", 30: "shaderStorageBufferArrayDynamicIndexing",
     31: "shaderStorageImageArrayDynamicIndexing", 32: "shaderClipDistance", 33: "shaderCullDistance", 34: "imageCubeArray",
     35: "sampleRateShading", 39: "shaderInt8", 41: "shaderResourceResidency", 42: "shaderResourceMinLod", 45: "imageCubeArray",

@@ -178,7 +178,7 @@ class _Trial:
 
     def _version(self, frame: Frame, file: str) -> Version:
         """A frame planned, checked against the device, and run."""
-        planned = self.planner.plan(frame, file, self.options.size, self.options.samples)
+        planned = self.planner.supported(self.planner.plan(frame, file, self.options.size, self.options.samples), self.device)
         refused = self.planner.gate(planned, self.device) if self.options.gate else {}
         runnable = [
             number

@@ -1,7 +1,5 @@
 """The descriptors of a shader, by descriptor set and binding."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 from . import numbers as op
@@ -44,21 +42,21 @@ class ImageType(NamedTuple):
 
 
 class Descriptor(NamedTuple):
-    """A variable that is a descriptor. `set` and `binding` are None if they are not stated; `count` is 0 for a runtime array; `block` is
-    the type of a buffer, `size` its size in bytes with `stride` bytes of a runtime array at its end (0 without). `compares` and `integer`
-    say that images and samplers are used with a depth reference, and samplers with integer images."""
+    """A variable that is a descriptor. `set` and `binding` are None if they are not stated; `length` is 0 for a runtime array; `block` is
+    the type of a buffer, `size` its size in bytes with `stride` bytes of a runtime array at its end (0 without). `compares` says
+    that an image or a sampler is used with a depth reference, `unfiltered` that a sampler is used with images that cannot be filtered."""
 
     set: int | None
     binding: int | None
     kind: str
-    count: int = 1
+    length: int = 1
     image: ImageType | None = None
     block: int = 0
     size: int = 0
     stride: int = 0
     attachment: int = 0
     compares: bool = False
-    integer: bool = False
+    unfiltered: bool = False
     reads: bool = False
     writes: bool = False
 
@@ -75,7 +73,7 @@ def descriptors(module: Module, used: Uses, layouts: Layouts) -> tuple[Descripto
                     binding=module.decoration(variable, op.BINDING),
                     attachment=module.decoration(variable, op.INPUT_ATTACHMENT_INDEX) or 0,
                     compares=variable in used.compared,
-                    integer=variable in used.integer,
+                    unfiltered=variable in used.unfiltered,
                     reads=variable in used.read,
                     writes=variable in used.written,
                 )

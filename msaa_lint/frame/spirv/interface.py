@@ -1,7 +1,5 @@
 """What an entry point takes from outside and hands on: descriptors, push constants, inputs, outputs, specialization constants."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import NamedTuple
 
@@ -28,7 +26,7 @@ class Varying(NamedTuple):
     type: str
     location: int | None
     component: int = 0
-    index: int = 0
+    blend_index: int = 0
     interpolation: frozenset[str] = frozenset()
 
 
@@ -109,7 +107,7 @@ def _is_built_in(module: Module, identity: int) -> bool:
 
 
 def _built_ins(module: Module, entry: Entry) -> frozenset[int]:
-    found = set()
+    found: set[int] = set()
     for identity, variable in module.variables.items():
         if variable.storage == op.INPUT and identity in entry.interface:
             stated = [module.decorations.get(identity, {}), *module.members.get(variable.holds, {}).values()]

@@ -1,7 +1,5 @@
 """How the types of a module lie in memory: sizes and offsets in bytes, by the decorations of the module."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import NamedTuple
 

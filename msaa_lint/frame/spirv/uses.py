@@ -1,7 +1,5 @@
 """What the functions that an entry point reaches do with the variables declared outside of functions."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from typing import NamedTuple
 
@@ -29,11 +27,11 @@ _HANDLES = frozenset({op.TYPE_IMAGE, op.TYPE_SAMPLER, op.TYPE_SAMPLED_IMAGE, op.
 
 class Uses(NamedTuple):
     """The ids of variables: those that are referred to at all, those of images and samplers that compare with a depth reference, samplers
-    of integer images, and those whose contents are read and written."""
+    of images that cannot be filtered (of integers, and depth images), and those whose contents are read and written."""
 
     referred: frozenset[int]
     compared: frozenset[int]
-    integer: frozenset[int]
+    unfiltered: frozenset[int]
     read: frozenset[int]
     written: frozenset[int]
 
@@ -42,18 +40,29 @@ def uses(module: Module, entry: Entry) -> Uses:
     """The variables that an entry point uses. Raises SpirvError if a function is missing or truncated."""
     sources: dict[int, list[int]] = {}
     referred: set[int] = set()
-    seeds: dict[str, set[int]] = {"compared": set(), "integer": set(), "read": set(), "written": set()}
+    seeds: dict[str, set[int]] = {"compared": set(), "unfiltered": set(), "read": set(), "written": set()}
+    pairs: set[tuple[int, int]] = set()
     for body in reached(module, entry.function).values():
         at, words = body.function.start, module.words
         while at < body.function.end:
             end = at + (words[at] >> 16)
-            _instruction(module, words[at:end], sources, referred, seeds)
+            _instruction(module, words[at:end], sources, referred, seeds, pairs)
             at = end
-    return Uses(frozenset(referred), *(_variables(module, seeds[name], sources) for name in ("compared", "integer", "read", "written")))
+    compared = _variables(module, seeds["compared"], sources)
+    for image, sampler in pairs:
+        if compared & _variables(module, [image], sources) and not compared & _variables(module, [sampler], sources):
+            seeds["unfiltered"].add(sampler)
+    others = (_variables(module, seeds[name], sources) for name in ("unfiltered", "read", "written"))
+    return Uses(frozenset(referred), compared, *others)
 
 
 def _instruction(
-    module: Module, words: Iterable[int], sources: dict[int, list[int]], referred: set[int], seeds: dict[str, set[int]]
+    module: Module,
+    words: Iterable[int],
+    sources: dict[int, list[int]],
+    referred: set[int],
+    seeds: dict[str, set[int]],
+    pairs: set[tuple[int, int]],
 ) -> None:
     operands = list(words)
     number = operands[0] & 0xFFFF
@@ -62,8 +71,10 @@ def _instruction(
     if number in _SOURCES:
         begin, end = _SOURCES[number]
         sources.setdefault(operands[2], []).extend(operands[begin:end])
-        if number == op.SAMPLED_IMAGE and _is_integer(module, operands[1]):
-            seeds["integer"].update(operands[4:5])
+        if number == op.SAMPLED_IMAGE:
+            pairs.add((operands[3], operands[4]))
+            if _is_integer(module, operands[1]):
+                seeds["unfiltered"].add(operands[4])
         elif number == op.LOAD and module.types.get(operands[1], (0,))[0] not in _HANDLES:
             seeds["read"].add(operands[3])
     elif number == op.FUNCTION_CALL:

@@ -30,8 +30,12 @@ from msaa_lint.experiments.confirm.parts import (
 )
 from msaa_lint.experiments.confirm.plan import MAX_STEPS, plan
 from msaa_lint.frame.facts.frame import Frame
+from msaa_lint.frame.spirv.constants import Constants
+from msaa_lint.frame.spirv.interface import interface
+from msaa_lint.frame.spirv.module import Module
 from msaa_lint.input import readers
 from tests.experiments.confirm.frames import begins, frames, image, one, planned
+from tests.frame.spirv.test_hostile import assembled
 from tests.frames import frames as random_frames
 from tests.pages import Example, all_examples
 from tests.paths import ROOT
@@ -906,16 +910,23 @@ pipelines:
 
 def test_pipelines_are_as_described(tmp_path: Path) -> None:
     (tmp_path / "shaders").mkdir()
-    # A module that declares nothing.
-    (tmp_path / "shaders" / "f.spv").write_bytes(struct.pack("<5I", 0x07230203, 0x00010000, 0, 1, 0))
+    # An entry point `shade` with three specialization constants.
+    kinds = ((21, 5, 32, 1), (20, 6), (22, 7, 32), (50, 5, 20, 0), (48, 6, 21), (50, 7, 22, 0), (19, 2), (33, 3, 2))
+    entry = (15, 4, 1, *struct.unpack("<2I", b"shade\0\0\0"))
+    shader = assembled(entry, *((71, 20 + n, 1, spec) for n, spec in enumerate((3, 7, 9))), *kinds, (54, 2, 1, 0, 3), (56,))
+    (tmp_path / "shaders" / "f.spv").write_bytes(shader)
     made = planned(PIPELINES, file=str(tmp_path / "frame.msaa.yaml"))
     one_of, two = one(made).pipelines
     assert one_of == parts.Pipeline(
         "one", 0, 2, sample_shading=0.25, mask=(5,), alpha_to_coverage=True, alpha_to_one=True,
         dynamic=(0, 1, 1000455005, 1000455006, 1000455007), depth_test=True, depth_write=False, depth_compare=6, stencil_test=False,
         blends=(Blend(True, 5, 1, 0, 4, 0, 1, 3),), numerics=("UNORM",), depth_clamp=True, depth_bias=True, polygon_mode=1,
-        stages=(parts.Stage(16, str(tmp_path / "shaders" / "f.spv"), "shade", ((3, 4.0), (7, 1.0), (9, 0.5))),),
+        stages=(
+            parts.Stage(16, str(tmp_path / "shaders" / "f.spv"), "shade", ((3, 4.0), (7, 1.0), (9, 0.5)), version=(1, 3)),
+            one_of.stages[1],
+        ),
     )  # fmt: skip
+    assert (one_of.stages[1].stage, one_of.stages[1].path) == (1, "")
     assert two == parts.Pipeline(
         "two", 0, 4, dynamic=(0, 1), depth_test=True, depth_write=True, depth_compare=4, stencil_test=True, blends=(Blend(),),
         numerics=("UNORM",), discard=True,
@@ -1339,12 +1350,15 @@ renderPasses:
 
 
 @pytest.mark.parametrize("stages", [["FRAGMENT", "VERTEX"], ["VERTEX", "FRAGMENT"]])
-def test_fragment_shader_with_inputs_needs_a_vertex_shader_of_its_own(stages: list[str], tmp_path: Path) -> None:
-    """The vertex shader reads vertices that are not described, so that the built-in one draws; nothing writes the inputs."""
+def test_a_fragment_shader_gets_a_vertex_shader_that_writes_its_inputs(stages: list[str], tmp_path: Path) -> None:
+    """The vertex shader of the description reads vertices that are not described."""
     shaders = ROOT / "msaa_lint" / "experiments" / "confirm" / "shaders"
     for stage in stages:
         (tmp_path / f"{stage}.spv").write_bytes((shaders / f"scene.{stage[:4].lower()}.spv").read_bytes())
     listed = ", ".join(f"{{stage: {stage}, module: {stage}.spv}}" for stage in stages)
     made = planned(f"pipelines:\n  p: {{stages: [{listed}]}}\n", file=str(tmp_path / "frame.msaa.yaml"))
-    assert one(made).pipelines[0].stages == ()
-    assert "the fragment shader of p has inputs that the built-in vertex shader does not write: a built-in one is used" in made.defaults
+    fragment, vertex = one(made).pipelines[0].stages
+    assert (fragment.stage, fragment.path, vertex.stage, vertex.path) == (16, str(tmp_path / "FRAGMENT.spv"), 1, "")
+    written = Module(parts.unpacked(vertex.code))
+    assert [each.type for each in interface(written, written.entry("main"), Constants(written, {})).outputs] == ["vec4"]
+    assert "the vertex shader of p has inputs, which are not described: a built-in one is used" in made.defaults

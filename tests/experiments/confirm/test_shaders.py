@@ -6,7 +6,7 @@ import array
 import shutil
 import struct
 import subprocess
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from pathlib import Path
 
@@ -15,7 +15,7 @@ from hypothesis import HealthCheck, given
 from hypothesis import strategies as st
 
 from msaa_lint.experiments.confirm import scene
-from msaa_lint.experiments.confirm.shaders.spirv import OUTPUTS, SLOTS, instructions, needs, read, with_outputs, words_of
+from msaa_lint.experiments.confirm.shaders.spirv import OUTPUTS, SLOTS, instructions, read, with_outputs, words_of
 from tests.experiments.confirm import generate_shaders as generate
 from tests.strength import examples
 
@@ -205,23 +205,6 @@ def test_the_scene_lies_within_the_picture() -> None:
         assert (bx - ax) * (cy - ay) != (cx - ax) * (by - ay), "none is a line"
 
 
-# What a module needs
-
-
-@pytest.mark.parametrize(
-    ("shader", "expected"),
-    [
-        ("cover.vert", set()),
-        ("scene.vert", {"inputs"}),
-        ("scene.frag", {"inputs"}),
-        ("read.frag", {"descriptors"}),
-        ("samples.comp", {"descriptors"}),
-    ],
-)
-def test_what_a_shader_needs_from_outside(shader: str, expected: set[str]) -> None:
-    assert needs(stored(shader)) == expected
-
-
 # What is no SPIR-V
 
 
@@ -242,20 +225,17 @@ def test_code_that_is_cut_off_is_refused(shader: str) -> None:
         if length % 4 == 0 and length // 4 in whole:
             # What is cut between instructions is read to its end.
             with_outputs(code[:length], ["float"])
-            needs(code[:length])
             continue
-        for reading in (needs, lambda cut: with_outputs(cut, ["float"])):
-            with pytest.raises(ValueError, match="not SPIR-V"):
-                reading(code[:length])
+        with pytest.raises(ValueError, match="not SPIR-V"):
+            with_outputs(code[:length], ["float"])
 
 
 @pytest.mark.parametrize(
     "code", [b"", b"\0" * 20, b"#version 450 core\n\n\n", stored("cover.vert")[4:], stored("cover.vert")[:20] + b"\0" * 4]
 )
 def test_what_is_no_code_is_refused(code: bytes) -> None:
-    for reading in (needs, lambda cut: with_outputs(cut, ["float"])):
-        with pytest.raises(ValueError, match="not SPIR-V"):
-            reading(code)
+    with pytest.raises(ValueError, match="not SPIR-V"):
+        with_outputs(code, ["float"])
 
 
 @examples(3)
@@ -264,21 +244,19 @@ def test_damaged_code_is_read_or_refused(shader: str, damage: list[tuple[int, in
     words = words_of(stored(shader))
     for at, value in damage:
         words[5 + at % (len(words) - 5)] = value
-    for reading in (needs, lambda cut: with_outputs(cut, outputs)):
-        try:
-            reading(words.tobytes())
-        except ValueError as error:
-            assert "not SPIR-V" in str(error)
+    try:
+        with_outputs(words.tobytes(), outputs)
+    except ValueError as error:
+        assert "not SPIR-V" in str(error)
 
 
 @pytest.mark.parametrize("op", [OP_ENTRY_POINT, OP_NAME, OP_STORE, OP_VARIABLE, OP_DECORATE])
-@pytest.mark.parametrize("reading", [needs, lambda code: with_outputs(code, ["float"])], ids=["needs", "with_outputs"])
-def test_an_instruction_that_is_too_short_is_passed_over_or_refused(op: int, reading: Callable[[bytes], object]) -> None:
+def test_an_instruction_that_is_too_short_is_passed_over_or_refused(op: int) -> None:
     head = words_of(stored("cover.vert"))[:5]
     for length in (1, 2, 3):
         code = head + array.array("I", [length << 16 | op, *[0x41414141] * (length - 1)])
         with suppress(ValueError):
-            reading(code.tobytes())
+            with_outputs(code.tobytes(), ["float"])
 
 
 def test_an_entry_point_whose_name_does_not_end_is_refused() -> None:

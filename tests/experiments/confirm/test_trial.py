@@ -63,6 +63,9 @@ class Fake:
         data = {"passes": deeds, "pixel": 0 if written else self.pixel}
         return PlannedFrame(data, [Pass(each.name, each.path, "", 0) for each in frame.passes], ["256 x 256 pixels are taken"])
 
+    def supported(self, planned: PlannedFrame, device: Mapping[str, Any]) -> PlannedFrame:
+        return planned
+
     def gate(self, planned: PlannedFrame, device: Mapping[str, Any]) -> dict[int, str]:
         return {n: "8 samples are not offered" for n, each in enumerate(planned.passes) if each.name in self.gated}
 

@@ -183,7 +183,7 @@ def test_decorations_of_groups_are_bounded() -> None:
     group = [(71, 100, n, 0) for n in range(20_000)] + [(73, 100)] + [(74, 100, *range(200 + n * 1000, 1200 + n * 1000)) for n in range(20)]
     module = Module(assembled(*START, *group, (54, 2, 1, 0, 3), (248, 10), (253,), (56,)))
     assert len(module.decorations) >= 20_000
-    assert all(len(each) <= 16 for each in module.decorations.values())
+    assert all(len(each) <= 24 for each in module.decorations.values())
 
 
 def test_selections_within_selections_are_given_up_before_the_stack_ends() -> None:

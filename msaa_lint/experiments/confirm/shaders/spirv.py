@@ -15,9 +15,8 @@ OUTPUTS = {"float": 0, "sint": 8, "uint": 16}
 
 SLOTS = 8
 
-DECORATION_LOCATION, DECORATION_BINDING, DECORATION_SET = 30, 33, 34
-OUTPUT, INPUT = 3, 1
-"""Decorations and storage classes of SPIR-V."""
+DECORATION_LOCATION, OUTPUT = 30, 3
+"""A decoration and a storage class of SPIR-V."""
 
 
 def read(shader: str, outputs: Sequence[str] | None = None) -> bytes:
@@ -65,16 +64,3 @@ def _without(entry: array.array[int], dropped: set[int]) -> array.array[int]:
     made = entry[: name + 1] + array.array("I", [each for each in entry[name + 1 :] if each not in dropped])
     made[0] = len(made) << 16 | OP_ENTRY_POINT
     return made
-
-
-def needs(code: bytes) -> frozenset[str]:
-    """The external inputs of SPIR-V: `descriptors`, and `inputs` by location. ValueError for data that is not SPIR-V."""
-    words = words_of(code)
-    read_by = {i[2] for op, i in instructions(words) if op == OP_VARIABLE and i[3] == INPUT}
-    found = set()
-    for op, each in instructions(words):
-        if op == OP_DECORATE and each[2] in (DECORATION_BINDING, DECORATION_SET):
-            found.add("descriptors")
-        elif op == OP_DECORATE and each[2] == DECORATION_LOCATION and each[1] in read_by:
-            found.add("inputs")
-    return frozenset(found)
