@@ -1,86 +1,100 @@
-"""Pareto-optimal choices: those that no other choice dominates."""
+"""Pareto-optimal choices: those that no other choice dominates. A difference within the noise of a clock is none."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
+from .measures import ERROR, Measure
 from .points import Point
 
 SAME = 1.05
-"""Times within this factor count as equal: clocks are not more precise."""
-
-FIGURES = 3
-"""Significant digits of an error that are compared: smaller differences are rounding."""
+"""Times without an interval count as equal within this factor."""
 
 Vector = tuple[float, ...]
-"""Quantities of which less is better: the error, then one or more costs."""
+"""Quantities of which less is better: the error, then costs."""
 
 
-def mark_best(points: Iterable[Point]) -> list[Point]:
-    """The points, with `best` set on those that no other point of their scene and size dominates."""
+def mark_best(points: Iterable[Point], measures: Mapping[str, Measure] | None = None, *, timed: bool = True) -> list[Point]:
+    """The points, with `best` set on those that no other point of their scene, shading cost, and size dominates.
+
+    `measures` are the errors that decide, by scene: the RMSE where it has none. Without `timed`, times are disregarded.
+    """
     all_points = list(points)
     best = [False] * len(all_points)
-    for group in _groups(all_points):
+    for (scene, *_), group in _groups(all_points).items():
+        measure = (measures or {}).get(scene, ERROR)
         group_points = [all_points[n] for n in group]
-        for n, optimal in zip(group, _simplest(group_points, front(vectors(group_points))), strict=True):
-            best[n] = optimal
+        has_times = timed and any(point.time_ms is not None for point in group_points)
+        optimal = fastest(group_points, measure) if has_times else front(vectors(group_points, measure))
+        for n, is_best in zip(group, optimal, strict=True):
+            best[n] = is_best
     return [point._replace(best=optimal) for point, optimal in zip(all_points, best, strict=True)]
 
 
-def _simplest(points: Sequence[Point], best: Sequence[bool]) -> list[bool]:
-    """The Pareto front of a scene, where a point gives way to one that does less work for the same error in the same time."""
-    chosen = set()
-    for n, optimal in enumerate(best):
-        while optimal:
-            simpler = [m for m, other in enumerate(points) if _less_work(other, points[n]) and _as_fast(other, points[n])]
-            if not simpler:
-                chosen.add(n)
-                break
-            n = min(simpler, key=lambda m: (points[m].technique.samples, points[m].technique.shaded))
-    return [n in chosen for n in range(len(points))]
-
-
-def _as_fast(one: Point, other: Point) -> bool:
-    return one.time_ms is not None and other.time_ms is not None and one.time_ms <= SAME * other.time_ms
-
-
-def _less_work(one: Point, other: Point) -> bool:
-    """Whether a point has the same error as another with fewer samples or shader invocations, and no more of either."""
-    work = (one.technique.samples, one.technique.shaded), (other.technique.samples, other.technique.shaded)
-    return _error(one) == _error(other) and beats(*work)
-
-
-def _error(point: Point) -> float:
-    return float(f"{point.rmse:.{FIGURES}g}")
-
-
-def _groups(points: Sequence[Point]) -> list[list[int]]:
-    groups: dict[tuple[str, int, int], list[int]] = {}
+def _groups(points: Sequence[Point]) -> dict[tuple[str, str, int, int], list[int]]:
+    groups: dict[tuple[str, str, int, int], list[int]] = {}
     for n, point in enumerate(points):
-        groups.setdefault((point.scene, point.width, point.height), []).append(n)
-    return list(groups.values())
+        groups.setdefault((point.scene, point.shading, point.width, point.height), []).append(n)
+    return groups
 
 
-def vectors(points: Sequence[Point]) -> list[Vector | None]:
-    """The quantities that the points of a scene are compared by; None for a point that cannot be compared.
+def interval(point: Point) -> tuple[float, float]:
+    """The bounds of a point's time, in milliseconds: those measured, else its time within half of the factor SAME on both sides; NaN where
+    there is no time."""
+    if point.time_ms is None:
+        return math.nan, math.nan
+    if point.low_ms is None or point.high_ms is None:
+        return point.time_ms / math.sqrt(SAME), point.time_ms * math.sqrt(SAME)
+    return point.low_ms, point.high_ms
 
-    They are error and time if the time of any point is known. Otherwise they are the error and the known costs: samples per pixel, shader
-    invocations per pixel, and the model's bytes if it has them for every point.
+
+def as_fast(one: Point, other: Point) -> bool:
+    """Whether a point is not slower than another beyond the noise: its interval begins no later than the other's ends."""
+    return interval(one)[0] <= interval(other)[1] * (1 + 1e-12)
+
+
+def tie(one: Point, other: Point) -> bool:
+    """Whether the times of two points are equal within the noise: their intervals overlap."""
+    return as_fast(one, other) and as_fast(other, one)
+
+
+def fastest(points: Sequence[Point], measure: Measure = ERROR) -> list[bool]:
+    """For each point of a scene whether no other has less error and is as fast, or the same error and is faster or does less work in the
+    same time.
+
+    Ties are not transitive, so points are taken in the order of their errors: a point is dominated by one on the front alone, and every
+    point that is not on the front is dominated by one that is.
     """
-    if any(point.time_ms is not None for point in points):
-        return [(_error(point), point.time_ms) if point.time_ms is not None else None for point in points]
+    best: list[int] = []
+    errors = [measure.rounded(point) if point.time_ms is not None and not math.isnan(point.time_ms) else math.nan for point in points]
+    for error in sorted({error for error in errors if not math.isnan(error)}):
+        left = [n for n, other in enumerate(errors) if other == error and not any(as_fast(points[m], points[n]) for m in best)]
+        if left:
+            first = min(left, key=lambda n: points[n].time_ms or 0.0)
+            chosen: list[int] = []
+            for n in sorted(left, key=lambda n: _work(points[n])):
+                simpler = any(beats(_work(points[m]), _work(points[n])) and as_fast(points[m], points[n]) for m in chosen)
+                if as_fast(points[n], points[first]) and not simpler:
+                    chosen.append(n)
+            best += chosen
+    return [n in best for n in range(len(points))]
+
+
+def _work(point: Point) -> Vector:
+    return float(point.technique.samples), float(point.technique.shaded)
+
+
+def vectors(points: Sequence[Point], measure: Measure = ERROR) -> list[Vector]:
+    """The quantities that points of a scene without times are compared by: the error, samples and shader invocations per pixel, and the
+    model's bytes if it has them for every point."""
     known = all(point.bytes_per_frame is not None for point in points)
-    return [
-        (_error(point), float(point.technique.samples), float(point.technique.shaded), (point.bytes_per_frame or 0.0) if known else 0.0)
-        for point in points
-    ]
+    return [(measure.rounded(point), *_work(point), (point.bytes_per_frame or 0.0) if known else 0.0) for point in points]
 
 
-def front(vectors: Sequence[Vector | None]) -> list[bool]:
-    """For each vector whether no other dominates it. Equal vectors do not dominate each other; unknown vectors and those with NaN are never
-    on the front."""
-    usable = [vector if vector is not None and not any(map(math.isnan, vector)) else None for vector in vectors]
+def front(vectors: Sequence[Vector]) -> list[bool]:
+    """For each vector whether no other dominates it. Equal vectors do not dominate each other; those with NaN are never on the front."""
+    usable = [None if any(map(math.isnan, vector)) else vector for vector in vectors]
     distinct = {vector for vector in usable if vector is not None}
     best = {vector for vector in distinct if not any(beats(other, vector) for other in distinct)}
     return [vector in best for vector in usable]

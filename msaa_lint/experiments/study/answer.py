@@ -1,0 +1,46 @@
+"""The answer of a study: the fronts, the steps up, and what to take of each scene under each cost of shading."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from .advice import Advice, advice, worth_advice
+from .measures import Measure, measure_of
+from .outcome import SceneSummary, Study
+from .pareto import mark_best
+from .points import Point
+from .recommendation import recommendation, worth_from
+from .steps import steps
+
+
+def conclude(study: Study) -> Study:
+    """The study with its answer, which follows from its points, its models, and its budget. Of a software driver's times nothing
+    follows."""
+    timed = not study.software
+    scenes = [scene._replace(measure=measure_of(scene.about, study.of(scene.name))) for scene in study.scenes]
+    marked = study._replace(scenes=scenes, points=mark_best(study.points, {scene.name: scene.measure for scene in scenes}, timed=timed))
+    groups = [(scene, marked.of(scene.name, shading)) for scene in scenes for shading in marked.shading_names(scene.name)]
+    choices = [recommendation(points, scene.measure, study.budget_ms) for scene, points in groups] if timed else []
+    return marked._replace(
+        steps=[step for scene, points in groups for step in steps(points, scene.about, scene.measure, timed=timed)],
+        recommendations=[choice for choice in choices if choice is not None],
+        advice=[sentence for scene in scenes for sentence in _advice(marked, scene)],
+    )
+
+
+def _advice(study: Study, scene: SceneSummary) -> Iterator[Advice]:
+    names = study.shading_names(scene.name)
+    if not names:
+        return
+    # Errors are the same under every cost of shading.
+    points = study.of(scene.name, names[0])
+    yield from advice(points, scene.measure)
+    if not study.software:
+        yield from _worth(study, scene, points, scene.measure)
+
+
+def _worth(study: Study, scene: SceneSummary, points: Sequence[Point], measure: Measure) -> Iterator[Advice]:
+    for model in study.models:
+        if model.scene == scene.name:
+            for found in worth_from(points, measure, model, study.shadings):
+                yield worth_advice(scene.name, found, study.shadings)

@@ -1,0 +1,159 @@
+"""Which technique to take: under a budget the best that fits, else as many steps up as are worth their time."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from itertools import pairwise
+from typing import NamedTuple
+
+from .measures import Measure
+from .pareto import fastest, tie
+from .points import MSAA, Point, Technique
+from .shading import Shading
+from .steps import MAX_ADDED, MAX_REMAINING, AddedTime, added_text, added_time, is_enough, percent
+from .time_model import TimeModel
+
+BISECTIONS = 60
+
+
+class Recommendation(NamedTuple):
+    """The technique to take on one scene under one cost of shading, what it adds to the time of one sample, and why; `following` says what
+    the next better one needs."""
+
+    scene: str
+    shading: str
+    technique: Technique
+    added: AddedTime
+    reason: str
+    following: str = ""
+
+    @property
+    def text(self) -> str:
+        """`take 4x`"""
+        return f"take {self.technique.name}"
+
+
+def recommendation(points: Sequence[Point], measure: Measure, budget_ms: float | None) -> Recommendation | None:
+    """What to take of the points of one scene under one cost of shading; None where one sample, or nothing else, was timed."""
+    timed = [point for point in points if point.time_ms and math.isfinite(point.time_ms) and math.isfinite(measure.rounded(point))]
+    one = next((point for point in timed if point.technique == Technique(MSAA, 1)), None)
+    if one is None or len(timed) < 2:
+        return None
+    return _worth_their_time(timed, one, measure) if budget_ms is None else _within(timed, one, measure, budget_ms)
+
+
+def _front(points: Sequence[Point], measure: Measure) -> list[Point]:
+    best = [point for point, optimal in zip(points, fastest(points, measure), strict=True) if optimal]
+    return sorted(best, key=lambda point: (-measure.rounded(point), point.time_ms or 0.0, point.technique))
+
+
+def _added(point: Point, one: Point) -> AddedTime:
+    added = added_time(point, one)
+    assert added is not None
+    return AddedTime(0.0, 0.0, 0.0, 0.0, 0.0) if point is one else added
+
+
+def _within(points: Sequence[Point], one: Point, measure: Measure, budget_ms: float) -> Recommendation:
+    """The least error of those whose added time surely fits: the upper bound of its interval counts."""
+    fitting = [point for point in points if _added(point, one).high_ms <= budget_ms]
+    choice = _front(fitting, measure)[-1]
+    reason = (
+        f"the least {measure.name}, {_figure(measure, choice)}, of {len(fitting)} {'technique' if len(fitting) == 1 else 'techniques'} "
+    )
+    reason += f"that surely add at most {budget_ms:.3g} ms; it adds {_bounds(_added(choice, one))}"
+    better = [point for point in _front(points, measure) if measure.rounded(point) < measure.rounded(choice)]
+    following = "no technique has less error" if measure.name == "error" else f"no technique has less {measure.name}"
+    if better:
+        nearest = min(better, key=lambda point: (_added(point, one).high_ms, point.technique))
+        following = f"{nearest.technique.name} has {_less(measure, nearest, choice)} and needs {_added(nearest, one).high_ms:.3g} ms"
+    return Recommendation(one.scene, one.shading, choice.technique, _added(choice, one), reason, following)
+
+
+def _worth_their_time(points: Sequence[Point], one: Point, measure: Measure) -> Recommendation:
+    """Up the front from its fastest point, as long as there is a point that removes enough of the error and adds little."""
+    best = _front(points, measure)
+    choice, following = best[0], ""
+    for point in best[1:]:
+        added = added_time(point, choice)
+        if added is None or not is_enough(measure, choice, point):
+            continue
+        if added.low_share <= MAX_ADDED:
+            choice, following = point, ""
+        elif not following:
+            text = added_text(added, tie(point, choice))
+            following = f"{point.technique.name} has {_less(measure, point, choice)} for {text}, more than {percent(MAX_ADDED)[1:]}"
+    limits = f"at least {percent(1 - MAX_REMAINING)[1:]} of the {measure.name} for at most {percent(MAX_ADDED)[1:]} more time"
+    reason = f"no other technique removes {limits}" if choice is best[0] else f"each step up to it removes {limits}"
+    if choice is not one:
+        reason += f"; it has {_less(measure, choice, one)} than {one.technique.name}, and adds {_bounds(_added(choice, one))}"
+    return Recommendation(one.scene, one.shading, choice.technique, _added(choice, one), reason, following or "nothing is worth more time")
+
+
+def _figure(measure: Measure, point: Point) -> str:
+    return f"{measure.rounded(point):.4g}"
+
+
+def _less(measure: Measure, one: Point, other: Point) -> str:
+    share = 1 - measure.rounded(one) / measure.rounded(other) if measure.rounded(other) else 0.0
+    return f"{percent(share)[1:]} less {measure.name}"
+
+
+def _bounds(added: AddedTime) -> str:
+    if not added.ms and added.low_ms == added.high_ms:
+        return "nothing"
+    return f"{added.ms:.3g} ms ({added.low_ms:.3g} to {added.high_ms:.3g} ms, {percent(added.share)})"
+
+
+class WorthFrom(NamedTuple):
+    """From which cost of shading on a step up is worth its time: in milliseconds of a full screen at one sample, with the bounds that the
+    residuals of the model leave. None for a bound that lies beyond the costs measured; 0 if it is worth it at every cost."""
+
+    before: Technique
+    after: Technique
+    full_screen_ms: float | None
+    low_ms: float | None
+    high_ms: float | None
+
+
+def worth_from(points: Sequence[Point], measure: Measure, model: TimeModel, shadings: Sequence[Shading]) -> Iterator[WorthFrom]:
+    """For each step up from a sample count to the next that removes enough of the error, the cost from which it is worth its time, by the
+    model of times; `points` are those of one scene under one cost."""
+    counts = sorted((point for point in points if point.technique.kind == MSAA), key=lambda point: point.technique)
+    greatest = max((shading.nanoseconds or 0.0 for shading in shadings), default=0.0)
+    for before, after in pairwise(counts):
+        if (
+            greatest > 0
+            and is_enough(measure, before, after)
+            and model.predict(after.technique, 0.0)
+            and model.predict(before.technique, 0.0)
+        ):
+            scale = after.width * after.height * 1e-12
+            found = [_crossing(_excess(model, before.technique, after.technique, bound), greatest) for bound in (0, -1, 1)]
+            yield WorthFrom(before.technique, after.technique, *(None if cost is None else cost * scale for cost in found))
+
+
+def _excess(model: TimeModel, before: Technique, after: Technique, bound: int) -> Callable[[float], float]:
+    """How far the time of a step exceeds what is worth it where a million invocations take so many nanoseconds: by the prediction, or by
+    its lower (-1) or upper (1) bound."""
+
+    def excess(nanoseconds: float) -> float:
+        one, other = model.predict(after, nanoseconds), model.predict(before, nanoseconds)
+        assert one is not None and other is not None
+        time = one.low_ms if bound < 0 else one.high_ms if bound > 0 else one.time_ms
+        return time - (1 + MAX_ADDED) * other.time_ms
+
+    return excess
+
+
+def _crossing(excess: Callable[[float], float], greatest: float) -> float | None:
+    """The least argument up to `greatest` from which a falling function is at most 0; None if there is none."""
+    if excess(0.0) <= 0:
+        return 0.0
+    if excess(greatest) > 0:
+        return None
+    low, high = 0.0, greatest
+    for _ in range(BISECTIONS):
+        middle = (low + high) / 2
+        low, high = (middle, high) if excess(middle) > 0 else (low, middle)
+    return high
