@@ -94,6 +94,8 @@ def parse_options(arguments: Arguments) -> StudyOptions:
         raise UsageError("--samples and --techniques leave nothing to measure: sample shading needs a count above 1")
     if "plot" in arguments:
         chart_format(arguments["plot"], "--plot")
+    if "budget" in arguments and "device" not in arguments:
+        raise UsageError("--budget needs times: name the GPU that measures them with `--device NAME`")
     if arguments.get("ssim") and find_spec("skimage") is None:
         raise UsageError(needs_extra("--ssim", "ssim"))
     return StudyOptions(
@@ -131,6 +133,7 @@ def _list_scenes() -> int:
 
 
 def _study(arguments: Arguments, options: StudyOptions) -> int:
+    from msaa_lint.experiments.study.answer import conclude
     from msaa_lint.experiments.study.sweep import ordered, sweep, with_cost
 
     refuse_inputs([*(target.path for target in options.targets), arguments.get("plot")], arguments["paths"])
@@ -140,7 +143,7 @@ def _study(arguments: Arguments, options: StudyOptions) -> int:
         note(text)
     if arguments.get("record") and not any(subject.file for subject in studied) and not errors:
         raise UsageError("--record needs a description in a file, to write the record next to it")
-    costs, device = _costs(studied, errors, arguments, options, size, checkpoint)
+    costs, device, software = _costs(studied, errors, arguments, options, size, checkpoint)
     studied = [subject for subject in studied if subject.input.name in costs]
     untimed = _warn_of_failures(costs, errors)
     tasks = [Task(subject.input, technique, *size, options.bits, options.ssim) for subject in studied for technique in options.techniques]
@@ -155,7 +158,7 @@ def _study(arguments: Arguments, options: StudyOptions) -> int:
         else:
             points.append(with_cost(result, costs[result.scene], device))
     outcome = _outcome(size, options.bits, studied, points, failures, costs, device, errors)
-    outcome = outcome._replace(budget_ms=options.budget_ms)
+    outcome = conclude(outcome._replace(software=software, budget_ms=options.budget_ms))
     if "crops" in arguments:
         outcome = outcome._replace(pictures=_write_crops(arguments["crops"], bool(arguments.get("force")), options, studied))
     if "plot" in arguments:
@@ -190,10 +193,6 @@ def _outcome(
     errors: Sequence[Finding],
 ) -> Study:
     """What there is to report."""
-    from msaa_lint.experiments.study.advice import advice
-    from msaa_lint.experiments.study.pareto import mark_best
-
-    best = mark_best(points)
     untimed = {technique.name: cost.reason for by_technique in costs.values() for technique, cost in by_technique.items() if cost.reason}
     models = {subject.device.name if subject.device is not None else "" for subject in studied}
     return Study(
@@ -201,23 +200,24 @@ def _outcome(
         models.pop() if len(models) == 1 else "",
         size,
         bits,
-        [_scene(subject, [point for point in best if point.scene == subject.input.name]) for subject in studied],
-        best,
+        [_scene(subject, [point for point in points if point.scene == subject.input.name]) for subject in studied],
+        points,
         failures,
         [UntimedTechnique(name, reason) for name, reason in untimed.items()],
-        advice(best),
-        errors,
+        wrong=errors,
     )
 
 
 def _scene(subject: Subject, points: Sequence[Point]) -> SceneSummary:
     """The scene with the effects that it needs, and those that one of its techniques needs."""
+    from msaa_lint.experiments.study.scenes.about import about
+
     picture = subject.picture
     effects = {name: picture.why.get(name, "") for name in picture.effects}
     for point in points:
         for name in point.effects:
             effects.setdefault(name, "a technique needs it")
-    return SceneSummary(subject.input.name, picture.description, tuple(effects.items()), picture.coverage_matter)
+    return SceneSummary(subject.input.name, picture.description, tuple(effects.items()), picture.coverage_matter, about(picture))
 
 
 def _costs(
@@ -227,9 +227,9 @@ def _costs(
     options: StudyOptions,
     size: tuple[int, int],
     checkpoint: Checkpoint | None,
-) -> tuple[Costs, str]:
-    """What each technique costs, and the name of the device whose clock times it; empty if none does. An internal error of one scene is
-    added to `errors`."""
+) -> tuple[Costs, str, bool]:
+    """What each technique costs; the name of the device whose clock times it, empty if none does; and whether that is a software driver. An
+    internal error of one scene is added to `errors`."""
     from msaa_lint.experiments.study.scene_timing import SceneClock
     from msaa_lint.experiments.study.sweep import costs
 
@@ -246,7 +246,7 @@ def _costs(
                     continue
                 with SceneClock(clock, subject.picture, model) as source:
                     by_scene[subject.input.name] = costs(options.techniques, size, source, checkpoint)
-        return by_scene, clock.name if clock is not None else ""
+        return by_scene, clock.name if clock is not None else "", clock is not None and clock.software
 
 
 def _clock(arguments: Arguments) -> contextlib.AbstractContextManager[Any]:

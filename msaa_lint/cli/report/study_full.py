@@ -1,23 +1,21 @@
-"""The text report of `msaa-lint study`: a table per scene, its effects and advice, and the origin of the figures."""
+"""The text report of `msaa-lint study`: each scene's tables, effects, and advice under each cost of shading; the origin of the figures."""
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator
 
 from rich.console import Console
-from rich.text import Text
 
+from msaa_lint.experiments.study.effects import TABLE
+from msaa_lint.experiments.study.measures import ERROR
 from msaa_lint.experiments.study.outcome import SceneSummary, Study
-from msaa_lint.experiments.study.points import Point
+from msaa_lint.experiments.study.shading import Shading
 
 from . import Options, Write
 from .console import open_console
 from .escape import display
+from .study_tables import MARK, TIE, has_times, print_errors, print_times
 from .summary import plural
-from .tables import FIGURE, Column, Table, print_tables
-
-MARK = "*"
 
 
 def render(study: Study, out: Write, options: Options) -> None:
@@ -42,73 +40,80 @@ def _scene(scene: SceneSummary, study: Study, console: Console, out: Write, opti
         edges = f"{max(point.edge_pixels for point in points):,} of {study.size[0] * study.size[1]:,} pixels"
         console.print(f"{edges} {'are crossed by an edge' if scene.coverage else 'are compared by color'}", soft_wrap=True)
         console.print()
-        _print_table(points, scene, out, options)
+        print_errors(study, scene, out, options)
         console.print()
-    for name, reason in scene.effects:
-        console.print(f"effect {display(name)}" + (f": {display(reason)}" if reason else ""), soft_wrap=True)
-    if not scene.effects:
-        console.print("no effects: the scene needs none", soft_wrap=True)
+        if has_times(points):
+            print_times(study, scene, out, options)
+    for line in _effects(scene, study):
+        console.print(line, soft_wrap=True)
     for failure in study.failed:
         if failure.scene == scene.name:
             console.print(f"{failure.technique.name} failed: {display(failure.reason)}", style="red", soft_wrap=True)
     for advice in study.advice:
         if advice.scene == scene.name:
             console.print(f"- {display(advice.text)} ({display(advice.reason)})", soft_wrap=True)
+    for name in dict.fromkeys(step.shading for step in study.steps if step.scene == scene.name):
+        for line in _answer(scene, name, study):
+            console.print(line, soft_wrap=True)
 
 
-def _print_table(points: Sequence[Point], scene: SceneSummary, out: Write, options: Options) -> None:
-    """Prints the points of a scene: in one table if it fits, else errors and costs in a table each."""
-    columns = [name for name, text_of in _COLUMNS.items() if name not in _OPTIONAL or any(text_of(point) != "-" for point in points)]
-    parts = [[name for name in columns if (name in _COSTS) is costs] for costs in (False, True)]
-    whole = ([_table(points, scene, columns, gap)] for gap in (2, 1))
-    print_tables(out, options, *whole, [_table(points, scene, part, 1) for part in parts if part])
-
-
-def _table(points: Sequence[Point], scene: SceneSummary, columns: Sequence[str], gap: int) -> Table:
-    titles = [name if scene.coverage else name.replace("edges", "color") for name in columns]
-    rows = []
+def _effects(scene: SceneSummary, study: Study) -> Iterator[str]:
+    """The effects that ran, each with its reason and its share of the simulation's time."""
+    points = study.of(scene.name, (study.shading_names(scene.name) or [""])[0])
+    total = sum(point.simulated_ms for point in points)
+    times: dict[str, float] = {}
     for point in points:
-        cells = [MARK if point.best else "", point.technique.name, *(_COLUMNS[name](point) for name in columns)]
-        rows.append(("green" if point.best else "", [Text(cell) for cell in cells]))
-    return Table([Column(""), Column("samples"), *(Column(title, FIGURE) for title in titles)], rows, gap)
+        for stage, time in point.stages:
+            times[stage] = times.get(stage, 0.0) + time
+    for name, reason in scene.effects:
+        share = f", {100 * times[name] / total:.0f} % of the simulation's time" if total > 0 and name in times else ""
+        yield f"effect {display(name)}" + (f": {display(reason)}" if reason else "") + share
+    ran = {name for name, _ in scene.effects}
+    if not ran:
+        yield "no effects: the scene needs none"
+    elif times:
+        yield f"off, without any time: {', '.join(effect.name for effect in TABLE if effect.name not in ran)}"
 
 
-def _number(value: float | None, digits: str) -> str:
-    if value is None or math.isnan(value):
-        return "-"
-    if math.isinf(value):
-        return "exact" if value > 0 else "-"
-    return format(value, digits if abs(value) < 1e7 else ".3g")
+def _answer(scene: SceneSummary, name: str, study: Study) -> Iterator[str]:
+    """The steps up under one cost of shading, the front, and what to take."""
+    steps = [step for step in study.steps if (step.scene, step.shading) == (scene.name, name)]
+    choices = [choice for choice in study.recommendations if (choice.scene, choice.shading) == (scene.name, name)]
+    yield ""
+    if name:
+        shading = next((shading for shading in study.shadings if shading.name == name), Shading(name))
+        yield f"shading {display(name)}{_full_screen(shading, study)}:"
+    for step in steps:
+        yield f"  {step.text}"
+    timed = [point for point in study.of(scene.name, name) if point.best and point.time_ms is not None]
+    if timed and not study.software:
+        by = "" if scene.measure == ERROR else f" of {scene.measure.name} and time"
+        ordered = sorted(timed, key=lambda point: (point.time_ms or 0.0, point.technique))
+        yield f"  front{by}: {'; '.join(point.technique.name for point in ordered)}"
+    for choice in choices:
+        limit = "" if study.budget_ms is None else f" within {study.budget_ms:.4g} ms"
+        yield f"  {choice.text}{limit}: {choice.reason}; {choice.following}"
 
 
-_COLUMNS: dict[str, Callable[[Point], str]] = {
-    "RMSE\nedges": lambda point: _number(point.rmse, ".4f"),
-    "RMSE\nall": lambda point: _number(point.rmse_all, ".5f"),
-    "worst": lambda point: _number(point.max_error, ".3f"),
-    "bias": lambda point: _number(point.bias, "+.4f"),
-    "PSNR dB\nlinear": lambda point: _number(point.psnr_db, ".1f"),
-    "PSNR dB\ndisplay": lambda point: _number(point.psnr_display_db, ".1f"),
-    "SSIM": lambda point: _number(point.ssim, ".4f"),
-    "time\nms": lambda point: _number(point.time_ms, ".3g"),
-    "time\nto 1x": lambda point: _number(point.ratio, ".2f"),
-    "MB per\nframe": lambda point: _number(point.bytes_per_frame / 1e6 if point.bytes_per_frame is not None else None, ".1f"),
-    "mW": lambda point: _number(point.milliwatts, ".0f"),
-    "MiB": lambda point: _number(point.memory_mib, ".1f"),
-}
-_COSTS = frozenset({"time\nms", "time\nto 1x", "MB per\nframe", "mW", "MiB"})
-_OPTIONAL = _COSTS | {"SSIM"}
-"""Columns that are left out if nothing in them is known."""
+def _full_screen(shading: Shading, study: Study) -> str:
+    source = ", on a software driver" if study.software else ""
+    return f" ({shading.full_screen_ms:.3g} ms a full screen at 1x{source})" if shading.full_screen_ms else ""
 
 
 def _summary(study: Study) -> Iterator[str]:
     size = f"{study.size[0]}x{study.size[1]}, vertices snapped to {study.bits} bits"
     if study.points:
         if study.device:
-            yield f"{size}; times measured by the clock of {display(study.device)}"
-            yield f"{MARK} Pareto-optimal: no other technique has less error in as little time"
+            yield from _timing(study, size)
         else:
             yield f"{size}; no times: --device NAME measures them"
+        if study.device and not study.software:
+            yield f"{MARK} Pareto-optimal: no other technique has less error in as little time"
+        else:
             yield f"{MARK} Pareto-optimal: no other technique has less error for as few samples, shader invocations, and bytes"
+        for scene in study.scenes:
+            if scene.measure != ERROR:
+                yield f"the error of {display(scene.name)} that counts is its {scene.measure.name}: it is about {', '.join(scene.about)}"
         model = f" for {display(study.model)}" if study.model else ""
         yield f"bytes, power, and memory: the cost model{model}, with samples kept on the tile"
     names: dict[str, list[str]] = {}
@@ -120,3 +125,25 @@ def _summary(study: Study) -> Iterator[str]:
         yield f"written: {display(path)}"
     failed = f", {len(study.failed)} failed" if study.failed else ""
     yield f"{plural(len(study.points), 'point')} of {plural(len(study.scenes), 'scene')}{failed}"
+
+
+def _timing(study: Study, size: str) -> Iterator[str]:
+    """The origin of the times: the device, the calibrated costs of shading, and the models."""
+    yield f"{size}; times measured by the clock of {display(study.device)}"
+    if study.software:
+        yield f"{display(study.device)} is a software driver: its times say nothing of a GPU, and advice does not use them"
+    if any(point.low_ms is not None for point in study.points):
+        yield f"± half of the 95 % interval of the median; {TIE} the same time, within the noise, as the next shorter one"
+    for shading in study.shadings:
+        if shading.operations or shading.fetches or shading.full_screen_ms:
+            yield f"{display(shading.name)}: {_work(shading)} per invocation{_full_screen(shading, study)}"
+    for model in study.models:
+        residual, noise = 100 * model.residual, 100 * model.noise
+        yield f"model of the times of {display(model.scene)}: off by at most {residual:.1f} %, of which {noise:.1f} % may be noise"
+
+
+def _work(shading: Shading) -> str:
+    parts = [plural(shading.operations, "operation")]
+    if shading.fetches:
+        parts.append(f"{plural(shading.fetches, 'texture fetch')} from {shading.footprint / 1024:.4g} KiB")
+    return " and ".join(parts)

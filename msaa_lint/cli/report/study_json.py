@@ -8,14 +8,18 @@ from __future__ import annotations
 import math
 
 from msaa_lint.experiments.study.outcome import SceneSummary, Study
-from msaa_lint.experiments.study.points import Point
+from msaa_lint.experiments.study.points import Point, Technique
+from msaa_lint.experiments.study.recommendation import Recommendation
+from msaa_lint.experiments.study.shading import Shading
+from msaa_lint.experiments.study.steps import AddedTime, Step
+from msaa_lint.experiments.study.time_model import TimeModel
 
 from . import Options, Write
 from .data import Json, head, text, write_object
 
 SCHEMA = "msaa-lint/study-v1"
-_ERRORS = ("rmse", "rmse_all", "max_error", "bias", "psnr_db", "psnr_display_db", "ssim")
-_COSTS = ("ratio", "bytes_per_frame", "milliwatts", "memory_mib")
+_ERRORS = ("rmse", "rmse_all", "max_error", "bias", "psnr_db", "psnr_display_db", "ssim", "flip", "flicker")
+_COSTS = ("low_ms", "high_ms", "ratio", "fill_ms", "shading_ms", "resolve_ms", "bytes_per_frame", "milliwatts", "memory_mib")
 
 
 def render(study: Study, out: Write, options: Options) -> None:
@@ -23,12 +27,18 @@ def render(study: Study, out: Write, options: Options) -> None:
     members: Json = {
         **head(SCHEMA, options.version),
         "device": text(study.device) or None,
+        "software": study.software,
         "model": text(study.model) or None,
         # A tuple stays on one line.
         "size": tuple(study.size),
         "bits": study.bits,
+        "budget_ms": _number(study.budget_ms),
+        "shadings": [_shading(shading) for shading in study.shadings],
+        "models": [_model(model) for model in study.models],
         "scenes": [_scene(scene, study) for scene in study.scenes],
-        "points": [_point(point) for point in study.points],
+        "points": [_point(point, study.software) for point in study.points],
+        "steps": [_step(step) for step in study.steps],
+        "recommendations": [_recommendation(choice) for choice in study.recommendations],
         "advice": [{"scene": text(advice.scene), "says": text(advice.text), "because": text(advice.reason)} for advice in study.advice],
         "untimed": [{"name": untimed.name, "reason": text(untimed.reason)} for untimed in study.untimed],
         "failed": [
@@ -46,21 +56,78 @@ def _scene(scene: SceneSummary, study: Study) -> Json:
         "error_of": "coverage" if scene.coverage else "color",
         "edge_pixels": max((point.edge_pixels for point in study.of(scene.name)), default=0),
         "effects": [{"name": name, "why": text(why)} for name, why in scene.effects],
+        "about": list(scene.about),
+        "compared_by": scene.measure.key,
     }
 
 
-def _point(point: Point) -> Json:
-    technique = point.technique
+def _shading(shading: Shading) -> Json:
+    return {
+        "name": text(shading.name),
+        "operations": shading.operations,
+        "fetches": shading.fetches,
+        "footprint": shading.footprint,
+        "nanoseconds": _number(shading.nanoseconds),
+        "full_screen_ms": _number(shading.full_screen_ms),
+    }
+
+
+def _model(model: TimeModel) -> Json:
+    """The coefficients of a scene's times: `base_ms` plus `invocations` times the cost of a million, in nanoseconds, times 1e-12."""
+    coefficients = [
+        {**_technique(technique), "base_ms": _number(base), "invocations": _number(model.invocations[technique])}
+        for technique, base in model.base_ms.items()
+    ]
+    return {"scene": text(model.scene), "residual": _number(model.residual), "noise": _number(model.noise), "techniques": coefficients}
+
+
+def _technique(technique: Technique) -> Json:
+    return {"name": technique.name, "technique": technique.kind, "samples": technique.samples, "shaded": technique.shaded}
+
+
+def _added(added: AddedTime | None) -> Json:
+    ms, low, high, share = (added.ms, added.low_ms, added.high_ms, added.share) if added is not None else (None,) * 4
+    return {"added_ms": _number(ms), "added_low_ms": _number(low), "added_high_ms": _number(high), "added_share": _number(share)}
+
+
+def _step(step: Step) -> Json:
+    return {
+        "scene": text(step.scene),
+        "shading": text(step.shading),
+        "from": step.before.name,
+        "to": step.after.name,
+        **_added(step.added),
+        "tie": step.same_time if step.added is not None else None,
+        "changes": {key: _number(change) for key, change in step.changes.items()},
+        "worth": step.worth,
+        "says": step.text,
+    }
+
+
+def _recommendation(choice: Recommendation) -> Json:
+    return {
+        "scene": text(choice.scene),
+        "shading": text(choice.shading),
+        **_technique(choice.technique),
+        **_added(choice.added),
+        "says": choice.text,
+        "because": choice.reason,
+        "next": choice.following,
+    }
+
+
+def _point(point: Point, software: bool) -> Json:
     return {
         "scene": text(point.scene),
-        "technique": technique.kind,
-        "samples": technique.samples,
-        "shaded": technique.shaded,
-        "name": technique.name,
+        "shading": text(point.shading),
+        **_technique(point.technique),
         **{name: _number(getattr(point, name)) for name in _ERRORS},
         "time_ms": _number(point.time_ms),
         "time_from": text(point.time_from),
+        "software": software and point.time_ms is not None,
         **{name: _number(getattr(point, name)) for name in _COSTS},
+        "invocations": point.invocations,
+        "expected_invocations": point.expected_invocations,
         "effects": list(point.effects),
         "best": point.best,
     }

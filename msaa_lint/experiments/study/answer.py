@@ -19,21 +19,24 @@ def conclude(study: Study) -> Study:
     timed = not study.software
     scenes = [scene._replace(measure=measure_of(scene.about, study.of(scene.name))) for scene in study.scenes]
     marked = study._replace(scenes=scenes, points=mark_best(study.points, {scene.name: scene.measure for scene in scenes}, timed=timed))
-    groups = [(scene, marked.of(scene.name, shading)) for scene in scenes for shading in marked.shading_names(scene.name)]
+    groups = [(scene, marked.of(scene.name, name)) for scene in scenes for name in marked.shading_names(scene.name)]
     choices = [recommendation(points, scene.measure, study.budget_ms) for scene, points in groups] if timed else []
+    # Errors are the same under every cost of shading.
+    compared = groups if timed else [(scene, _first(marked, scene)) for scene in scenes]
     return marked._replace(
-        steps=[step for scene, points in groups for step in steps(points, scene.about, scene.measure, timed=timed)],
+        steps=[step for scene, points in compared for step in steps(points, scene.about, scene.measure, timed=timed)],
         recommendations=[choice for choice in choices if choice is not None],
         advice=[sentence for scene in scenes for sentence in _advice(marked, scene)],
     )
 
 
+def _first(study: Study, scene: SceneSummary) -> list[Point]:
+    """The points of a scene under the first cost of shading."""
+    return study.of(scene.name, (study.shading_names(scene.name) or [""])[0])
+
+
 def _advice(study: Study, scene: SceneSummary) -> Iterator[Advice]:
-    names = study.shading_names(scene.name)
-    if not names:
-        return
-    # Errors are the same under every cost of shading.
-    points = study.of(scene.name, names[0])
+    points = _first(study, scene)
     yield from advice(points, scene.measure)
     if not study.software:
         yield from _worth(study, scene, points, scene.measure)

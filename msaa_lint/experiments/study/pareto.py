@@ -18,16 +18,18 @@ Vector = tuple[float, ...]
 def mark_best(points: Iterable[Point], measures: Mapping[str, Measure] | None = None, *, timed: bool = True) -> list[Point]:
     """The points, with `best` set on those that no other point of their scene, shading cost, and size dominates.
 
-    `measures` are the errors that decide, by scene: the RMSE where it has none. Without `timed`, times are disregarded.
+    `measures` are the errors that decide, by scene: the RMSE where it has none. Without `timed`, times are disregarded. Points without a
+    time are not on the front where others have one.
     """
     all_points = list(points)
     best = [False] * len(all_points)
     for (scene, *_), group in _groups(all_points).items():
         measure = (measures or {}).get(scene, ERROR)
-        group_points = [all_points[n] for n in group]
-        has_times = timed and any(point.time_ms is not None for point in group_points)
-        optimal = fastest(group_points, measure) if has_times else front(vectors(group_points, measure))
-        for n, is_best in zip(group, optimal, strict=True):
+        # Some devices do not draw every technique.
+        drawn = [n for n in group if all_points[n].time_ms is not None]
+        group_points = [all_points[n] for n in drawn or group]
+        optimal = fastest(group_points, measure) if timed and drawn else front(vectors(group_points, measure))
+        for n, is_best in zip(drawn or group, optimal, strict=True):
             best[n] = is_best
     return [point._replace(best=optimal) for point, optimal in zip(all_points, best, strict=True)]
 

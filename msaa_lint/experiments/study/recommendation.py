@@ -58,12 +58,11 @@ def _within(points: Sequence[Point], one: Point, measure: Measure, budget_ms: fl
     """The least error of those whose added time surely fits: the upper bound of its interval counts."""
     fitting = [point for point in points if _added(point, one).high_ms <= budget_ms]
     choice = _front(fitting, measure)[-1]
-    reason = (
-        f"the least {measure.name}, {_figure(measure, choice)}, of {len(fitting)} {'technique' if len(fitting) == 1 else 'techniques'} "
-    )
-    reason += f"that surely add at most {budget_ms:.3g} ms; it adds {_bounds(_added(choice, one))}"
+    count = f"{len(fitting)} technique{'' if len(fitting) == 1 else 's'}"
+    reason = f"the least {measure.name}, {_figure(measure, choice)}, of {count} that surely add at most {budget_ms:.3g} ms"
+    reason += f"; it adds {_bounds(_added(choice, one))}"
     better = [point for point in _front(points, measure) if measure.rounded(point) < measure.rounded(choice)]
-    following = "no technique has less error" if measure.name == "error" else f"no technique has less {measure.name}"
+    following = f"no technique has less {measure.name}"
     if better:
         nearest = min(better, key=lambda point: (_added(point, one).high_ms, point.technique))
         following = f"{nearest.technique.name} has {_less(measure, nearest, choice)} and needs {_added(nearest, one).high_ms:.3g} ms"
@@ -122,12 +121,8 @@ def worth_from(points: Sequence[Point], measure: Measure, model: TimeModel, shad
     counts = sorted((point for point in points if point.technique.kind == MSAA), key=lambda point: point.technique)
     greatest = max((shading.nanoseconds or 0.0 for shading in shadings), default=0.0)
     for before, after in pairwise(counts):
-        if (
-            greatest > 0
-            and is_enough(measure, before, after)
-            and model.predict(after.technique, 0.0)
-            and model.predict(before.technique, 0.0)
-        ):
+        timed = model.predict(before.technique, 0.0) and model.predict(after.technique, 0.0)
+        if greatest > 0 and timed and is_enough(measure, before, after):
             scale = after.width * after.height * 1e-12
             found = [_crossing(_excess(model, before.technique, after.technique, bound), greatest) for bound in (0, -1, 1)]
             yield WorthFrom(before.technique, after.technique, *(None if cost is None else cost * scale for cost in found))

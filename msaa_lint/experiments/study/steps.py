@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from itertools import pairwise
 from typing import NamedTuple
 
-from .measures import DISPLAY, ERROR, FLICKER, FLIP, Measure
+from .measures import DISPLAY, ERROR, FLICKER, FLIP, MEASURES, Measure
 from .pareto import interval, tie
 from .points import MSAA, SAMPLE_SHADING, Point, Technique
 from .scenes.about import ALPHA, TEXTURE
@@ -17,8 +17,8 @@ MAX_REMAINING = 0.75
 slopes (the error falls as N^-0.75, Mitchell 1996); this requires somewhat more than half of that gain."""
 
 MAX_ADDED = 0.10
-"""The largest share of the time that a step up may add to be worth it where no budget is stated: a convention, not a measurement. Of all the
-time of a 60 Hz frame it is 1.7 ms; whether more is worth it depends on what else the frame needs, which a budget states."""
+"""The largest share of the time that a step up may add to be worth it where no budget is stated: a convention, not a measurement. Of
+all the time of a 60 Hz frame it is 1.7 ms; whether more is worth it depends on what else the frame needs, which a budget states."""
 
 
 class AddedTime(NamedTuple):
@@ -33,7 +33,7 @@ class AddedTime(NamedTuple):
 
 
 class Step(NamedTuple):
-    """A step up from one technique to another on one scene under one cost of shading.
+    """A step up from one technique to another on one scene under one cost of shading, whose name is empty where times do not count.
 
     `added` is what it adds in time, None where a time is not known; with `same_time` that is within the noise. `changes` are the relative
     changes of the errors, by the keys of their measures: -0.5 where the error halves. `worth` says whether it removes enough of the error
@@ -53,16 +53,16 @@ class Step(NamedTuple):
     def text(self) -> str:
         """`2x to 4x: +0.31 ms (+9 %), error -42 %, flicker -55 %`."""
         parts = [added_text(self.added, self.same_time)] if self.added is not None else []
-        parts += [
-            change_text(measure, self.changes[measure.key]) for measure in (ERROR, DISPLAY, FLIP, FLICKER) if measure.key in self.changes
-        ]
+        parts += [change_text(measure, self.changes[measure.key]) for measure in MEASURES if measure.key in self.changes]
         return f"{self.before.name} to {self.after.name}: {', '.join(parts) or 'no error before'}"
 
 
 def steps(points: Sequence[Point], about: Sequence[str], measure: Measure, *, timed: bool) -> Iterator[Step]:
     """The steps of one scene under one cost of shading: from each sample count to the next, and where the error may lie inside triangles,
     from each count to shading every sample of it."""
-    counts = sorted((point for point in points if point.technique.kind == MSAA), key=lambda point: point.technique)
+    known = [point for point in points if point.time_ms is not None] if timed else []
+    # Where a device lacks a count, the step is to the next that it has.
+    counts = sorted((point for point in known or points if point.technique.kind == MSAA), key=lambda point: point.technique)
     pairs = list(pairwise(counts))
     if not {ALPHA, TEXTURE}.isdisjoint(about):
         shaded = {point.technique.samples: point for point in points if point.technique == _all_shaded(point.technique)}
@@ -80,7 +80,9 @@ def _step(before: Point, after: Point, measure: Measure, timed: bool) -> Step:
     changes = {each.key: change for each in shown if (change := _change(each, before, after)) is not None}
     difference = added_time(after, before) if timed else None
     worth = None if difference is None else is_enough(measure, before, after) and difference.low_share <= MAX_ADDED
-    return Step(before.scene, before.shading, before.technique, after.technique, difference, tie(before, after), changes, worth)
+    return Step(
+        before.scene, before.shading if timed else "", before.technique, after.technique, difference, tie(before, after), changes, worth
+    )
 
 
 def _change(measure: Measure, before: Point, after: Point) -> float | None:

@@ -30,6 +30,15 @@ def timed(technique: Technique, scene: str = "edges", **other: Any) -> Point:
     return point(technique, scene, **{**given, **other})
 
 
+def shaded(technique: Technique, shading: str, nanoseconds: float, noise: float = 0.01, **other: Any) -> Point:
+    """The same under a cost of shading, by the model of times: what the bare fill takes, and a million invocations each."""
+    bare = timed(technique)
+    assert bare.time_ms is not None
+    time = bare.time_ms + technique.shaded * nanoseconds * 1e-6
+    bounds = {"low_ms": time * (1 - noise), "high_ms": time * (1 + noise)}
+    return bare._replace(**{"shading": shading, "time_ms": time, **bounds, "ratio": None, **other})
+
+
 def measure(task: Task) -> Point:
     """A point of a task. What the scene's name says comes to pass at 4x: `breaks`, `dies`, `twice`."""
     name, four = task.input.name, task.technique == Technique(MSAA, 4)

@@ -8,23 +8,24 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from msaa_lint.experiments.study.pareto import SAME, Vector, beats, front, mark_best
+from msaa_lint.experiments.study.measures import FLICKER
+from msaa_lint.experiments.study.pareto import SAME, Vector, as_fast, beats, front, interval, mark_best, tie
 from msaa_lint.experiments.study.points import MSAA, SAMPLE_SHADING, SSAA, Point, Technique, techniques
 from tests.experiments.study.fakes import point, timed
 
 FEW = st.integers(0, 6).map(float)
-VECTORS = st.lists(st.tuples(FEW, FEW) | st.none(), max_size=12)
+VECTORS = st.lists(st.tuples(FEW, FEW), max_size=12)
 
 
 @given(VECTORS)
-def test_no_member_is_beaten_and_every_other_is_by_a_member(vectors: list[Vector | None]) -> None:
+def test_no_member_is_beaten_and_every_other_is_by_a_member(vectors: list[Vector]) -> None:
     on = front(vectors)
-    members = [vector for vector, best in zip(vectors, on, strict=True) if best and vector is not None]
+    members = [vector for vector, best in zip(vectors, on, strict=True) if best]
     for vector, best in zip(vectors, on, strict=True):
-        assert best == (vector is not None and not any(beats(other, vector) for other in vectors if other is not None))
-        if vector is not None and not best:
+        assert best == (not any(beats(other, vector) for other in vectors))
+        if not best:
             assert any(beats(member, vector) for member in members)
-    assert bool(members) == any(vector is not None for vector in vectors)
+    assert bool(members) == bool(vectors)
 
 
 @given(st.lists(st.tuples(FEW, FEW), min_size=1, max_size=8), st.randoms())
@@ -50,7 +51,7 @@ def test_beating_is_a_strict_order(a: Vector, b: Vector, c: Vector) -> None:
 
 
 def test_what_is_no_number_is_on_no_front() -> None:
-    assert front([(math.nan, 1.0), (2.0, 2.0), (1.0, math.nan), None]) == [False, True, False, False]
+    assert front([(math.nan, 1.0), (2.0, 2.0), (1.0, math.nan)]) == [False, True, False]
     assert front([]) == []
 
 
@@ -98,3 +99,77 @@ def test_what_does_the_same_with_less_work_in_the_same_time_takes_the_place(time
     assert best(points) == (names if len(names) == 1 else names[1:])
     better = [points[0], points[1]._replace(rmse=0.07)]
     assert best(better) == ["4x, half of them shaded"]
+
+
+TIMES = st.tuples(st.integers(1, 9), st.integers(0, 3), st.integers(0, 3))
+NOISY = st.lists(st.tuples(st.sampled_from(techniques()), TIMES, st.sampled_from([0.1, 0.2, 0.3])), min_size=1, max_size=9)
+
+
+def noisy(rows: list[tuple[Technique, tuple[int, int, int], float]]) -> list[Point]:
+    return [
+        timed(technique, time_ms=float(time), low_ms=float(time - low), high_ms=float(time + high), rmse=error)
+        for technique, (time, low, high), error in rows
+    ]
+
+
+def work(one: Point) -> Vector:
+    return float(one.technique.samples), float(one.technique.shaded)
+
+
+@given(NOISY)
+def test_within_the_noise_every_point_that_is_not_on_the_front_gives_way_to_one_that_is(
+    rows: list[tuple[Technique, tuple[int, int, int], float]],
+) -> None:
+    points = mark_best(noisy(rows))
+    members = [one for one in points if one.best]
+    assert members
+    for one in points:
+        better = [other for other in members if as_fast(other, one) and other.rmse < one.rmse]
+        assert not (one.best and better)
+        if not one.best:
+            equal = [other for other in members if as_fast(other, one) and other.rmse == one.rmse]
+            assert better or any(beats(work(other), work(one)) or (other.time_ms or 0) <= (one.time_ms or 0) for other in equal)
+
+
+@given(NOISY, st.randoms())
+def test_the_front_does_not_depend_on_the_order(rows: list[tuple[Technique, tuple[int, int, int], float]], random: object) -> None:
+    points = noisy([row for row in rows if row[0] not in [other[0] for other in rows if other is not row]])
+    mixed = list(points)
+    random.shuffle(mixed)  # type: ignore[attr-defined]
+    assert sorted(best(points)) == sorted(best(mixed))
+
+
+def test_a_difference_within_the_intervals_is_a_tie() -> None:
+    four = timed(Technique(MSAA, 4), time_ms=2.0, low_ms=1.9, high_ms=2.1)
+    eight = timed(Technique(MSAA, 8), time_ms=2.15, low_ms=2.1, high_ms=2.2)
+    later = eight._replace(low_ms=2.11)
+    assert tie(four, eight) and tie(eight, four)
+    assert not tie(four, later) and as_fast(four, later) and not as_fast(later, four)
+    assert best([four, eight]) == ["8x"], "less error in the same time"
+    assert best([four, later]) == ["4x", "8x"]
+    low, high = interval(four._replace(low_ms=None))
+    assert low * high == pytest.approx(4.0) and high / low == pytest.approx(SAME)
+    assert not tie(four, eight._replace(time_ms=None))
+
+
+def test_each_cost_of_shading_has_a_front_of_its_own() -> None:
+    counts = techniques((MSAA,), (4, 8))
+    points = [timed(technique, shading="none") for technique in counts]
+    points += [timed(technique, shading="heavy", time_ms=9.0) for technique in counts]
+    assert [(each.shading, each.technique.name) for each in mark_best(points) if each.best] == [
+        ("none", "4x"), ("none", "8x"), ("heavy", "8x"),
+    ]  # fmt: skip
+
+
+def test_the_error_that_counts_decides() -> None:
+    four, eight = timed(Technique(MSAA, 4), flicker=0.1), timed(Technique(MSAA, 8), flicker=0.1)
+    assert [each.best for each in mark_best([four, eight], {"edges": FLICKER})] == [True, False]
+    assert [each.best for each in mark_best([four, eight], {"wires": FLICKER})] == [True, True]
+
+
+def test_times_that_do_not_count_put_nothing_on_the_front() -> None:
+    """A software driver's."""
+    slow = [timed(technique, time_ms=10.0 / technique.samples) for technique in techniques((MSAA,), (4, 8))]
+    assert best(slow) == ["8x"]
+    assert [each.technique.name for each in mark_best(slow, timed=False) if each.best] == ["4x", "8x"]
+    assert [each.best for each in mark_best([slow[0], slow[1]._replace(time_ms=None)], timed=False)] == [True, False], "it does not draw it"

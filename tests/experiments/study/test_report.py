@@ -20,15 +20,17 @@ from msaa_lint.cli.report.study_json import render as as_json
 from msaa_lint.cli.report.study_plot import place, plot, plotted
 from msaa_lint.core.diagnostics import diagnostic
 from msaa_lint.experiments.confirm.png import Picture, png
-from msaa_lint.experiments.study.advice import Advice, advice
+from msaa_lint.experiments.study.advice import Advice
+from msaa_lint.experiments.study.answer import conclude
 from msaa_lint.experiments.study.crops import align, display_codes, label_row, most_different, short_name, stack, window
 from msaa_lint.experiments.study.outcome import SceneSummary, Study, UntimedTechnique
-from msaa_lint.experiments.study.pareto import mark_best
 from msaa_lint.experiments.study.points import MSAA, SAMPLE_SHADING, SSAA, Point, Technique, techniques
 from msaa_lint.experiments.study.scenes import scene
+from msaa_lint.experiments.study.shading import Shading
 from msaa_lint.experiments.study.simulate import simulate
 from msaa_lint.experiments.study.tasks import FailedPoint
-from tests.experiments.study.fakes import point, timed
+from msaa_lint.experiments.study.time_model import TimeModel
+from tests.experiments.study.fakes import TIMES, point, shaded, timed
 from tests.paths import ROOT
 from tests.strength import examples
 
@@ -42,28 +44,59 @@ def study(**other: Any) -> Study:
     points = [timed(technique) for technique in techniques()]
     points += [timed(technique, "texture", rmse=0.3 / math.sqrt(technique.shaded), psnr_db=math.inf) for technique in techniques((MSAA,))]
     missing = {"time_ms": None, "time_from": "", "ratio": None}
-    points = mark_best([each._replace(**missing) if each.technique.samples == 16 else each for each in points])
-    made = Study(
-        "a device",
-        "Mali-G76",
-        (64, 48),
-        8,
-        [
-            SceneSummary("edges", "edges at all angles", (("depth-test", "a pipeline tests depth"),)),
-            SceneSummary("texture", "detail inside of triangles", (), coverage=False),
-        ],
-        points,
-        [FailedPoint("texture", Technique(SAMPLE_SHADING, 4, 1.0), "ValueError: it broke")],
-        [
-            UntimedTechnique("16x", "the device does not have 16 samples"),
-            UntimedTechnique("16x, each shaded", "the device does not have 16 samples"),
-        ],
-        advice(points),
-        [diagnostic("MSAA901", "the input is empty", "bad.msaa.yaml")],
-        ["frame.msaa.yaml.msaa-study.json"],
-        ["crops/edges-crops.png"],
+    points = [each._replace(**missing) if each.technique.samples == 16 else each for each in points]
+    return conclude(
+        Study(
+            "a device",
+            "Mali-G76",
+            (64, 48),
+            8,
+            [
+                SceneSummary("edges", "edges at all angles", (("depth-test", "a pipeline tests depth"),)),
+                SceneSummary("texture", "detail inside of triangles", (), coverage=False),
+            ],
+            points,
+            [FailedPoint("texture", Technique(SAMPLE_SHADING, 4, 1.0), "ValueError: it broke")],
+            [
+                UntimedTechnique("16x", "the device does not have 16 samples"),
+                UntimedTechnique("16x, each shaded", "the device does not have 16 samples"),
+            ],
+            wrong=[diagnostic("MSAA901", "the input is empty", "bad.msaa.yaml")],
+            records=["frame.msaa.yaml.msaa-study.json"],
+            pictures=["crops/edges-crops.png"],
+        )._replace(**other)
     )
-    return made._replace(**other)
+
+
+COSTS = (
+    Shading("none", nanoseconds=0.0, full_screen_ms=0.0),
+    Shading("medium", 312, 4, 65536, 2e6, 4.17),
+    Shading("heavy", 936, 12, 262144, 8e6, 12.5),
+)
+
+
+def costly(**other: Any) -> Study:
+    """One scene under three costs of shading, with all that can be measured."""
+    of = [*techniques((MSAA,), (1, 2, 4, 8)), Technique(SAMPLE_SHADING, 4, 1.0)]
+    measured = {"flip": 0.05, "invocations": 1234567, "expected_invocations": 1230000, "fill_ms": 0.5, "shading_ms": 0.3, "resolve_ms": 0.2}
+    points = [
+        shaded(
+            technique,
+            cost.name,
+            cost.nanoseconds or 0.0,
+            flicker=0.1 / technique.samples,
+            ratio=1.5,
+            stages=(("depth-test", 25.0),),
+            simulated_ms=100.0,
+            **measured,
+        )
+        for cost in COSTS
+        for technique in of
+    ]
+    base = {technique: TIMES[technique.samples] for technique in of}
+    model = TimeModel("edges", base, {technique: 3072.0 * technique.shaded for technique in of}, 0.031, 0.01)
+    more = {"scenes": study().scenes[:1], "points": points, "failed": [], "shadings": COSTS, "models": [model], "budget_ms": 1.2}
+    return study(**{**more, **other})
 
 
 def printed(render: Any, of: Study, *more: Any) -> str:
@@ -90,26 +123,64 @@ def test_text_byte_for_byte() -> None:
     check("study.txt", printed(as_text, study(), Options(width=160)))
 
 
+def test_costs_of_shading_byte_for_byte() -> None:
+    """Errors once, then times with a group of columns for each cost, in 100 columns."""
+    text = printed(as_text, costly(), Options(width=100))
+    check("shading.txt", text)
+    table = [line for line in text.splitlines() if line.startswith((" ", "*", "=")) and "to" not in line]
+    assert max(map(len, table)) <= 100
+    assert text.count("0.2887") == 1, "errors are the same under every cost"
+    json_text = printed(as_json, costly(), Options(version="1.0"))
+    check("shading.json", json_text)
+    jsonschema.Draft202012Validator(SCHEMA).validate(json.loads(json_text))
+
+
+def test_a_software_driver_s_times_are_labelled_and_advise_nothing() -> None:
+    of = costly(software=True, device="llvmpipe")
+    text = printed(as_text, of, Options(width=100))
+    check("software.txt", text)
+    assert "llvmpipe is a software driver: its times say nothing of a GPU" in text
+    assert all(word not in text for word in ("take ", "front", "worth its time from", "+0.3 ms"))
+    data = json.loads(printed(as_json, of, Options()))
+    assert data["software"] is True and {each["software"] for each in data["points"]} == {True}
+    assert data["recommendations"] == [] and {each["added_ms"] for each in data["steps"]} == {None}
+
+
+def test_every_group_of_a_narrow_table_has_its_heading() -> None:
+    text = printed(as_text, costly(), Options(width=60))
+    assert max(len(line) for line in text.splitlines() if line.startswith((" ", "*", "=")) and ":" not in line) <= 60
+    for name in ("medium", "heavy"):
+        assert sum(line.split()[0:1] == [name] for line in text.splitlines()) >= 1
+
+
+def test_a_time_that_ties_with_the_next_shorter_one_is_marked() -> None:
+    tied = [
+        each._replace(time_ms=2.0, low_ms=1.9, high_ms=2.1) if each.technique.samples == 4 and each.shading == "none" else each
+        for each in costly().points
+    ]
+    lines = [line for line in printed(as_text, costly(points=tied), Options(width=100)).splitlines() if "4x, each shaded" in line]
+    assert any(line.startswith("=") or " = " in line for line in lines)
+
+
 def test_text_in_color() -> None:
-    text = printed(as_text, study(), Options(width=160, color=True))
-    lines = [line for line in text.splitlines() if "8x" in line and "0.0361" in line and "+0.0000" in line]
+    text = printed(as_text, study(points=[each for each in study().points if each.scene == "edges"]), Options(width=160, color=True))
+    lines = [line for line in text.splitlines() if "8x" in line and "3.8" in line]
     assert lines[0].startswith("\x1b[32m*")
-    assert not any("\x1b[32m" in line for line in lines[1:]), "nothing else of 8x is on the front"
 
 
 def test_what_is_no_number_or_infinite_is_null() -> None:
     odd = point(Technique(MSAA, 4), rmse=math.nan, psnr_db=math.inf, bias=-0.0, max_error=math.inf)
-    text = printed(as_json, study(points=[odd], advice=[]), Options())
+    text = printed(as_json, study(points=[odd]), Options())
     (found,) = json.loads(text)["points"]
     assert (found["rmse"], found["psnr_db"], found["max_error"], found["time_ms"]) == (None, None, None, None)
     assert math.copysign(1, found["bias"]) == 1
-    shown = printed(as_text, study(points=[odd], advice=[]), Options(width=160))
+    shown = printed(as_text, study(points=[odd]), Options(width=160))
     assert "exact" in shown
 
 
 def test_without_a_device_no_time_is_shown_as_one() -> None:
-    points = mark_best([point(technique, simulated_ms=12345.6) for technique in techniques()])
-    of = study(device="", model="", points=points, advice=advice(points), untimed=[])
+    points = [point(technique, simulated_ms=12345.6) for technique in techniques()]
+    of = study(device="", model="", points=points, untimed=[])
     text = printed(as_text, of, Options(width=160))
     assert "to 1x" not in text and "12345" not in text and "12346" not in text
     assert "no times: --device NAME measures them" in text
@@ -120,9 +191,9 @@ def test_without_a_device_no_time_is_shown_as_one() -> None:
 
 def test_optional_columns_come_with_their_figures() -> None:
     bare = [point(technique) for technique in techniques((MSAA,))]
-    text = printed(as_text, study(points=bare, advice=[]), Options(width=160))
+    text = printed(as_text, study(points=bare), Options(width=160))
     assert "SSIM" not in text and "mW" not in text
-    text = printed(as_text, study(points=[each._replace(ssim=0.98765, milliwatts=12.0) for each in bare], advice=[]), Options(width=160))
+    text = printed(as_text, study(points=[each._replace(ssim=0.98765, milliwatts=12.0) for each in bare]), Options(width=160))
     assert "SSIM" in text and "0.9877" in text and "mW" in text
 
 
@@ -152,7 +223,7 @@ def test_hostile_texts_are_safe_to_show() -> None:
 
 
 def test_nothing_studied_is_still_a_report() -> None:
-    empty = study(scenes=[], points=[], failed=[], untimed=[], advice=[])
+    empty = study(scenes=[], points=[], failed=[], untimed=[])
     jsonschema.Draft202012Validator(SCHEMA).validate(json.loads(printed(as_json, empty, Options())))
     assert printed(as_text, empty, Options()).endswith("0 points of 0 scenes\n")
     assert plot(empty, "png").startswith(b"\x89PNG")
@@ -162,7 +233,7 @@ def test_nothing_studied_is_still_a_report() -> None:
 @given(st.lists(st.floats(), min_size=8, max_size=8), st.sampled_from(techniques()))
 def test_any_figures_can_be_printed(figures: list[float], technique: Technique) -> None:
     names = ("rmse", "rmse_all", "max_error", "bias", "psnr_db", "psnr_display_db", "time_ms", "bytes_per_frame")
-    of = study(points=mark_best([timed(technique, **dict(zip(names, figures, strict=True)))]), scenes=[SceneSummary("edges", "", ())])
+    of = study(points=[timed(technique, **dict(zip(names, figures, strict=True)))], scenes=[SceneSummary("edges", "", ())])
     json.loads(printed(as_json, of, Options()))
     assert technique.name in printed(as_text, of, Options(width=160))
 

@@ -1,0 +1,219 @@
+"""The answer of a study: what each step adds and removes, what fits a budget, and from which cost of shading on a step is worth it."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from msaa_lint.experiments.study.answer import conclude
+from msaa_lint.experiments.study.measures import DISPLAY, ERROR, FLICKER, FLIP, measure_of
+from msaa_lint.experiments.study.outcome import SceneSummary, Study
+from msaa_lint.experiments.study.points import MSAA, SAMPLE_SHADING, Point, Technique, techniques
+from msaa_lint.experiments.study.recommendation import Recommendation, recommendation, worth_from
+from msaa_lint.experiments.study.scenes import NAMES, scene
+from msaa_lint.experiments.study.scenes.about import about
+from msaa_lint.experiments.study.shading import Shading
+from msaa_lint.experiments.study.steps import added_time
+from msaa_lint.experiments.study.time_model import TimeModel
+from tests.experiments.study.fakes import TIMES, point, shaded, timed
+
+COUNTS = techniques((MSAA,))
+SHADINGS = (Shading("none", nanoseconds=0.0, full_screen_ms=0.0), Shading("medium", 312, 4, 65536, 2e6, 4.17), Shading("heavy", 936, 12))
+
+
+def study(points: list[Point], **other: Any) -> Study:
+    names = dict.fromkeys(point.scene for point in points)
+    scenes = [SceneSummary(name, "", ()) for name in names]
+    return conclude(Study("a device", "", (64, 48), 8, scenes, points, [], [])._replace(**other))
+
+
+def test_a_step_says_what_it_adds_and_removes() -> None:
+    two = timed(Technique(MSAA, 2), time_ms=3.4, low_ms=3.38, high_ms=3.42, rmse=0.2, flicker=0.02)
+    four = timed(Technique(MSAA, 4), time_ms=3.71, low_ms=3.70, high_ms=3.72, rmse=0.116, flicker=0.009)
+    (step,) = study([two, four]).steps
+    assert step.text == "2x to 4x: +0.31 ms (+9 %), error -42 %, flicker -55 %"
+    assert step.added is not None and step.added.ms == pytest.approx(0.31)
+    assert (step.added.low_ms, step.added.high_ms) == pytest.approx((0.31 - math.hypot(0.01, 0.02), 0.31 + math.hypot(0.01, 0.02)))
+    assert (step.same_time, step.worth) == (False, True)
+    assert step.changes == pytest.approx({"rmse": -0.42, "flicker": -0.55})
+
+
+def test_a_step_within_the_noise_takes_the_same_time() -> None:
+    two = timed(Technique(MSAA, 2), time_ms=3.4, low_ms=3.3, high_ms=3.5, rmse=0.2)
+    four = timed(Technique(MSAA, 4), time_ms=3.5, low_ms=3.4, high_ms=3.6, rmse=0.2)
+    (step,) = study([two, four]).steps
+    assert (step.text, step.same_time, step.worth) == ("2x to 4x: same time within the noise, error unchanged", True, False)
+
+
+def test_steps_without_a_time_of_a_gpu_are_of_errors_alone() -> None:
+    points = [timed(technique) for technique in COUNTS[:2]]
+    (step,) = study(points, software=True).steps
+    assert (step.text, step.added, step.worth) == ("1x to 2x: error -50 %", None, None)
+    assert study(points, software=True).recommendations == []
+    (step,) = study([point(technique) for technique in COUNTS[:2]]).steps
+    assert step.text == "1x to 2x: error -50 %"
+
+
+def test_a_step_goes_to_the_next_count_that_the_device_has() -> None:
+    points = [timed(technique) for technique in COUNTS[:3]]
+    points[1] = points[1]._replace(time_ms=None)
+    assert [step.text for step in study(points).steps] == ["1x to 4x: +1 ms (+100 %), error -75 %"]
+
+
+def test_where_the_error_lies_inside_triangles_sample_shading_is_a_step_too() -> None:
+    points = [timed(technique) for technique in COUNTS[1:4]] + [timed(Technique(SAMPLE_SHADING, 4, 1.0), rmse=0.01)]
+    scenes = [SceneSummary("edges", "", (), about=("alpha",))]
+    found = conclude(study(points)._replace(scenes=scenes))
+    assert [step.text.partition(":")[0] for step in found.steps] == ["2x to 4x", "4x to 8x", "4x to 4x, each shaded"]
+
+
+def take(points: list[Point], budget: float | None = None) -> Recommendation:
+    found = recommendation(points, ERROR, budget)
+    assert found is not None
+    return found
+
+
+def test_under_a_budget_the_least_error_that_surely_fits_is_taken() -> None:
+    points = [shaded(technique, "medium", 2e6) for technique in COUNTS[:4]]
+    choice = take(points, 1.2)
+    assert (choice.text, choice.technique, choice.added.ms) == ("take 4x", Technique(MSAA, 4), pytest.approx(1.0))
+    high = math.hypot(0.04, 0.03)
+    assert choice.reason == (
+        "the least error, 0.0722, of 3 techniques that surely add at most 1.2 ms; "
+        f"it adds 1 ms ({1 - high:.3g} to {1 + high:.3g} ms, +33 %)"
+    )
+    assert choice.following == f"8x has 50 % less error and needs {2.8 + math.hypot(0.058, 0.03):.3g} ms"
+    assert take(points, 1.0).technique == Technique(MSAA, 2), "its upper bound does not fit"
+    assert take(points, 0.01).text == "take 1x"
+    assert take(points, 0.01).reason == "the least error, 0.289, of 1 technique that surely add at most 0.01 ms; it adds nothing"
+    assert take(points, 100.0).following == "no technique has less error"
+
+
+def test_without_a_budget_steps_are_taken_as_long_as_they_are_worth_their_time() -> None:
+    assert take([shaded(technique, "none", 0.0) for technique in COUNTS[:4]]).text == "take 1x"
+    choice = take([shaded(technique, "heavy", 8e6) for technique in COUNTS[:4]])
+    assert choice.text == "take 4x"
+    assert choice.reason.startswith(
+        "each step up to it removes at least 25 % of the error for at most 10 % more time; it has 75 % less error than 1x"
+    )
+    assert choice.following == "8x has 50 % less error for +1.8 ms (+18 %), more than 10 %"
+    assert take([shaded(technique, "heavier", 1e8) for technique in COUNTS]).text == "take 8x", "16x has no less error"
+
+
+def test_less_error_in_the_same_time_is_always_taken() -> None:
+    points = [timed(COUNTS[0]), timed(COUNTS[1], time_ms=1.01, rmse=0.28)]
+    choice = take(points)
+    assert choice.text == "take 2x"
+    assert choice.reason.startswith(
+        "no other technique removes at least 25 % of the error for at most 10 % more time; it has 3 % less error than 1x"
+    )
+
+
+def test_nothing_is_recommended_without_one_sample_to_add_to() -> None:
+    assert recommendation([timed(technique) for technique in COUNTS[1:]], ERROR, 0.5) is None
+    assert recommendation([point(technique) for technique in COUNTS], ERROR, 0.5) is None
+    assert recommendation([], ERROR, None) is None
+
+
+@given(st.lists(st.tuples(st.floats(0.01, 1), st.floats(0.1, 20), st.floats(0, 0.3)), min_size=2, max_size=5), st.floats(0.01, 30))
+def test_what_is_recommended_fits_and_nothing_that_fits_is_better(rows: list[tuple[float, float, float]], budget: float) -> None:
+    points = [
+        timed(technique, rmse=error, time_ms=time, low_ms=time * (1 - noise), high_ms=time * (1 + noise))
+        for technique, (error, time, noise) in zip(COUNTS, rows, strict=False)
+    ]
+    choice = take(points, budget)
+    chosen = next(one for one in points if one.technique == choice.technique)
+    assert chosen is points[0] or choice.added.high_ms <= budget
+    for one in points[1:]:
+        added = added_time(one, points[0])
+        assert added is not None
+        assert added.high_ms > budget or ERROR.rounded(one) >= ERROR.rounded(chosen)
+
+
+def model(residual: float = 0.0, scene: str = "edges") -> TimeModel:
+    base = {technique: TIMES[technique.samples] for technique in COUNTS}
+    return TimeModel(scene, base, dict.fromkeys(COUNTS, 1000000.0), residual, 0.01)
+
+
+def test_a_step_is_worth_it_from_the_cost_where_it_adds_a_tenth() -> None:
+    """1.3 + x = 1.1 (1.0 + x), where a million invocations take x ms."""
+    points = [timed(technique, width=1000, height=1000) for technique in COUNTS]
+    shadings = [Shading("heavy", nanoseconds=12e6)]
+    found = {each.after.name: each for each in worth_from(points, ERROR, model(), shadings)}
+    assert found["2x"].full_screen_ms == pytest.approx((1.3 - 1.1 * 1.0) / 0.1)
+    assert found["4x"].full_screen_ms == pytest.approx((2.0 - 1.1 * 1.3) / 0.1)
+    assert (found["8x"].full_screen_ms, found["8x"].low_ms, found["8x"].high_ms) == (None, None, None)
+    assert "16x" not in found, "it has no less error"
+    rough = {each.after.name: each for each in worth_from(points, ERROR, model(0.02), shadings)}["2x"]
+    assert rough.low_ms == pytest.approx((0.98 * 1.3 - 1.1) / (1.1 - 0.98))
+    assert rough.high_ms == pytest.approx((1.02 * 1.3 - 1.1) / (1.1 - 1.02))
+
+
+def worth(points: list[Point], of: TimeModel, *shadings: Shading, **other: Any) -> list[str]:
+    found = study(points, models=[of], shadings=shadings, **other)
+    return [f"{each.text} ({each.reason})" for each in found.advice if "worth its time " in each.text and "each step" not in each.text]
+
+
+def test_the_report_says_from_which_cost_on_or_never() -> None:
+    points = [timed(technique, width=1000, height=1000) for technique in COUNTS[:4]]
+    medium = Shading("medium", 312, 4, 65536, 4.17e6, 4.17)
+    heavy = Shading("heavy", 936, 12, 65536, 12e6, 12.0)
+    costs = "medium is 4.17 ms, heavy is 12 ms"
+    assert worth(points, model(0.02), medium, heavy) == [
+        "2x is worth its time from a shading cost of about 2 ms a full screen on "
+        f"(from there on it adds at most 10 % to the time of 1x; by the model's residuals from 1.4 ms to 2.8 ms; {costs})",
+        "4x is worth its time from a shading cost of about 5.7 ms a full screen on "
+        f"(from there on it adds at most 10 % to the time of 2x; by the model's residuals from 4.4 ms to 7.6 ms; {costs})",
+        f"8x is not worth its time at any measured cost of shading (it always adds more than 10 % to the time of 4x; {costs})",
+    ]
+    free = model()._replace(base_ms=dict.fromkeys(COUNTS, 1.0))
+    assert worth(points, free, medium)[0].startswith("2x is worth its time at every cost of shading (")
+    assert worth(points, model(), medium, software=True) == []
+    assert worth(points, model(scene="another"), medium) == []
+
+
+def test_a_scene_is_compared_by_what_it_is_about() -> None:
+    points = [point(technique, flip=0.1, flicker=0.2) for technique in COUNTS]
+    assert measure_of(("hdr", "alpha"), points) == FLIP
+    assert measure_of(("thin lines",), points) == FLICKER
+    assert measure_of(("edges",), points) == measure_of(("alpha",), points) == measure_of(("texture",), points) == ERROR
+    some = [*points[:-1], points[-1]._replace(flip=None, flicker=None)]
+    assert measure_of(("hdr",), some) == DISPLAY and measure_of(("thin lines",), some) == ERROR
+    assert DISPLAY.of(point(COUNTS[0], psnr_display_db=20.0)) == pytest.approx(0.1)
+    assert DISPLAY.of(point(COUNTS[0], psnr_display_db=math.inf)) == 0
+
+
+ABOUT = {
+    "wires": ("thin lines",), "zone-plate": ("texture",), "foliage": ("alpha",), "foliage-to-coverage": ("alpha",),
+    "hdr-emitter": ("hdr",), "hdr-emitter-before": ("hdr",), "hdr-emitter-weighted": ("hdr",),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("size", [(160, 96), (640, 360)])
+@pytest.mark.parametrize("name", NAMES)
+def test_what_a_scene_is_about_follows_from_its_content(name: str, size: tuple[int, int]) -> None:
+    own = scene(name, *size)
+    assert about(own) == ABOUT.get(name, ("edges",))
+    assert about(own._replace(name="another")) == about(own)
+
+
+def test_the_answer_is_by_scene_and_by_cost() -> None:
+    points = [
+        shaded(technique, name, cost, scene=of)
+        for of in ("a", "b")
+        for name, cost in (("none", 0.0), ("heavy", 8e6))
+        for technique in COUNTS
+    ]
+    found = study(points, shadings=SHADINGS)
+    assert found.shading_names("a") == ["none", "heavy"]
+    assert [(each.scene, each.shading, each.text) for each in found.recommendations] == [
+        ("a", "none", "take 1x"), ("a", "heavy", "take 4x"), ("b", "none", "take 1x"), ("b", "heavy", "take 4x"),
+    ]  # fmt: skip
+    assert [(each.scene, each.shading) for each in found.steps] == [
+        (of, name) for of in ("a", "b") for name in ("none", "heavy") for _ in range(4)
+    ]
+    assert [each.scene for each in found.advice] == ["a", "a", "b", "b"], "errors are told once for all costs"
