@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
 from docs.study_cases.alpha_cases import alpha_to_coverage
+from docs.study_cases.area_cases import exact_areas
 from docs.study_cases.coverage_cases import coverages, phases
 from docs.study_cases.depth_cases import depths
 from docs.study_cases.resolve_cases import averages, lights, sums, weighted_resolves
@@ -22,6 +23,7 @@ PAGE = Path(__file__).parent / "study-numbers.md"
 GROUPS: tuple[Callable[[], Iterator[Row]], ...] = (
     coverages,
     phases,
+    exact_areas,
     alpha_to_coverage,
     averages,
     lights,
