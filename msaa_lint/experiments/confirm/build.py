@@ -8,6 +8,7 @@ from typing import Any
 from . import parts, pipelines
 from .binding import chain
 from .device_images import create_image
+from .mesh_buffers import mesh_buffers
 from .opening import DeviceObjects, OpenDevice
 from .parts import NONE, Dependency, Framebuffer, Image, Pass, Plan, Reference
 from .scene import VERTEX_BYTES
@@ -61,6 +62,7 @@ class FrameObjects(DeviceObjects):
         self._views: dict[tuple[int, int, int, int], Any] = {}
         self._readers: dict[tuple[int, int, bool], Any] = {}
         self._vertices: tuple[Any, int] | None = None
+        mesh_buffers(opened).prepare(plan)
 
     def create_pass(self, number: int) -> None:
         """Creates a pass with everything it needs. VulkanError where the driver fails to."""

@@ -10,7 +10,22 @@ from .binding import push_bytes
 from .build import FrameObjects
 from .defined_contents import Contents
 from .layouts import Layouts
-from .parts import CLEAR, COLOR, DEPTH, DEPTH_READ_LAYOUT, NONE, READ_LAYOUT, SOURCE_LAYOUT, STENCIL, TARGET_LAYOUT, Pass, PassCommand, Step
+from .mesh_buffers import mesh_buffers
+from .parts import (
+    CLEAR,
+    COLOR,
+    DEPTH,
+    DEPTH_READ_LAYOUT,
+    NONE,
+    READ_LAYOUT,
+    SOURCE_LAYOUT,
+    STENCIL,
+    TARGET_LAYOUT,
+    Mesh,
+    Pass,
+    PassCommand,
+    Step,
+)
 from .scene import BACKDROP, CLEARED, CLEARED_INTEGERS, CLEARED_STENCIL
 from .timed import Work
 from .workload import Workload
@@ -156,11 +171,32 @@ class Recorder:
                 pipeline = frame_pass.pipelines[inner.pipeline]
                 vk.vkCmdBindPipeline(buffer, 0, self.built.pipelines[step.number, inner.pipeline])
                 self._dynamic(buffer, pipeline, count)
-                self._bind(buffer, step, inner.pipeline, rotation)
+                # The built-in vertex shader turns every other draw of the scene.
+                self._bind(buffer, step, inner.pipeline, 0 if inner.mesh else rotation)
                 first = 0 if (inner.backdrop and not filled) or self.plan.vertices else BACKDROP
-                # The instance tells the generated vertex shader which draw this is; the built-in one has a push constant for it.
-                vk.vkCmdDraw(buffer, vertices - first, 1, first, rotation if pipeline.stages else 0)
+                if inner.mesh:
+                    self._mesh(buffer, step, inner.mesh[0], pipeline)
+                    vk.vkCmdBindVertexBuffers(buffer, 0, 1, [vertex_buffer], [0])
+                else:
+                    # The instance tells the generated vertex shader which draw this is; the built-in one has a push constant for it.
+                    vk.vkCmdDraw(buffer, vertices - first, 1, first, rotation if pipeline.stages else 0)
                 rotation += 1
+
+    def _mesh(self, buffer: Any, step: Step, mesh: Mesh, pipeline: parts.Pipeline) -> None:
+        """Records the draws of a mesh over the render area."""
+        vk = self.vk
+        x, y, width, height = step.area
+        near, far = (1.0, 0.0) if self.plan.reversed else (0.0, 1.0)
+        vk.vkCmdSetViewport(buffer, 0, 1, [vk.VkViewport(x=x, y=y, width=width, height=height, minDepth=near, maxDepth=far)])
+        if pipeline.has_vertex_shader:
+            for _ in range(mesh.draws):
+                vk.vkCmdDraw(buffer, mesh.vertices, mesh.instances, 0, 0)
+            return
+        for draw in range(mesh.draws):
+            vertex_buffer, first = mesh_buffers(self.built.opened).of(mesh, draw)
+            if draw == 0:
+                vk.vkCmdBindVertexBuffers(buffer, 0, 1, [vertex_buffer], [0])
+            vk.vkCmdDraw(buffer, 3 * mesh.triangles, 1, first, 0)
 
     def _bind(self, buffer: Any, step: Step, number: int, rotation: int) -> None:
         """Binds what the shaders of a pipeline read."""
@@ -334,7 +370,7 @@ class Recorder:
             srcSubresource=self._layers(step.source, aspects), srcOffsets=corners[0],
             dstSubresource=self._layers(step.target, aspects), dstOffsets=corners[1],
         )  # fmt: skip
-        vk.vkCmdBlitImage(buffer, source, SOURCE_LAYOUT, target, TARGET_LAYOUT, 1, [region], 0)
+        vk.vkCmdBlitImage(buffer, source, SOURCE_LAYOUT, target, TARGET_LAYOUT, 1, [region], step.filter)
 
     def _clear_image(self, buffer: Any, step: Step) -> None:
         vk, image = self.vk, self.plan.images[step.target]

@@ -50,8 +50,8 @@ FEATURE_STAGES = {"geometryShader": 0x40, "tessellationShader": 0x30}
 FORMAT_USAGES = {"attachment": 0, "sampled": 0x4, "storage": 0x8, "input": 0x80, "transient": 0x40}
 """Usages, in addition to attachment, for which the sample counts of formats are queried."""
 
-VERTEX_BUFFER, VISIBLE = 0x80, 0x6
-"""VK_BUFFER_USAGE_VERTEX_BUFFER_BIT; host-visible and coherent memory, of VkMemoryPropertyFlagBits."""
+VERTEX_BUFFER, VISIBLE, DEVICE_MEMORY = 0x80, 0x6, 0x7
+"""VK_BUFFER_USAGE_VERTEX_BUFFER_BIT; host-visible and coherent memory, also of the device, of VkMemoryPropertyFlagBits."""
 
 MAX_FORMAT = 185
 """The formats of Vulkan 1.0 are numbered from 1 to this."""
@@ -182,6 +182,8 @@ class OpenDevice:
         self.modules: dict[Any, Any] = {}
         self.resources: DeviceObjects | None = None
         """What the descriptors of shaders refer to (shader_resources.py)."""
+        self.meshes: DeviceObjects | None = None
+        """The vertex buffers of meshes (mesh_buffers.py)."""
         self._layouts: dict[str, Any] = {}
         self._functions: dict[str, Callable[..., Any]] = {}
         self._vertices: tuple[Any, Any] | None = None
@@ -302,8 +304,9 @@ class OpenDevice:
 
     def close(self) -> None:
         vk = self.vk
-        if self.resources is not None:
-            self.resources.close()
+        for objects in (self.resources, self.meshes):
+            if objects is not None:
+                objects.close()
         for module in self.modules.values():
             vk.vkDestroyShaderModule(self.handle, module, None)
         for layout, own in self._layouts.values():

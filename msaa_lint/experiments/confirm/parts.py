@@ -15,6 +15,9 @@ RENDERING = "rendering"
 FRAME = "frame"
 """Kinds of passes. `frame` stands for a description without passes: its images, pipelines and commands."""
 
+VERTEX_STAGE, FRAGMENT_STAGE = 1, 16
+"""VkShaderStageFlagBits."""
+
 COLOR, DEPTH, STENCIL = 1, 2, 4
 """VkImageAspectFlagBits."""
 
@@ -188,7 +191,7 @@ class Stage(NamedTuple):
 class Pipeline(NamedTuple):
     """VkGraphicsPipelineCreateInfo. `formats` are those of the color attachments in dynamic rendering, 0 for unused ones; `sample_shading`
     is minSampleShading, -1 if sample shading is disabled. With `shaded`, a built-in fragment shader does the work that a timing asks for
-    (workload.py)."""
+    (workload.py). `topology` is the VkPrimitiveTopology of the description."""
 
     name: str
     subpass: int
@@ -214,6 +217,37 @@ class Pipeline(NamedTuple):
     view_mask: int = 0
     stages: tuple[Stage, ...] = ()
     shaded: bool = False
+    topology: int = 3
+
+    @property
+    def has_vertex_shader(self) -> bool:
+        """Whether it has a vertex shader of the frame; a generated one has no file, and the input of the built-in one."""
+        return any(stage.stage == VERTEX_STAGE and stage.path for stage in self.stages)
+
+    @property
+    def has_fragment_shader(self) -> bool:
+        """Whether it has a fragment shader of the frame."""
+        return any(stage.stage == FRAGMENT_STAGE for stage in self.stages)
+
+
+class Mesh(NamedTuple):
+    """Triangles to draw instead of the scene: `draws` draws of `vertices` vertices and `instances` instances each (mesh_buffers.py).
+
+    Their render area is divided into `columns` by `rows` cells of two triangles; without columns, one triangle covers it. `first` is the
+    number of their first triangle: the cells before it are those of earlier draws.
+    """
+
+    columns: int
+    rows: int
+    vertices: int
+    instances: int = 1
+    draws: int = 1
+    first: int = 0
+
+    @property
+    def triangles(self) -> int:
+        """The triangles of a draw, over all its instances."""
+        return self.vertices // 3 * self.instances
 
 
 class PassCommand(NamedTuple):
@@ -221,7 +255,9 @@ class PassCommand(NamedTuple):
 
     `draw` draws the scene with `pipeline`, over a backdrop if `backdrop` is set; `covers` says that it then writes to every pixel. `read`
     writes `image` to every pixel, as a shader that reads it does; `samples` sets the dynamic sample count to `value`; `clear` clears
-    `rects` (x, y, width, height), or the render area without any.
+    `rects` (x, y, width, height), or the render area without any. A described draw has `vertices` (or indices; 0 if unknown) and
+    `instances` for each of its `draws`, which are 0 if the description has no draws; `full_screen` says that it draws a triangle or a quad
+    over every pixel. `mesh` holds the triangles to draw instead of the scene, or none.
     """
 
     kind: str
@@ -233,6 +269,11 @@ class PassCommand(NamedTuple):
     value: int = 0
     aspects: int = 0
     rects: tuple[tuple[int, ...], ...] = ()
+    vertices: int = 0
+    instances: int = 1
+    draws: int = 1
+    full_screen: bool = False
+    mesh: tuple[Mesh, ...] = ()
 
 
 class Pass(NamedTuple):
@@ -260,7 +301,8 @@ class Pass(NamedTuple):
 
 class Step(NamedTuple):
     """A step of a frame: the `begin` of a pass with a framebuffer and a render area (x, y, width, height), or a command outside passes
-    (`resolve`, `copy`, `blit`, `clear`, `copyOut`, `copyIn`, `barrier`, `present`). `number` is the pass that it is reported with."""
+    (`resolve`, `copy`, `blit`, `clear`, `copyOut`, `copyIn`, `barrier`, `present`). `number` is the pass that it is reported with, and
+    `filter` the VkFilter of a blit."""
 
     kind: str
     number: int
@@ -271,6 +313,7 @@ class Step(NamedTuple):
     target: int = NONE
     masks: tuple[int, ...] = ()
     layouts: tuple[tuple[int, int, int], ...] = ()
+    filter: int = 0
 
 
 class Plan(NamedTuple):

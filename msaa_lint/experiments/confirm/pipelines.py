@@ -21,6 +21,9 @@ VERTEX, FRAGMENT = 1, 16
 POSITION_FORMAT = 106
 """R32G32B32_SFLOAT."""
 
+TRIANGLE_LIST, TRIANGLE_FAN = 3, 5
+"""VkPrimitiveTopology."""
+
 ALWAYS, REPLACE = 7, 2
 """VkShaderStageFlagBits; VkCompareOp and VkStencilOp."""
 
@@ -31,7 +34,7 @@ def create_pipeline(objects: DeviceObjects, frame_pass: Pass, pipeline: Pipeline
     kinds = outputs(pipeline)
     stages = {stage.stage: _described(objects, stage) for stage in pipeline.stages}
     # A generated vertex shader has no file, and the input of the built-in one.
-    draws_scene = all(stage.path == "" for stage in pipeline.stages if stage.stage == VERTEX)
+    draws_scene = not pipeline.has_vertex_shader
     if VERTEX not in stages:
         stages[VERTEX] = _stage(objects, VERTEX, opened.module("scene.vert"))
     if FRAGMENT not in stages and any(kinds) and not pipeline.discard:
@@ -85,6 +88,8 @@ def _create(
     draws_scene: bool = False,
 ) -> Any:
     vk = objects.vk
+    # Patches need tessellation, which is not described.
+    topology = TRIANGLE_LIST if draws_scene or pipeline.topology > TRIANGLE_FAN else pipeline.topology
     # A single attribute: the scene's positions.
     bindings = [vk.VkVertexInputBindingDescription(binding=0, stride=VERTEX_BYTES)] if draws_scene else []
     inputs = [vk.VkVertexInputAttributeDescription(format=POSITION_FORMAT)] if draws_scene else []
@@ -94,7 +99,7 @@ def _create(
     create = vk.VkGraphicsPipelineCreateInfo(
         pStages=stages,
         pVertexInputState=vk.VkPipelineVertexInputStateCreateInfo(pVertexBindingDescriptions=bindings, pVertexAttributeDescriptions=inputs),
-        pInputAssemblyState=vk.VkPipelineInputAssemblyStateCreateInfo(topology=3),
+        pInputAssemblyState=vk.VkPipelineInputAssemblyStateCreateInfo(topology=topology),
         pViewportState=vk.VkPipelineViewportStateCreateInfo(viewportCount=1, scissorCount=1),
         pRasterizationState=vk.VkPipelineRasterizationStateCreateInfo(
             rasterizerDiscardEnable=pipeline.discard, depthClampEnable=pipeline.depth_clamp, depthBiasEnable=pipeline.depth_bias,

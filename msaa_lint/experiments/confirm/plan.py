@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from msaa_lint.core.project import folder_of
-from msaa_lint.frame.description.models import Command
+from msaa_lint.frame.description.models import Command, Draw
 from msaa_lint.frame.description.models import Pipeline as DescribedPipeline
 from msaa_lint.frame.facts.frame import Frame
 from msaa_lint.frame.facts.parts import Pass as DescribedPass
+from msaa_lint.frame.facts.pass_contents import covers_picture
 
 from . import parts
 from .parts import CLEAR, LOAD, NONE, Image, Pass, PassCommand, Pipeline, Plan, Step
@@ -292,7 +293,9 @@ class _Plan:
                 name = getattr(body, "pipeline", None)
                 record = self.frame.description.pipelines.get(name) if name is not None else None
                 index = self._described(number, record, compatible) if record is not None else self._built_in(number, compatible)
-                draws.append(PassCommand("draw", subpass, index))
+                draws.append(
+                    _counted(PassCommand("draw", subpass, index), body, record, tests=bool(described.subpasses[subpass].depth_stencil))
+                )
             elif command.kind == "setRasterizationSamples" and isinstance(body, int):
                 draws.append(PassCommand("samples", subpass, value=body))
             elif command.kind == "clearAttachments":
@@ -309,7 +312,7 @@ class _Plan:
             usable = [n for n in usable if self._belongs(described, self.pipelines[number][n].name)]
             if not any(not self.pipelines[number][n].discard for n in usable):
                 usable.append(self._built_in(number, compatible))
-            draws += [PassCommand("draw", subpass, n) for n in usable[:8]]
+            draws += [PassCommand("draw", subpass, n, draws=0) for n in usable[:8]]
         return reads + self._backdrop(frame_pass, number, subpass, draws, bool(reads))
 
     def _belongs(self, described: DescribedPass, name: str) -> bool:
@@ -349,6 +352,19 @@ class _Plan:
                 self.notes.append(f"the attachments of {pipeline.key} are not stated: R8G8B8A8_UNORM is assumed")
             number = next((n for n, each in enumerate(self.frame.passes) if each.kind == parts.RENDERING), 0)
             self._described(number, pipeline, compatible)
+
+
+def _counted(command: PassCommand, draw: object, record: DescribedPipeline | None, *, tests: bool) -> PassCommand:
+    """A draw with its described counts. `tests`: there is depth or stencil to test against."""
+    if not isinstance(draw, Draw):
+        return command
+    count = draw.vertexCount if draw.vertexCount is not None else draw.indexCount
+    return command._replace(
+        vertices=count or 0,
+        instances=draw.instanceCount if draw.instanceCount is not None else 1,
+        draws=draw.drawCount or 1,
+        full_screen=covers_picture(draw, record, tests) is True,
+    )
 
 
 def _loads(frame_pass: Pass, subpass: int) -> tuple[list[int], int]:

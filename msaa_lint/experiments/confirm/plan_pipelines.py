@@ -82,6 +82,8 @@ def described(record: DescribedPipeline, fitting: Pipeline, folder: str, text: N
             depth_bias=bool(rasterization.depthBiasEnable),
             polygon_mode=number("VkPolygonMode", rasterization.polygonMode) if rasterization.polygonMode is not None else 0,
         )
+    if record.inputAssemblyState is not None and record.inputAssemblyState.topology is not None:
+        pipeline = pipeline._replace(topology=number("VkPrimitiveTopology", record.inputAssemblyState.topology))
     if record.colorBlendState is not None:
         blends = [_blend(blend) for blend in record.colorBlendState.attachments][: len(pipeline.blends)]
         pipeline = pipeline._replace(blends=(*blends, *pipeline.blends[len(blends) :]))

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from .parts import NONE, STORE, Framebuffer, Image, Pass, Plan, Reference, Step, Subpass
+from collections.abc import Collection
+
+from .parts import NONE, STORE, TRANSIENT, Framebuffer, Image, Pass, Plan, Reference, Step, Subpass
 
 CUBE_COMPATIBLE = 0x10
 """VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT."""
@@ -11,10 +13,11 @@ MAX_IMAGE = 512
 """Maximum width and height of a picture in texels."""
 
 
-def resized(plan: Plan, size: tuple[int, int]) -> Plan:
-    """A plan whose largest pass has a size in pixels, with everything else in proportion."""
-    width = max([f.width for frame_pass in plan.passes for f in frame_pass.framebuffers] or [i.width for i in plan.images] or [1])
-    height = max([f.height for frame_pass in plan.passes for f in frame_pass.framebuffers] or [i.height for i in plan.images] or [1])
+def resized(plan: Plan, size: tuple[int, int], passes: Collection[int] = ()) -> Plan:
+    """A plan whose largest pass, of all or of the numbered ones, has a size in pixels, with everything else in proportion."""
+    framebuffers = [f for number in passes or range(len(plan.passes)) for f in plan.passes[number].framebuffers]
+    width = max([f.width for f in framebuffers] or [i.width for i in plan.images] or [1])
+    height = max([f.height for f in framebuffers] or [i.height for i in plan.images] or [1])
     return _scaled(plan, (size[0], width), (size[1], height))
 
 
@@ -76,8 +79,12 @@ def _most_levels(image: Image) -> int:
 def resampled(plan: Plan, samples: int) -> Plan:
     """A plan with `samples` instead of every described sample count above one.
 
-    With one sample, passes draw directly to their resolve targets, and resolve commands become copies.
+    With one sample, passes draw directly to what their attachments are resolved to, in the pass or by a command. A resolve command becomes
+    a copy if the frame uses its two images differently besides.
     """
+    if samples == 1:
+        for source, target in _replaceable(plan):
+            plan = _replaced(plan, source, target)
 
     def count(stated: int) -> int:
         return samples if stated > 1 else stated
@@ -144,3 +151,68 @@ def _unresolved(each: Pass) -> Pass:
         for r in each.rendered
     )
     return each._replace(attachments=tuple(attachments), subpasses=tuple(map(subpass_of, each.subpasses)), rendered=rendered)
+
+
+def images_of(plan: Plan, step: Step) -> set[int]:
+    """The images that a step draws to, resolves to, reads, or transfers."""
+    numbers = {step.source, step.target, *(inner.image for inner in step.inner)}
+    if step.kind == "begin":
+        frame_pass = plan.passes[step.number]
+        numbers |= set(frame_pass.framebuffers[step.framebuffer].images)
+        numbers |= {number for rendered in frame_pass.rendered for number in (rendered.image, rendered.resolve_image)}
+    return numbers - {NONE}
+
+
+def _replaceable(plan: Plan) -> list[tuple[int, int]]:
+    """The images that resolve commands read, each with the image that can take its place: the only one that it is resolved to, not used
+    before that, with nothing that uses the first one afterward."""
+    resolves = [(position, step) for position, step in enumerate(plan.steps) if step.kind == "resolve"]
+    pairs = {(step.source, step.target) for _, step in resolves}
+    uses = [images_of(plan, step) for step in plan.steps]
+    found = []
+    for source, target in sorted(pairs):
+        one, other = plan.images[source], plan.images[target]
+        alike = one._replace(name="", samples=0, usage=0, lazy=False) == other._replace(name="", samples=0, usage=0, lazy=False)
+        last = max(position for position, step in resolves if (step.source, step.target) == (source, target))
+        alone = sum(bool({source, target} & set(pair)) for pair in pairs) == 1
+        before = any(
+            target in used for used, step in zip(uses[:last], plan.steps, strict=False) if (step.source, step.target) != (source, target)
+        )
+        if (
+            alike
+            and alone
+            and one.samples > 1
+            and other.samples == 1
+            and not before
+            and not any(source in used for used in uses[last + 1 :])
+        ):
+            found.append((source, target))
+    return found
+
+
+def _replaced(plan: Plan, source: int, target: int) -> Plan:
+    """A plan that uses an image in place of another, without the resolves between them."""
+
+    def number(stated: int) -> int:
+        return target if stated == source else stated
+
+    def pass_of(each: Pass) -> Pass:
+        framebuffers = tuple(f._replace(images=tuple(map(number, f.images))) for f in each.framebuffers)
+        rendered = tuple(r._replace(image=number(r.image)) for r in each.rendered)
+        return each._replace(framebuffers=framebuffers, rendered=rendered, images=tuple(sorted(set(map(number, each.images)))))
+
+    def step_of(each: Step) -> Step:
+        inner = tuple(i._replace(image=number(i.image)) for i in each.inner)
+        # The layouts of transfers are those of the resolve; a barrier is for the drawing that takes its place.
+        layouts = tuple((i, old, new) for i, old, new in each.layouts if i not in (source, target))
+        masks = each.masks if layouts == each.layouts else _ALL_WORK
+        return each._replace(inner=inner, source=number(each.source), target=number(each.target), layouts=layouts, masks=masks)
+
+    images = list(plan.images)
+    images[target] = images[target]._replace(usage=images[target].usage | images[source].usage & ~TRANSIENT)
+    steps = [step for step in plan.steps if (step.kind, step.source, step.target) != ("resolve", source, target)]
+    return plan._replace(images=tuple(images), passes=tuple(map(pass_of, plan.passes)), steps=tuple(map(step_of, steps)))
+
+
+_ALL_WORK = (0x10000, 0x10000, 0x10000, 0x18000)
+"""The masks of a barrier between all commands, of all writes with all accesses."""

@@ -112,7 +112,7 @@ def _draw(current: Instance, draw: Draw, render_pass: Pass, subpass: int, frame:
     current.drawn.setdefault(subpass, {})[id(pipeline)] = pipeline
     current.first.setdefault(subpass, current.draws)
     current.drawn_at.setdefault(subpass, draw.head)
-    current.full_screen[subpass] = known(current.full_screen.get(subpass, True), _covers_picture(draw, pipeline, tests))
+    current.full_screen[subpass] = known(current.full_screen.get(subpass, True), covers_picture(draw, pipeline, tests))
     current.draws += 1
 
 
@@ -253,7 +253,7 @@ def _area(render_pass: Pass, attachment: Attachment, instance: Instance, frame: 
     return None, layers
 
 
-def _covers_picture(draw: Draw, pipeline: Pipeline | None, tests: bool) -> bool | None:
+def covers_picture(draw: Draw, pipeline: Pipeline | None, tests: bool) -> bool | None:
     """Whether a draw is of a triangle or two without vertex data, all of whose samples are the same; None where that is not stated.
 
     `tests`: there is depth or stencil to test against.

@@ -29,16 +29,33 @@ ANY_SET = -1
 """The number of a set that stands for all sets of a pipeline: their contents are in buffers."""
 
 
+class DrawCounts:
+    """The counts of a draw and of those after it that are equal but for their counts: how many (`draws`), their `vertices` in total over
+    all instances, and the `count` of vertices or indices and the `instances` of the first. None where a count is in a buffer."""
+
+    __slots__ = ("count", "draws", "instances", "vertices")
+
+    def __init__(self, count: int | None, instances: int | None, draws: int = 1) -> None:
+        self.count, self.instances, self.draws = count, instances, draws
+        self.vertices = count * instances if count is not None and instances is not None else None
+
+    def add(self, count: object, instances: object, draws: int = 1) -> None:
+        """Adds a draw."""
+        self.draws += draws
+        if self.vertices is not None:
+            self.vertices = self.vertices + count * instances if type(count) is int and type(instances) is int else None
+
+
 class RecordedCommand:
     """A recorded command: its name in a description (`kind`), its objects and values (`key`), and the first call that recorded it.
 
-    Equal commands, with the same `kind`, `key` and `parts`, are one object. `detail` holds the counts of the first of them, `parts` the
-    first mip level and layer of each attachment of a pass, empty if all are 0.
+    Equal commands, with the same `kind`, `key` and `parts`, are one object. `detail` holds the counts of a draw, in the subpass that
+    had the first of them, and `parts` the first mip level and layer of each attachment of a pass, empty if all are 0.
     """
 
     __slots__ = ("at", "by", "detail", "identity", "key", "kind", "layouts", "parts", "written")
 
-    def __init__(self, kind: str, key: Hashable, at: Place, by: str, detail: tuple[int | None, int | None] | None = None) -> None:
+    def __init__(self, kind: str, key: Hashable, at: Place, by: str, detail: DrawCounts | None = None) -> None:
         self.kind = kind
         self.key = key
         self.at = at
@@ -89,9 +106,7 @@ class CommandCache:
         self.forgotten = 0
         """How often commands were forgotten: a command that is recorded again may be another object."""
 
-    def command(
-        self, kind: str, key: Hashable, call: Call, detail: tuple[int | None, int | None] | None = None, parts: Parts = ()
-    ) -> RecordedCommand:
+    def command(self, kind: str, key: Hashable, call: Call, detail: DrawCounts | None = None, parts: Parts = ()) -> RecordedCommand:
         """The command with a kind, key and parts, created on first use."""
         identity = (kind, key, parts)
         command = self._commands.get(identity)
@@ -140,6 +155,7 @@ class CommandBuffer:
         "commands",
         "compute",
         "counted",
+        "draws",
         "executes",
         "fresh",
         "graphics",
@@ -175,8 +191,10 @@ class CommandBuffer:
         self.ray_tracing = BindPoint()
         self.subpass_commands: set[RecordedCommand] = set()
         """The draws and clears of the current subpass."""
-        self.many: set[Pipeline | None] = set()
-        """The pipelines that drew many vertices in the current subpass."""
+        self.draws: set[RecordedCommand] = set()
+        """The draws of the current subpass that no other subpass had before: theirs are the counts."""
+        self.many: dict[Pipeline | None, DrawCounts | None] = {}
+        """The pipelines that drew many vertices in the current subpass, each with the counts to add to."""
         self.fresh = True
         """Whether descriptor sets, or a pipeline that reads others, were bound since the last draw of the current subpass."""
         self.samples: int | None = None
@@ -189,7 +207,7 @@ class CommandBuffer:
         buffer = copy(self)
         buffer.commands = self.commands.copy()
         buffer.graphics, buffer.compute, buffer.ray_tracing = self.graphics.copy(), self.compute.copy(), self.ray_tracing.copy()
-        buffer.subpass_commands, buffer.many = self.subpass_commands.copy(), self.many.copy()
+        buffer.subpass_commands, buffer.many, buffer.draws = self.subpass_commands.copy(), self.many.copy(), self.draws.copy()
         buffer.label_depth, buffer.labels = copy(self.label_depth), self.labels.copy()
         return buffer
 
@@ -222,6 +240,7 @@ class CommandBuffer:
         """Starts a new subpass, or the space between passes: later draws are recorded again."""
         self.subpass_commands.clear()
         self.many.clear()
+        self.draws.clear()
         self.fresh = True
 
 

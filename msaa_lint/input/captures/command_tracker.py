@@ -14,6 +14,7 @@ from .command_buffers import (
     BindPoint,
     CommandBuffer,
     DescriptorReads,
+    DrawCounts,
     Execution,
     Parts,
     RenderPassBegin,
@@ -30,7 +31,10 @@ MAX_QUEUE_LABELS = 256
 """Maximum number of labels of a queue that are open at a time."""
 
 COUNTED = {"vkCmdDraw": "vertexCount", "vkCmdDrawIndexed": "indexCount"}
-"""The parameter with the number of vertices or indices of a draw; other draws have it in a buffer."""
+"""The parameter with the number of vertices or indices of a draw; most other draws have it in a buffer."""
+
+MULTIPLE = {"vkCmdDrawMultiEXT": ("vertexCount", "pVertexInfo"), "vkCmdDrawMultiIndexedEXT": ("indexCount", "pIndexInfo")}
+"""Of commands that draw several times: the member with the number of vertices or indices, and the array of structures that has it."""
 
 
 class CommandTracker(BoundSets):
@@ -167,17 +171,25 @@ class CommandTracker(BoundSets):
             # The fast path for most draws: an equal draw was recorded before.
             count = args.get(counted)
             if type(count) is int and count > MAX_FULLSCREEN_VERTICES:
+                known = buffer.many[buffer.pipeline]
+                if known is not None:
+                    known.add(count, args.get("instanceCount"))
                 return
-        vertices, instances = (values.count(args.get(counted)), values.count(args.get("instanceCount"))) if counted else (None, None)
+        counted, counts = _counts(call, counted)
         # The rules ask only for the count of a full-screen triangle or quad.
-        few = vertices is not None and vertices <= MAX_FULLSCREEN_VERTICES and instances == 1
-        key = (buffer.pipeline, counted, vertices if few else None, buffer.dynamic_samples)
+        few = counts.count is not None and counts.count <= MAX_FULLSCREEN_VERTICES and counts.instances == 1
+        key = (buffer.pipeline, counted, counts.count if few else None, buffer.dynamic_samples)
         if buffer.fresh:
             self._reads(buffer, buffer.graphics, "FRAGMENT", call)
             buffer.fresh = False
-        buffer.record_once(self.commands.command("draw", key, call, (vertices, instances)))
+        command = self.commands.command("draw", key, call, counts)
+        if command.detail is counts:
+            buffer.draws.add(command)
+        elif command in buffer.draws and command.detail is not None:
+            command.detail.add(counts.vertices, 1, counts.draws)
+        buffer.record_once(command)
         if counted and not few:
-            buffer.many.add(buffer.pipeline)
+            buffer.many[buffer.pipeline] = command.detail if command in buffer.draws else None
 
     on_CmdDrawIndexed = on_CmdDrawIndirect = on_CmdDrawIndexedIndirect = on_CmdDrawIndirectByteCount = on_CmdDraw
     on_CmdDrawIndirectCount = on_CmdDrawIndexedIndirectCount = on_CmdDrawMulti = on_CmdDrawMultiIndexed = on_CmdDraw
@@ -286,3 +298,20 @@ def area_of(value: object) -> tuple[int, int, int, int] | None:
     if x is None or y is None or width is None or height is None or width < 1 or height < 1:
         return None
     return (x, y, width, height) if max(width, height, abs(x), abs(y)) < 1 << 31 else None
+
+
+def _counts(call: Call, counted: str) -> tuple[str, DrawCounts]:
+    """The member with the number of vertices or indices of a draw, empty if it is in a buffer; and the counts."""
+    instances = values.count(call.args.get("instanceCount"))
+    if counted:
+        return counted, DrawCounts(values.count(call.args.get(counted)), instances)
+    member, array = MULTIPLE.get(call.name, ("", ""))
+    found = [values.count(values.record(draw).get(member)) for draw in values.items(call.args.get(array))] if array else []
+    numbers = [number for number in found if number is not None]
+    if not numbers or len(numbers) < len(found) or instances is None:
+        return "", DrawCounts(None, None, max(len(found), 1))
+    counts = DrawCounts(numbers[0], instances, len(numbers))
+    counts.vertices = sum(numbers) * instances
+    if len(numbers) > 1:
+        counts.count = max(numbers)
+    return member, counts

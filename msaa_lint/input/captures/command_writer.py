@@ -6,8 +6,9 @@ from collections.abc import Collection, Hashable, Iterable, Iterator, Mapping
 from typing import Any
 
 from msaa_lint.core.text.source import Origin
+from msaa_lint.frame.description.members import MAX_UINT32
 
-from .command_buffers import PASS_BEGINS, PASS_ENDS, RecordedCommand, RenderPassBegin
+from .command_buffers import MAX_FULLSCREEN_VERTICES, PASS_BEGINS, PASS_ENDS, RecordedCommand, RenderPassBegin
 from .frame_boundary import AspectUse, aspect_uses
 from .frame_kinds import FrameKind, Role
 from .labels import FrameLabels
@@ -270,9 +271,16 @@ def _with_images(kind: FrameKind, order: Iterable[tuple[RecordedCommand, int]]) 
 def _draw(command: RecordedCommand, names: Names) -> dict[str, Any]:
     key: Any = command.key
     pipeline, counted, _, _ = key
-    count, instances = command.detail or (None, None)
     body: dict[str, Any] = {}
     if pipeline is not None:
         body["pipeline"] = names.pipeline(pipeline)
-    body.update({name: value for name, value in ((counted, count), ("instanceCount", instances)) if value is not None and value >= 0})
-    return body
+    counts = command.detail
+    if counts is None:
+        return body
+    count, instances = counts.count, counts.instances
+    if counts.draws > 1 and (counts.vertices is None or count is None or count * counts.draws != counts.vertices):
+        # The mean, and one instance unless it would look like a full-screen triangle that was drawn once.
+        count = min(-(-counts.vertices // counts.draws), MAX_UINT32) if counts.vertices is not None else None
+        instances = 1 if count is not None and count > MAX_FULLSCREEN_VERTICES else None
+    written = ((counted, count), ("instanceCount", instances), ("drawCount", counts.draws if counts.draws > 1 else None))
+    return body | {name: value for name, value in written if name and value is not None}

@@ -112,7 +112,7 @@ def test_an_inline_resolve_is_planned_whole() -> None:
         "built-in 0", 0, 4, dynamic=(0, 1), depth_test=True, depth_write=True, depth_compare=1, stencil_test=True,
         blends=(Blend(),), numerics=("UNORM",),
     )  # fmt: skip
-    assert made.steps == (Step("begin", 0, 0, (0, 0, 128, 64), (PassCommand("draw", 0, 0),)),)
+    assert made.steps == (Step("begin", 0, 0, (0, 0, 128, 64), (PassCommand("draw", 0, 0, draws=0),)),)
 
 
 @pytest.mark.parametrize(
@@ -799,7 +799,7 @@ commands:
     assert (pipeline.depth_format, pipeline.stencil_format) == (0, D24S8)
     assert (pipeline.depth_test, pipeline.depth_write, pipeline.stencil_test) == (False, False, True)
     # What is unused is not in need of a backdrop.
-    assert made.steps[0].inner == (PassCommand("draw", 0, 0),)
+    assert made.steps[0].inner == (PassCommand("draw", 0, 0, draws=0),)
 
 
 def test_depth_and_stencil_of_two_images_are_refused() -> None:
@@ -1068,7 +1068,7 @@ def test_commands_are_recorded_in_their_order() -> None:
         PassCommand("read", 0, image=b),
         PassCommand("read", 0, image=a),
         PassCommand("samples", 0, value=2),
-        PassCommand("draw", 0, 0),
+        PassCommand("draw", 0, 0, draws=0),
     )
     assert made.steps == (
         Step("clear", 0, source=b, target=b),
@@ -1137,14 +1137,14 @@ def test_every_pipeline_of_a_subpass_draws_where_no_draw_is_described() -> None:
     pipelines = "".join(f"  x{number}: {{renderPass: p}}\n" for number in range(10))
     made = planned(f"{PLAIN}pipelines:\n{pipelines}")
     (step,) = made.steps
-    assert step.inner == tuple(PassCommand("draw", 0, number) for number in range(8))
+    assert step.inner == tuple(PassCommand("draw", 0, number, draws=0) for number in range(8))
     assert len(one(made).pipelines) == 10
 
 
 def test_a_pipeline_that_discards_everything_has_one_beside_it_that_draws() -> None:
     made = planned(f"{PLAIN}pipelines: {{x: {{renderPass: p, rasterizationState: {{rasterizerDiscardEnable: true}}}}}}\n")
     assert [(pipeline.name, pipeline.discard) for pipeline in one(made).pipelines] == [("x", True), ("built-in 0", False)]
-    assert made.steps[0].inner == (PassCommand("draw", 0, 0), PassCommand("draw", 0, 1))
+    assert made.steps[0].inner == (PassCommand("draw", 0, 0, draws=0), PassCommand("draw", 0, 1, draws=0))
 
 
 def test_commands_beyond_a_limit_are_left_out() -> None:

@@ -235,14 +235,52 @@ def test_one_sample_renders_to_the_target() -> None:
     assert resampled(Plan("f", passes=(each,)), 2).passes[0].rendered == rendered
 
 
-def test_one_sample_copies_what_was_resolved() -> None:
+def drawn(number: int, *images: int) -> Pass:
+    rendered = tuple(RenderTarget("color", each, COLOR) for each in images)
+    return Pass(f"p{number}", "p", parts.RENDERING, 0, rendered=rendered, framebuffers=(Framebuffer(images, 64, 64, 1),), images=images)
+
+
+def test_one_sample_draws_to_what_a_command_resolves_to() -> None:
     steps = (
+        Step("begin", 0, area=(0, 0, 64, 64), inner=(PassCommand("draw", 0, 0),)),
+        Step("barrier", 0, masks=(1, 2, 3, 4), layouts=((1, 0, 7), (2, 0, 7))),
         Step("resolve", 0, source=0, target=1),
         Step("blit", 0, source=1, target=2),
-        Step("begin", 0, inner=(PassCommand("draw", 0, 0),)),
     )
-    made = resampled(Plan("f", (image(samples=4), image(), image()), steps=steps), 1)
-    assert made.steps == (Step("copy", 0, source=0, target=1), *steps[1:])
+    images = (image(samples=4, name="samples")._replace(usage=0x51), image(name="picture")._replace(usage=6), image())
+    made = resampled(Plan("f", images, (drawn(0, 0),), steps), 1)
+    # The layouts of the image are not those of a transfer any more, so what the barrier was for has one between all commands.
+    barrier = Step("barrier", 0, masks=(0x10000, 0x10000, 0x10000, 0x18000), layouts=((2, 0, 7),))
+    assert made.steps == (steps[0], barrier, steps[3])
+    assert [target.image for target in made.passes[0].rendered] == [1]
+    assert (made.passes[0].framebuffers[0].images, made.passes[0].images) == ((1,), (1,))
+    assert made.images[1].usage == 0x17
+    assert resampled(Plan("f", images, (drawn(0, 0),), steps), 2).steps == steps
+
+
+@pytest.mark.parametrize(
+    ("first", "last"),
+    [
+        (Step("clear", 0, target=1), None),
+        (None, Step("copyOut", 0, source=0)),
+        (None, Step("resolve", 0, source=0, target=2)),
+        (None, Step("begin", 1, area=(0, 0, 64, 64))),
+    ],
+)
+def test_one_sample_copies_what_is_used_otherwise(first: Step | None, last: Step | None) -> None:
+    """The target holds something before, the source is read, resolved to another image, or drawn to afterward."""
+    between = (Step("begin", 0, area=(0, 0, 64, 64)), Step("resolve", 0, source=0, target=1))
+    steps = tuple(step for step in (first, *between, last) if step is not None)
+    plan = Plan("f", (image(samples=4), image(), image()), (drawn(0, 0), drawn(1, 0)), steps)
+    made = resampled(plan, 1)
+    assert [step.kind for step in made.steps] == ["copy" if step.kind == "resolve" else step.kind for step in steps]
+    assert made.passes[0].rendered == plan.passes[0].rendered
+
+
+def test_one_sample_copies_between_formats_and_sizes() -> None:
+    step = Step("resolve", 0, source=0, target=1)
+    for other in (image(32, 64), image()._replace(format=44)):
+        assert resampled(Plan("f", (image(samples=4), other), steps=(step,)), 1).steps == (step._replace(kind="copy"),)
 
 
 SINGLE = """\

@@ -75,7 +75,7 @@ class BeginRendering(Record):
 
 
 class Draw(Record):
-    """vkCmdDraw, vkCmdDrawIndexed."""
+    """vkCmdDraw, vkCmdDrawIndexed; or `drawCount` such draws with one pipeline, whose counts are these on average."""
 
     pipeline: PipelineName | None = None
     vertexCount: Index | None = None
@@ -83,6 +83,7 @@ class Draw(Record):
     instanceCount: Index | None = None
     firstVertex: Index | None = None
     firstInstance: Index | None = None
+    drawCount: Size | None = None
 
 
 class ClearAttachment(Record):

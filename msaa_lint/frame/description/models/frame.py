@@ -134,6 +134,8 @@ class Scene(Record):
     toneMapping: Literal["AFTER_RESOLVE", "IN_PASS", "NONE"] | None = None
     alphaTest: bool | None = None
     textureDetail: bool | None = None
+    overdraw: Annotated[PositiveNumber, "How many triangles of a pass cover a pixel, on average."] | None = None
+    triangleArea: Annotated[PositiveNumber, "The mean area of a triangle, in pixels."] | None = None
     shading: Annotated[ShadingCost, "What a fragment shader invocation costs: the study's --shading."] | None = None
 
 

@@ -28,6 +28,7 @@ from ..members import (
     Offset,
     PipelineBindPoint,
     PolygonMode,
+    PrimitiveTopology,
     RenderPassFlags,
     RenderPassName,
     ResolveMode,
@@ -228,6 +229,12 @@ class VertexInputState(Record):
     vertexAttributeDescriptions: tuple[VertexAttribute, ...] = ()
 
 
+class InputAssemblyState(Record):
+    """VkPipelineInputAssemblyStateCreateInfo."""
+
+    topology: PrimitiveTopology | None = None
+
+
 class RasterizationState(Record):
     """VkPipelineRasterizationStateCreateInfo."""
 
@@ -270,6 +277,7 @@ class Pipeline(Record):
     colorBlendState: ColorBlendState | None = None
     depthStencilState: DepthStencilState | None = None
     vertexInputState: VertexInputState | None = None
+    inputAssemblyState: InputAssemblyState | None = None
     rasterizationState: RasterizationState | None = None
     dynamicState: DynamicStates = ()
     stages: tuple[ShaderStage, ...] = ()
