@@ -10,7 +10,7 @@ import sys
 from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
 from importlib.util import find_spec
-from typing import IO, Any, NamedTuple
+from typing import IO, TYPE_CHECKING, Any, NamedTuple
 
 from msaa_lint.core.extras import needs_extra
 from msaa_lint.core.finding import Finding
@@ -46,6 +46,10 @@ from .report.escape import escape
 from .study_subjects import Subject, errors_of, subjects
 
 MAX_BUDGET_MS = 1000.0
+
+if TYPE_CHECKING:
+    from msaa_lint.experiments.study.record import DocumentStudy
+    from msaa_lint.frame.facts.frame import Frame
 
 Costs = Mapping[str, Mapping[Technique, Cost]]
 """What each technique costs, by scene."""
@@ -292,7 +296,7 @@ def _write_crops(folder: str, force: bool, options: StudyOptions, studied: Seque
 
 def _write_records(studied: Sequence[Subject], outcome: Study, force: bool) -> list[str]:
     """Writes one record per file of descriptions, except for files with a failed point; returns the paths."""
-    from msaa_lint.experiments.study.record import DocumentStudy, write
+    from msaa_lint.experiments.study.record import write
     from msaa_lint.linter.study_record import path_of
 
     files: dict[str, list[Subject]] = {}
@@ -304,16 +308,28 @@ def _write_records(studied: Sequence[Subject], outcome: Study, force: bool) -> l
         names = {subject.input.name for subject in documents}
         if any(failure.scene in names for failure in outcome.failed):
             continue
-        studies = [
-            DocumentStudy(subject.frame, outcome.device, outcome.size, outcome.of(subject.input.name))
-            for subject in documents
-            if subject.frame is not None
-        ]
+        studies = [_document_study(subject.input.name, subject.frame, outcome) for subject in documents if subject.frame is not None]
         if not any(point.technique.kind == MSAA for study in studies for point in study.points):
             raise UsageError("--record: no sample count was measured; add msaa to --techniques")
         with writes(path_of(file)):
             paths.append(write(file, studies, force))
     return paths
+
+
+def _document_study(name: str, frame: Frame, outcome: Study) -> DocumentStudy:
+    """What the record keeps of a description's study: the points under its own cost of shading, else under the default one."""
+    from msaa_lint.experiments.study.record import DocumentStudy
+    from msaa_lint.experiments.study.shading import Shading
+    from msaa_lint.linter.study_record import DEFAULT_SHADING, stated_shading
+
+    names = outcome.shading_names(name)
+    deciding = stated_shading(frame) or DEFAULT_SHADING
+    if names != [""] and deciding not in names:
+        raise UsageError(f"--record: {name} is judged under {deciding} shading, which was not timed; add {deciding} to --shading")
+    shading = next((each for each in outcome.shadings if each.name == deciding), Shading(deciding))
+    measure = next(scene.measure for scene in outcome.scenes if scene.name == name)
+    points = outcome.of(name, deciding if deciding in names else None)
+    return DocumentStudy(frame, outcome.device, outcome.size, points, shading, measure, outcome.software)
 
 
 def _render(format: str, outcome: Study, arguments: Arguments, out: IO[str]) -> None:

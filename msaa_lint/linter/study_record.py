@@ -18,7 +18,13 @@ if TYPE_CHECKING:
     from msaa_lint.frame.facts.frame import Frame
 
 ENDING = ".msaa-study.json"
-SCHEMA = "msaa-lint/study-record-v1"
+SCHEMA = "msaa-lint/study-record-v2"
+WITHOUT_SHADING = "msaa-lint/study-record-v1"
+"""The schema of records that do not say under which cost of shading they were made."""
+
+DEFAULT_SHADING = "medium"
+"""The cost of shading that rules where a description does not state its own (`scene.shading`)."""
+
 PARTS = ("attachments", "device", "pipelines", "scene", "size")
 """The parts of a description that the result of a study depends on."""
 
@@ -29,7 +35,7 @@ MAX_NODES = 20_000
 MAX_TEXT = 200
 
 _PIPELINE = ("multisampleState", "colorBlendState", "depthStencilState")
-_LEFT_OUT = frozenset({"rasterizationSamples"})
+_LEFT_OUT = frozenset({"rasterizationSamples", "shading"})
 
 
 class Unusable(Exception):
@@ -40,13 +46,28 @@ class Unusable(Exception):
         self.at = at
 
 
+class _Outdated(Exception):
+    """A record does not say under which cost of shading it was made."""
+
+
+class Shading(NamedTuple):
+    """The cost of shading under which techniques were timed: its name, and what it adds to a full screen at one sample, in milliseconds,
+    if that is known."""
+
+    name: str
+    full_screen_ms: float | None
+
+
 class Entry(NamedTuple):
-    """The study of one document: digests by part, the device of its times (or empty), size in pixels, results by sample count."""
+    """The study of one document: digests by part, the device of its times (or empty), the cost of shading (None without times), the error
+    that compares sample counts, size in pixels, results by sample count."""
 
     inputs: dict[str, str]
     device: str
+    shading: Shading | None
+    error_of: str
     size: tuple[int, int]
-    counts: dict[int, Measured]
+    counts: "dict[int, _Count]"
 
 
 def path_of(file: str) -> str:
@@ -63,13 +84,30 @@ def studied(frame: "Frame", file: str) -> Studied:
         entries = _read(path)
     except Unusable as error:
         return Studied(UNUSABLE, str(error))
-    current = digests(frame)
-    found = next((entry for entry in entries if entry.inputs == current), None)
+    except _Outdated:
+        return Studied(STALE, f"it was made without a cost of shading; {_AGAIN}")
+    current, stated = digests(frame), stated_shading(frame)
+    same = [entry for entry in entries if entry.inputs == current]
+    # Without times, the cost of shading does not matter.
+    found = next((entry for entry in same if entry.shading is None or entry.shading.name == (stated or DEFAULT_SHADING)), None)
     if found is not None:
-        measured = ", ".join(f"{count}x" for count in found.counts)
-        return Studied("", f"it measured {measured}", found.counts)
+        measured = ", ".join(f"{count}x" for count in sorted(found.counts))
+        counts = {count: Measured(found.counts[count].justified, _says(count, found, stated)) for count in sorted(found.counts)}
+        return Studied("", f"it measured {measured}", counts)
+    if same and same[0].shading is not None:
+        expected = f"scene.shading is {stated}" if stated is not None else f"without scene.shading, {DEFAULT_SHADING} counts"
+        return Studied(STALE, f"it was made under {quoted(same[0].shading.name, 40)} shading, and {expected}; {_AGAIN}")
     nearest = min(entries, key=lambda entry: len(_changed(entry, current)))
-    return Studied(STALE, f"{_listed(_changed(nearest, current))} changed since; run `msaa-lint study --record` again")
+    return Studied(STALE, f"{_listed(_changed(nearest, current))} changed since; {_AGAIN}")
+
+
+_AGAIN = "run `msaa-lint study --record` again"
+
+
+def stated_shading(frame: "Frame") -> str | None:
+    """The cost of shading that a description states; None if it states none."""
+    scene = frame.description.scene
+    return scene.shading if scene is not None else None
 
 
 def _changed(entry: Entry, current: dict[str, str]) -> list[str]:
@@ -83,8 +121,8 @@ def _listed(words: list[str]) -> str:
 def digests(frame: "Frame") -> dict[str, str]:
     """Digests by part of what a study of a frame depends on.
 
-    That excludes sample counts, of which a study measures several, names, load and store operations, layouts, memory, and images that
-    nothing is rendered to.
+    That excludes sample counts, of which a study measures several, the cost of shading, which is compared by its name, names, load and
+    store operations, layouts, memory, and images that nothing is rendered to.
     """
     from hashlib import sha256
 
@@ -100,7 +138,8 @@ def inputs(frame: "Frame") -> dict[str, str]:
         "attachments": repr(sorted(set(map(repr, _attachments(frame))))),
         "device": repr(_canonical(description.device)),
         "pipelines": repr(sorted(set(map(repr, states)))),
-        "scene": repr(_canonical(description.scene)),
+        # A scene that states nothing is none.
+        "scene": repr(_canonical(description.scene) or None),
         "size": repr((size.width, size.height) if size is not None else None),
     }
 
@@ -162,28 +201,39 @@ def _read(path: str) -> list[Entry]:
 
 def _entries(root: "Node") -> Iterator[Entry]:
     schema, studies = _members(root, ("schema", "studies"))
+    if schema.value == WITHOUT_SHADING:
+        raise _Outdated
     if schema.value != SCHEMA:
         raise Unusable(f'expected the schema "{SCHEMA}"', schema)
     if studies.kind != "sequence" or not studies.value:
         raise Unusable("`studies` must be a list with at least one element", studies)
     for node in studies.value:
-        parts, device, size, counts = _members(node, ("inputs", "device", "size", "counts"))
+        parts, device, shading, error_of, size, counts = _members(node, ("inputs", "device", "shading", "error_of", "size", "counts"))
         digests = dict(zip(PARTS, (_text(part) for part in _members(parts, PARTS)), strict=True))
         if size.kind != "sequence" or len(size.value) != 2:
             raise Unusable("`size` must be a list of width and height", size)
         width, height = (_pixels(side) for side in size.value)
-        where, pixels = _text(device), (width, height)
-        yield Entry(digests, where, pixels, _counts(counts, where, pixels))
+        entry = Entry(digests, _text(device), _shading(shading), _text(error_of), (width, height), _counts(counts))
+        if entry.shading is None and any(count.time_ms is not None for count in entry.counts.values()):
+            raise Unusable("times need a cost of shading", shading)
+        yield entry
+
+
+def _shading(node: "Node") -> Shading | None:
+    if node.kind == "scalar" and node.value is None:
+        return None
+    name, full_screen = _members(node, ("name", "full_screen_ms"))
+    return Shading(_text(name), None if full_screen.value is None else _number(full_screen))
 
 
 class _Count(NamedTuple):
-    rmse: float
+    error: float
     time_ms: float | None
     justified: bool
     reason: str
 
 
-def _counts(node: "Node", device: str, size: tuple[int, int]) -> dict[int, Measured]:
+def _counts(node: "Node") -> dict[int, _Count]:
     if node.kind != "mapping" or not node.value:
         raise Unusable("`counts` must be an object with at least one sample count", node)
     known = {str(count): count for count in COUNTS}
@@ -191,26 +241,31 @@ def _counts(node: "Node", device: str, size: tuple[int, int]) -> dict[int, Measu
     for key, value in node.value.items():
         if key not in known:
             raise Unusable(f"{quoted(key, 20)} is not a sample count", node.keys[key])
-        rmse, time, justified, reason = _members(value, ("rmse", "time_ms", "justified", "reason"))
+        error, time, justified, reason = _members(value, ("error", "time_ms", "justified", "reason"))
         if not isinstance(justified.value, bool):
             raise Unusable("`justified` must be true or false", justified)
         time_ms = None if time.value is None else _number(time)
-        found[known[key]] = _Count(_number(rmse), time_ms, justified.value, _text(reason))
-    return {count: Measured(found[count].justified, _says(count, found, device, size)) for count in sorted(found)}
+        found[known[key]] = _Count(_number(error), time_ms, justified.value, _text(reason))
+    return found
 
 
-def _says(count: int, found: dict[int, _Count], device: str, size: tuple[int, int]) -> str:
+def _says(count: int, entry: Entry, stated: str | None) -> str:
     """The result of a study for a sample count, compared with the largest count up to 4."""
-    measured = found[count]
-    base = max((samples for samples in found if samples <= 4), default=None)
-    where = f"at {size[0]}x{size[1]}" + (f" on {device}" if device else "") + (f"; {measured.reason}" if measured.reason else "")
+    measured = entry.counts[count]
+    base = max((samples for samples in entry.counts if samples <= 4), default=None)
+    where = f"at {entry.size[0]}x{entry.size[1]}" + (f" on {entry.device}" if entry.device else "")
+    if entry.shading is not None:
+        screen = [] if entry.shading.full_screen_ms is None else [f"{entry.shading.full_screen_ms:.3g} ms a full screen"]
+        notes = ", ".join([*screen, *(["the default"] if stated is None else [])])
+        where += f" under {entry.shading.name} shading" + (f" ({notes})" if notes else "")
+    where += f"; {measured.reason}" if measured.reason else ""
     if base is None or base == count:
-        return f"its error is {measured.rmse:.3g} {where}"
-    reference = found[base]
-    if reference.rmse > 0:
-        error = f"it leaves {100 * measured.rmse / reference.rmse:.0f} % of {base}x's error"
+        return f"its {entry.error_of} is {measured.error:.3g} {where}"
+    reference = entry.counts[base]
+    if reference.error > 0:
+        error = f"it leaves {100 * measured.error / reference.error:.0f} % of {base}x's {entry.error_of}"
     else:
-        error = f"{base}x has no error to lose"
+        error = f"{base}x has no {entry.error_of} to lose"
     if measured.time_ms is None or not reference.time_ms:
         return f"{error}, at no known time, {where}"
     return f"{error} for {measured.time_ms / reference.time_ms:.2g} times its time {where}"

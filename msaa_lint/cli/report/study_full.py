@@ -131,7 +131,7 @@ def _timing(study: Study, size: str) -> Iterator[str]:
     """The origin of the times: the device, the calibrated costs of shading, and the models."""
     yield f"{size}; times measured by the clock of {display(study.device)}"
     if study.software:
-        yield f"{display(study.device)} is a software driver: its times say nothing of a GPU, and advice does not use them"
+        yield f"{display(study.device)} is a software driver: its times say nothing about a GPU, and advice does not use them"
     if any(point.low_ms is not None for point in study.points):
         yield f"± half of the 95 % interval of the median; {TIE} the same time, within the noise, as the next shorter one"
     for shading in study.shadings:

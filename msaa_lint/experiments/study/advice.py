@@ -10,7 +10,7 @@ from typing import NamedTuple
 from .measures import ERROR, Measure
 from .pareto import as_fast
 from .points import MSAA, SAMPLE_SHADING, SSAA, Point
-from .recommendation import WorthFrom
+from .recommendation import Worth
 from .shading import Shading
 from .steps import MAX_ADDED, MAX_REMAINING, is_enough, percent
 
@@ -32,8 +32,8 @@ class Advice(NamedTuple):
 
 
 def advice(points: Sequence[Point], measure: Measure = ERROR) -> Iterator[Advice]:
-    """What the errors of one scene say, whatever the time: `points` are those under one cost of shading. Steps from count to count are
-    told by `steps`."""
+    """What the errors of one scene say, whatever the time: `points` are those under one cost of shading. `steps` reports the
+    steps from count to count."""
     finite = [point for point in points if math.isfinite(point.rmse)]
     counts = sorted((point for point in finite if point.technique.kind == MSAA), key=lambda point: point.technique)
     sentences = (*_counts(finite, counts), *_shading(finite, counts), *_supersampling(finite, counts), *_worth(counts, measure))
@@ -121,23 +121,27 @@ def _worth(counts: Sequence[Point], measure: Measure) -> Iterator[tuple[str, str
         yield f"each step up to {last.technique.name} removes {removed}", "whether that is worth its time depends on the cost of shading"
 
 
-def worth_advice(scene: str, found: WorthFrom, shadings: Sequence[Shading]) -> Advice:
-    """From which cost of shading on a step up is worth its time, beside the costs that were measured."""
-    name = found.after.name
-    measured = [shading for shading in shadings if shading.full_screen_ms is not None and shading.nanoseconds]
-    costs = ", ".join(f"{shading.name} is {shading.full_screen_ms:.3g} ms" for shading in measured)
-    reason = f"from there on it adds at most {percent(MAX_ADDED)[1:]} to the time of {found.before.name}"
-    if found.full_screen_ms is None:
-        text = f"{name} is not worth its time at any measured cost of shading"
-        reason = f"it always adds more than {percent(MAX_ADDED)[1:]} to the time of {found.before.name}"
-    elif found.full_screen_ms == 0:
-        text = f"{name} is worth its time at every cost of shading"
-        reason = f"it never adds more than {percent(MAX_ADDED)[1:]} to the time of {found.before.name}"
+def worth_advice(scene: str, found: Worth, shadings: Sequence[Shading]) -> Advice:
+    """At which costs of shading a step up is worth its time, beside the costs that were measured."""
+    name, other, limit = found.after.name, found.before.name, percent(MAX_ADDED)[1:]
+    cost = f"{found.full_screen_ms:.2g} ms" if found.full_screen_ms is not None else ""
+    reason = f"there it adds at most {limit} to the time of {other}"
+    if found.at_least and found.at_greatest:
+        text = f"{name} is worth its time at every measured cost of shading"
+        reason = f"it adds at most {limit} to the time of {other}"
+    elif found.at_greatest:
+        text = f"{name} is worth its time where shading a full screen takes about {cost} or more"
+    elif found.at_least:
+        text = f"{name} is worth its time where shading a full screen takes at most about {cost}"
     else:
-        text = f"{name} is worth its time from a shading cost of about {found.full_screen_ms:.2g} ms a full screen on"
-        low = "any cost" if not found.low_ms else f"{found.low_ms:.2g} ms"
-        high = "more than measured" if found.high_ms is None else f"{found.high_ms:.2g} ms"
-        reason += f"; by the model's residuals from {low} to {high}"
+        text = f"{name} is not worth its time at any measured cost of shading"
+        reason = f"it always adds more than {limit} to the time of {other}"
+    if cost and found.low_ms is not None:
+        reason += f"; the model's residuals put that cost between {found.low_ms:.2g} and {found.high_ms:.2g} ms"
+    elif cost:
+        reason += "; within the model's residuals it may be at every measured cost or at none"
+    calibrated = [shading for shading in shadings if shading.full_screen_ms]
+    costs = ", ".join(f"{shading.name} is {shading.full_screen_ms:.3g} ms" for shading in calibrated)
     return Advice(scene, text, f"{reason}; {costs}" if costs else reason)
 
 
@@ -171,7 +175,7 @@ def ruling(points: Sequence[Point], samples: int, measure: Measure = ERROR, *, s
         # More samples always have less error: their cost decides.
         return Ruling(False, "its time was not measured; `--device NAME` measures it")
     if software:
-        return Ruling(False, "its time is a software driver's, which says nothing of a GPU")
+        return Ruling(False, "its time is a software driver's, which says nothing about a GPU")
     if point.time_ms is None:
         return Ruling(False, "the timed device does not support it")
     if point.best:

@@ -9,7 +9,7 @@ from .measures import Measure, measure_of
 from .outcome import SceneSummary, Study
 from .pareto import mark_best
 from .points import Point
-from .recommendation import recommendation, worth_from
+from .recommendation import recommendation, worth
 from .steps import steps
 
 
@@ -45,5 +45,5 @@ def _advice(study: Study, scene: SceneSummary) -> Iterator[Advice]:
 def _worth(study: Study, scene: SceneSummary, points: Sequence[Point], measure: Measure) -> Iterator[Advice]:
     for model in study.models:
         if model.scene == scene.name:
-            for found in worth_from(points, measure, model, study.shadings):
+            for found in worth(points, measure, model, study.shadings):
                 yield worth_advice(scene.name, found, study.shadings)

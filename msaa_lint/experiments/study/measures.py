@@ -26,6 +26,11 @@ class Measure(NamedTuple):
             return value
         return 10.0 ** (-min(max(value, -1000.0), 1000.0) / 20) if not math.isinf(value) else 0.0 if value > 0 else math.inf
 
+    def is_finite(self, point: Point) -> bool:
+        """Whether the error was measured, and is a finite number."""
+        value = self.of(point)
+        return value is not None and math.isfinite(value)
+
     def rounded(self, point: Point) -> float:
         """The error to as many digits as are compared; NaN where it was not measured."""
         value = self.of(point)
@@ -45,7 +50,7 @@ def measure_of(about: Sequence[str], points: Sequence[Point]) -> Measure:
     thin lines their flicker; otherwise, and where that was not measured of all points, the RMSE."""
     preferred = (FLIP, DISPLAY) if HDR in about else (FLICKER,) if THIN_LINES in about else ()
     for measure in preferred:
-        values = [measure.of(point) for point in points if math.isfinite(point.rmse)]
-        if values and all(value is not None and math.isfinite(value) for value in values):
+        finite = [point for point in points if math.isfinite(point.rmse)]
+        if finite and all(map(measure.is_finite, finite)):
             return measure
     return ERROR

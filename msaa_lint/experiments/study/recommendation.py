@@ -104,28 +104,37 @@ def _bounds(added: AddedTime) -> str:
     return f"{added.ms:.3g} ms ({added.low_ms:.3g} to {added.high_ms:.3g} ms, {percent(added.share)})"
 
 
-class WorthFrom(NamedTuple):
-    """From which cost of shading on a step up is worth its time: in milliseconds of a full screen at one sample, with the bounds that the
-    residuals of the model leave. None for a bound that lies beyond the costs measured; 0 if it is worth it at every cost."""
+class Worth(NamedTuple):
+    """At which costs of shading a step up is worth its time, of those up to the greatest measured.
+
+    `at_least` and `at_greatest` say whether it is without shading and at the greatest. If it is at one of them, `full_screen_ms` is the
+    cost between them where that ends, in milliseconds of a full screen at one sample, with the bounds that the model's residuals leave it.
+    """
 
     before: Technique
     after: Technique
+    at_least: bool
+    at_greatest: bool
     full_screen_ms: float | None
     low_ms: float | None
     high_ms: float | None
 
 
-def worth_from(points: Sequence[Point], measure: Measure, model: TimeModel, shadings: Sequence[Shading]) -> Iterator[WorthFrom]:
-    """For each step up from a sample count to the next that removes enough of the error, the cost from which it is worth its time, by the
+def worth(points: Sequence[Point], measure: Measure, model: TimeModel, shadings: Sequence[Shading]) -> Iterator[Worth]:
+    """For each step up from a sample count to the next that removes enough of the error, the costs at which it is worth its time, by the
     model of times; `points` are those of one scene under one cost."""
     counts = sorted((point for point in points if point.technique.kind == MSAA), key=lambda point: point.technique)
     greatest = max((shading.nanoseconds or 0.0 for shading in shadings), default=0.0)
     for before, after in pairwise(counts):
         timed = model.predict(before.technique, 0.0) and model.predict(after.technique, 0.0)
         if greatest > 0 and timed and is_enough(measure, before, after):
+            excess, *bounds = (_excess(model, before.technique, after.technique, bound) for bound in (0, -1, 1))
             scale = after.width * after.height * 1e-12
-            found = [_crossing(_excess(model, before.technique, after.technique, bound), greatest) for bound in (0, -1, 1)]
-            yield WorthFrom(before.technique, after.technique, *(None if cost is None else cost * scale for cost in found))
+            cost = _crossing(excess, greatest)
+            ends = sorted(end for bound in bounds if (end := _crossing(bound, greatest)) is not None)
+            low, high = (ends[0], ends[1]) if len(ends) == 2 else (None, None)
+            figures = (None if figure is None else figure * scale for figure in (cost, low, high))
+            yield Worth(before.technique, after.technique, excess(0.0) <= 0, excess(greatest) <= 0, *figures)
 
 
 def _excess(model: TimeModel, before: Technique, after: Technique, bound: int) -> Callable[[float], float]:
@@ -142,13 +151,12 @@ def _excess(model: TimeModel, before: Technique, after: Technique, bound: int) -
 
 
 def _crossing(excess: Callable[[float], float], greatest: float) -> float | None:
-    """The least argument up to `greatest` from which a falling function is at most 0; None if there is none."""
-    if excess(0.0) <= 0:
-        return 0.0
-    if excess(greatest) > 0:
+    """The argument between 0 and `greatest` at which a monotonic function becomes or stops being positive; None if there is none."""
+    begins = excess(0.0) > 0
+    if begins == (excess(greatest) > 0):
         return None
     low, high = 0.0, greatest
     for _ in range(BISECTIONS):
         middle = (low + high) / 2
-        low, high = (middle, high) if excess(middle) > 0 else (low, middle)
+        low, high = (middle, high) if (excess(middle) > 0) == begins else (low, middle)
     return high

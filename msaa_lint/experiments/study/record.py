@@ -4,26 +4,31 @@ it."""
 from __future__ import annotations
 
 import json
-import math
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 from msaa_lint.core.atomic_write import write_file
 from msaa_lint.frame.facts.frame import Frame
 from msaa_lint.input.content import is_own_output
-from msaa_lint.linter.study_record import MAX_TEXT, SCHEMA, digests, path_of
+from msaa_lint.linter.study_record import DEFAULT_SHADING, MAX_TEXT, SCHEMA, digests, path_of
 
 from .advice import MAX_EFFICIENT, Ruling, ruling
+from .measures import ERROR, Measure
 from .points import MSAA, Point
+from .shading import Shading
 
 
 class DocumentStudy(NamedTuple):
-    """The study of one document of a description: its frame, the source of the times (empty without any), and the points of its scene."""
+    """The study of one document of a description: its frame, the source of the times (empty without any) and whether that is a software
+    driver, and the points of its scene under the cost of shading that decides, with the error that decides."""
 
     frame: Frame
     device: str
     size: tuple[int, int]
     points: Sequence[Point]
+    shading: Shading = Shading(DEFAULT_SHADING)
+    measure: Measure = ERROR
+    software: bool = False
 
 
 def text(studies: Sequence[DocumentStudy]) -> str:
@@ -33,24 +38,36 @@ def text(studies: Sequence[DocumentStudy]) -> str:
 
 
 def _study(study: DocumentStudy) -> dict[str, Any]:
-    points = [point for point in study.points if point.technique.kind == MSAA and math.isfinite(point.rmse)]
+    points = [point for point in study.points if point.technique.kind == MSAA and study.measure.is_finite(point)]
     if not points:
         raise ValueError("no sample count was measured")
     timed = any(point.time_ms is not None for point in points)
+    shading = {"name": _clip(study.shading.name), "full_screen_ms": _figure(study.shading.full_screen_ms)}
     return {
         "inputs": digests(study.frame),
-        "device": study.device.encode("utf-8", "replace").decode()[:MAX_TEXT] if timed else "",
+        "device": _clip(study.device) if timed else "",
+        "shading": shading if timed else None,
+        "error_of": study.measure.name,
         "size": list(study.size),
-        "counts": {str(point.technique.samples): _count(point, study.points) for point in points},
+        "counts": {str(point.technique.samples): _count(point, study) for point in points},
     }
 
 
-def _count(point: Point, points: Sequence[Point]) -> dict[str, Any]:
-    """A count's error and time, to six significant digits, and whether it is justified; counts up to four need no justification."""
+def _count(point: Point, study: DocumentStudy) -> dict[str, Any]:
+    """A count's error and time, and whether it is justified; counts up to four need no justification."""
     samples = point.technique.samples
-    verdict = ruling(points, samples) if samples > MAX_EFFICIENT else Ruling(True)
-    time = None if point.time_ms is None else float(f"{point.time_ms:.6g}")
-    return {"rmse": float(f"{point.rmse:.6g}"), "time_ms": time, "justified": verdict.justified, "reason": verdict.reason}
+    verdict = ruling(study.points, samples, study.measure, software=study.software) if samples > MAX_EFFICIENT else Ruling(True)
+    error, time = _figure(study.measure.of(point)), _figure(point.time_ms)
+    return {"error": error, "time_ms": time, "justified": verdict.justified, "reason": verdict.reason}
+
+
+def _clip(text: str) -> str:
+    return text.encode("utf-8", "replace").decode()[:MAX_TEXT]
+
+
+def _figure(value: float | None) -> float | None:
+    """A number to six significant digits."""
+    return None if value is None else float(f"{value:.6g}")
 
 
 def write(description: str, studies: Sequence[DocumentStudy], force: bool = False) -> str:

@@ -111,7 +111,7 @@ def added_time(one: Point, other: Point) -> AddedTime | None:
 
 def added_text(added: AddedTime, same_time: bool) -> str:
     """`+0.31 ms (+9 %)`, or that it is the same time."""
-    return "same time within the noise" if same_time else f"{added.ms:+.3g} ms ({percent(added.share)})"
+    return "same time, within noise" if same_time else f"{added.ms:+.3g} ms ({percent(added.share)})"
 
 
 def change_text(measure: Measure, change: float) -> str:

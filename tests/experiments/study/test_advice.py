@@ -136,7 +136,7 @@ def test_a_count_that_a_grid_beats_or_no_device_draws_is_not_justified() -> None
 
 def test_a_software_driver_s_time_justifies_nothing() -> None:
     points = mark_best([timed(technique) for technique in techniques((MSAA,))], timed=False)
-    assert ruling(points, 8, software=True) == Ruling(False, "its time is a software driver's, which says nothing of a GPU")
+    assert ruling(points, 8, software=True) == Ruling(False, "its time is a software driver's, which says nothing about a GPU")
 
 
 def test_the_error_that_counts_rules() -> None:

@@ -13,7 +13,7 @@ from msaa_lint.experiments.study.answer import conclude
 from msaa_lint.experiments.study.measures import DISPLAY, ERROR, FLICKER, FLIP, measure_of
 from msaa_lint.experiments.study.outcome import SceneSummary, Study
 from msaa_lint.experiments.study.points import MSAA, SAMPLE_SHADING, Point, Technique, techniques
-from msaa_lint.experiments.study.recommendation import Recommendation, recommendation, worth_from
+from msaa_lint.experiments.study.recommendation import Recommendation, recommendation, worth
 from msaa_lint.experiments.study.scenes import NAMES, scene
 from msaa_lint.experiments.study.scenes.about import about
 from msaa_lint.experiments.study.shading import Shading
@@ -46,7 +46,7 @@ def test_a_step_within_the_noise_takes_the_same_time() -> None:
     two = timed(Technique(MSAA, 2), time_ms=3.4, low_ms=3.3, high_ms=3.5, rmse=0.2)
     four = timed(Technique(MSAA, 4), time_ms=3.5, low_ms=3.4, high_ms=3.6, rmse=0.2)
     (step,) = study([two, four]).steps
-    assert (step.text, step.same_time, step.worth) == ("2x to 4x: same time within the noise, error unchanged", True, False)
+    assert (step.text, step.same_time, step.worth) == ("2x to 4x: same time, within noise, error unchanged", True, False)
 
 
 def test_steps_without_a_time_of_a_gpu_are_of_errors_alone() -> None:
@@ -143,19 +143,34 @@ def test_a_step_is_worth_it_from_the_cost_where_it_adds_a_tenth() -> None:
     """1.3 + x = 1.1 (1.0 + x), where a million invocations take x ms."""
     points = [timed(technique, width=1000, height=1000) for technique in COUNTS]
     shadings = [Shading("heavy", nanoseconds=12e6)]
-    found = {each.after.name: each for each in worth_from(points, ERROR, model(), shadings)}
+    found = {each.after.name: each for each in worth(points, ERROR, model(), shadings)}
     assert found["2x"].full_screen_ms == pytest.approx((1.3 - 1.1 * 1.0) / 0.1)
     assert found["4x"].full_screen_ms == pytest.approx((2.0 - 1.1 * 1.3) / 0.1)
-    assert (found["8x"].full_screen_ms, found["8x"].low_ms, found["8x"].high_ms) == (None, None, None)
+    assert found["8x"][2:] == (False, False, None, None, None)
     assert "16x" not in found, "it has no less error"
-    rough = {each.after.name: each for each in worth_from(points, ERROR, model(0.02), shadings)}["2x"]
+    rough = {each.after.name: each for each in worth(points, ERROR, model(0.02), shadings)}["2x"]
+    assert (rough.at_least, rough.at_greatest) == (False, True)
     assert rough.low_ms == pytest.approx((0.98 * 1.3 - 1.1) / (1.1 - 0.98))
     assert rough.high_ms == pytest.approx((1.02 * 1.3 - 1.1) / (1.1 - 1.02))
 
 
-def worth(points: list[Point], of: TimeModel, *shadings: Shading, **other: Any) -> list[str]:
+def test_a_step_whose_invocations_grow_is_worth_it_up_to_a_cost() -> None:
+    """1.0 + 1.3 x = 1.1 (1.0 + x): edges of small triangles add invocations, and a tile-based GPU adds nothing else."""
+    points = [timed(technique, width=1000, height=1000) for technique in COUNTS[:2]]
+    edges = TimeModel("edges", dict.fromkeys(COUNTS, 1.0), {COUNTS[0]: 1e6, COUNTS[1]: 1.3e6}, 0.02, 0.01)
+    (found,) = worth(points, ERROR, edges, [Shading("heavy", nanoseconds=12e6)])
+    assert (found.at_least, found.at_greatest) == (True, False)
+    assert found.full_screen_ms == pytest.approx(0.1 / 0.2)
+    assert (found.low_ms, found.high_ms) == pytest.approx(((1.1 - 1.02) / (1.02 * 1.3 - 1.1), (1.1 - 0.98) / (0.98 * 1.3 - 1.1)))
+    assert sentences(points, edges, Shading("heavy", nanoseconds=12e6)) == [
+        "2x is worth its time where shading a full screen takes at most about 0.5 ms "
+        "(there it adds at most 10 % to the time of 1x; the model's residuals put that cost between 0.35 and 0.69 ms)"
+    ]
+
+
+def sentences(points: list[Point], of: TimeModel, *shadings: Shading, **other: Any) -> list[str]:
     found = study(points, models=[of], shadings=shadings, **other)
-    return [f"{each.text} ({each.reason})" for each in found.advice if "worth its time " in each.text and "each step" not in each.text]
+    return [f"{each.text} ({each.reason})" for each in found.advice if "worth its time " in each.text]
 
 
 def test_the_report_says_from_which_cost_on_or_never() -> None:
@@ -163,17 +178,20 @@ def test_the_report_says_from_which_cost_on_or_never() -> None:
     medium = Shading("medium", 312, 4, 65536, 4.17e6, 4.17)
     heavy = Shading("heavy", 936, 12, 65536, 12e6, 12.0)
     costs = "medium is 4.17 ms, heavy is 12 ms"
-    assert worth(points, model(0.02), medium, heavy) == [
-        "2x is worth its time from a shading cost of about 2 ms a full screen on "
-        f"(from there on it adds at most 10 % to the time of 1x; by the model's residuals from 1.4 ms to 2.8 ms; {costs})",
-        "4x is worth its time from a shading cost of about 5.7 ms a full screen on "
-        f"(from there on it adds at most 10 % to the time of 2x; by the model's residuals from 4.4 ms to 7.6 ms; {costs})",
+    assert sentences(points, model(0.02), medium, heavy) == [
+        "2x is worth its time where shading a full screen takes about 2 ms or more "
+        f"(there it adds at most 10 % to the time of 1x; the model's residuals put that cost between 1.4 and 2.8 ms; {costs})",
+        "4x is worth its time where shading a full screen takes about 5.7 ms or more "
+        f"(there it adds at most 10 % to the time of 2x; the model's residuals put that cost between 4.4 and 7.6 ms; {costs})",
         f"8x is not worth its time at any measured cost of shading (it always adds more than 10 % to the time of 4x; {costs})",
     ]
     free = model()._replace(base_ms=dict.fromkeys(COUNTS, 1.0))
-    assert worth(points, free, medium)[0].startswith("2x is worth its time at every cost of shading (")
-    assert worth(points, model(), medium, software=True) == []
-    assert worth(points, model(scene="another"), medium) == []
+    assert sentences(points, free, medium)[0] == (
+        "2x is worth its time at every measured cost of shading (it adds at most 10 % to the time of 1x; medium is 4.17 ms)"
+    )
+    assert "; within the model's residuals it may be at every measured cost or at none; " in sentences(points, model(0.2), medium)[0]
+    assert sentences(points, model(), medium, software=True) == []
+    assert sentences(points, model(scene="another"), medium) == []
 
 
 def test_a_scene_is_compared_by_what_it_is_about() -> None:

@@ -17,9 +17,11 @@ from hypothesis import strategies as st
 
 from msaa_lint.core.text.source import Source
 from msaa_lint.core.text.tree import Limits, parse
+from msaa_lint.experiments.study.measures import FLICKER
 from msaa_lint.experiments.study.pareto import mark_best
 from msaa_lint.experiments.study.points import MSAA, techniques
 from msaa_lint.experiments.study.record import DocumentStudy, text, write
+from msaa_lint.experiments.study.shading import Shading
 from msaa_lint.frame.description.document import Document
 from msaa_lint.frame.facts.frame import Frame
 from msaa_lint.frame.facts.study import JUSTIFIES, STALE, UNUSABLE, Studied
@@ -70,9 +72,14 @@ def frame(source: str = FRAME) -> Frame:
     return Frame(document(source))
 
 
+MEDIUM = Shading("medium", 312, 4, 65536, 2e6, 4.17)
+ON_A_DEVICE = "at 1920x1080 on a device under"
+MEASURED = f"{ON_A_DEVICE} medium shading (4.17 ms a full screen, the default)"
+
+
 def study(source: str = FRAME, with_times: bool = True) -> DocumentStudy:
     points = mark_best([(timed if with_times else point)(technique) for technique in techniques()])
-    return DocumentStudy(frame(source), "a device" if with_times else "", (1920, 1080), points)
+    return DocumentStudy(frame(source), "a device" if with_times else "", (1920, 1080), points, MEDIUM)
 
 
 def changed(*edits: tuple[str, str]) -> str:
@@ -95,6 +102,7 @@ SAME = {
     "memory and usage": [("usage: [COLOR_ATTACHMENT, TRANSIENT_ATTACHMENT]", "usage: [COLOR_ATTACHMENT]")],
     "a rate": [("fps: 60", "fps: 120")],
     "another spelling": [("R8G8B8A8_UNORM", "VK_FORMAT_R8G8B8A8_UNORM")],
+    "the cost of shading, whose name is compared": [("edges: true", "edges: true, shading: heavy")],
     "another order": [("color: LDR, edges: true", "edges: true, color: LDR")],
     "a pipeline like another": [
         ("pipelines:\n", "pipelines:\n  lit: {renderPass: forward, depthStencilState: {depthTestEnable: false}, multisampleState: {}}\n")
@@ -146,11 +154,12 @@ def test_a_record_is_sorted_small_and_the_same_for_the_same_study() -> None:
     assert len(made) < 2000
     data = json.loads(made)
     assert made == json.dumps(data, indent=2, sort_keys=True) + "\n"
-    assert data["schema"] == "msaa-lint/study-record-v1"
+    assert data["schema"] == "msaa-lint/study-record-v2"
     (own,) = data["studies"]
     assert (own["device"], own["size"], sorted(own["counts"], key=int)) == ("a device", [1920, 1080], ["1", "2", "4", "8", "16"])
-    assert own["counts"]["8"] == {"rmse": 0.0361, "time_ms": 3.8, "justified": True, "reason": ""}
-    assert own["counts"]["16"] == {"rmse": 0.0363, "time_ms": 7.6, "justified": False, "reason": "8x has no more error and costs no more"}
+    assert (own["shading"], own["error_of"]) == ({"name": "medium", "full_screen_ms": 4.17}, "error")
+    assert own["counts"]["8"] == {"error": 0.0361, "time_ms": 3.8, "justified": True, "reason": ""}
+    assert own["counts"]["16"] == {"error": 0.0363, "time_ms": 7.6, "justified": False, "reason": "8x has no more error and costs no more"}
     assert all(re.fullmatch("[0-9a-f]{16}", own["inputs"][part]) for part in PARTS)
 
 
@@ -181,10 +190,13 @@ def image_study(path: Path, source: str) -> tuple[object, object]:
 
 
 def test_the_record_says_what_was_found(beside: Path) -> None:
-    assert image_study(beside, FRAME) == (JUSTIFIES, "it leaves 50 % of 4x's error for 1.9 times its time at 1920x1080 on a device")
+    assert image_study(beside, FRAME) == (
+        JUSTIFIES,
+        f"it leaves 50 % of 4x's error for 1.9 times its time {MEASURED}",
+    )
     assert image_study(beside, FRAME.replace("samples: 8", "samples: 16")) == (
         "DECLINES",
-        "it leaves 50 % of 4x's error for 3.8 times its time at 1920x1080 on a device; 8x has no more error and costs no more",
+        f"it leaves 50 % of 4x's error for 3.8 times its time {MEASURED}; 8x has no more error and costs no more",
     )
     assert image_study(beside, FRAME.replace("samples: 8", "samples: 32")) == (
         "DECLINES", "it did not measure 32x; it measured 1x, 2x, 4x, 8x, 16x",
@@ -215,6 +227,61 @@ def test_no_record_is_none(tmp_path: Path) -> None:
 def test_a_stale_record_names_what_changed(beside: Path) -> None:
     found = of(beside, changed(*OTHER["scene"], *OTHER["size"], *OTHER["device"]))
     assert (found.state, found.says) == (STALE, "device, scene and size changed since; run `msaa-lint study --record` again")
+
+
+OWN_COST = changed(("edges: true", "edges: true, shading: 200ops"))
+
+
+def test_a_record_expires_when_the_description_s_own_cost_differs(tmp_path: Path) -> None:
+    path = tmp_path / "frame.msaa.yaml"
+    write(str(path), [study(OWN_COST)._replace(shading=Shading("200ops", 200, 0, 0, 1e6, 2.07))])
+    own = image_study(path, OWN_COST)
+    assert own == (
+        JUSTIFIES, f"it leaves 50 % of 4x's error for 1.9 times its time {ON_A_DEVICE} 200ops shading (2.07 ms a full screen)",
+    )  # fmt: skip
+    for source, expected in (
+        (OWN_COST.replace("200ops", "heavy"), "scene.shading is heavy"),
+        (OWN_COST.replace("200ops", "medium"), "scene.shading is medium"),
+        (FRAME, "without scene.shading, medium counts"),
+    ):
+        found = of(path, source)
+        assert (found.state, found.says) == (
+            STALE, f"it was made under `200ops` shading, and {expected}; run `msaa-lint study --record` again",
+        )  # fmt: skip
+    assert of(path, OWN_COST.replace("200ops", "200")).state == "", "another spelling of the same cost"
+
+
+def test_the_default_cost_is_the_same_whether_stated_or_not(beside: Path) -> None:
+    stated = changed(("edges: true", "edges: true, shading: medium"))
+    assert image_study(beside, stated) == (
+        JUSTIFIES, f"it leaves 50 % of 4x's error for 1.9 times its time {ON_A_DEVICE} medium shading (4.17 ms a full screen)",
+    )  # fmt: skip
+    assert of(beside, changed(("scene: {color: LDR, edges: true}", "scene: {color: LDR, edges: true, shading: heavy}"))).state == STALE
+
+
+def test_a_record_without_a_cost_is_stale(beside: Path) -> None:
+    Path(path_of(str(beside))).write_bytes(edited(put("schema", "msaa-lint/study-record-v1")))
+    assert of(beside) == Studied(STALE, "it was made without a cost of shading; run `msaa-lint study --record` again")
+
+
+def test_without_times_any_cost_is_the_record_s(tmp_path: Path) -> None:
+    path = tmp_path / "frame.msaa.yaml"
+    write(str(path), [study(with_times=False)])
+    assert json.loads(Path(path_of(str(path))).read_text())["studies"][0]["shading"] is None
+    assert of(path).state == of(path, OWN_COST).state == ""
+
+
+def test_a_ruling_goes_by_the_error_that_counts_and_by_no_software_driver(tmp_path: Path) -> None:
+    path = tmp_path / "frame.msaa.yaml"
+    of_flicker = study()
+    points = [each._replace(flicker=0.1 / each.technique.samples) for each in of_flicker.points]
+    write(str(path), [of_flicker._replace(points=points, measure=FLICKER)])
+    assert image_study(path, FRAME)[1] == f"it leaves 50 % of 4x's flicker for 1.9 times its time {MEASURED}"
+    write(str(path), [study()._replace(software=True)])
+    assert image_study(path, FRAME) == (
+        "DECLINES",
+        f"it leaves 50 % of 4x's error for 1.9 times its time {MEASURED}; its time is a software driver's, which says nothing about a GPU",
+    )
 
 
 def test_a_stream_has_a_study_for_each_document(tmp_path: Path) -> None:
@@ -264,25 +331,30 @@ COUNT = ("studies", 0, "counts", "8")
 @pytest.mark.parametrize(
     ("edit", "words"),
     [
-        (put("schema", "msaa-lint/study-record-v2"), 'line 1: expected the schema "msaa-lint/study-record-v1"'),
+        (put("schema", "msaa-lint/study-record-v3"), 'line 1: expected the schema "msaa-lint/study-record-v2"'),
         (put("more", 1), "line 1: unknown key `more`"),
         (put("studies", []), "line 1: `studies` must be a list with at least one element"),
         (put("studies", {}), "`studies` must be a list"),
-        (put("studies", 0, None), "line 1: expected an object with inputs, device, size, counts"),
+        (put("studies", 0, None), "line 1: expected an object with inputs, device, shading, error_of, size, counts"),
         (put("studies", 0, "size", [1]), "`size` must be a list of width and height"),
         (put("studies", 0, "size", [1, 0]), "expected a positive integer number of pixels"),
         (put("studies", 0, "size", [True, 1]), "expected a positive integer number of pixels"),
         (put("studies", 0, "device", "x" * 201), "expected a string of at most 200 characters"),
         (put("studies", 0, "device", None), "expected a string of at most 200 characters"),
+        (put("studies", 0, "shading", None), "times need a cost of shading"),
+        (put("studies", 0, "shading", "medium"), "expected an object with name, full_screen_ms"),
+        (put("studies", 0, "shading", "name", 5), "expected a string of at most 200 characters"),
+        (put("studies", 0, "shading", "full_screen_ms", -1), "expected a number of at least 0"),
+        (put("studies", 0, "error_of", None), "expected a string of at most 200 characters"),
         (put("studies", 0, "inputs", "scene", 5), "expected a string of at most 200 characters"),
         (put("studies", 0, "inputs", {}), "missing attachments, device, pipelines, scene, size"),
         (put("studies", 0, "counts", {}), "`counts` must be an object with at least one sample count"),
         (put("studies", 0, "counts", "3", {}), "`3` is not a sample count"),
         (put("studies", 0, "counts", "8x" * 50, {}), "`8x8x8x8x8x8x8x8x8x8…` is not a sample count"),
-        (put(*COUNT, "rmse", -1), "expected a number of at least 0"),
-        (put(*COUNT, "rmse", "0.1"), "expected a number of at least 0"),
-        (put(*COUNT, "rmse", True), "expected a number of at least 0"),
-        (put(*COUNT, "rmse", float("nan")), "expected a number of at least 0"),
+        (put(*COUNT, "error", -1), "expected a number of at least 0"),
+        (put(*COUNT, "error", "0.1"), "expected a number of at least 0"),
+        (put(*COUNT, "error", True), "expected a number of at least 0"),
+        (put(*COUNT, "error", float("nan")), "expected a number of at least 0"),
         (put(*COUNT, "time_ms", float("inf")), "expected a number of at least 0"),
         (put(*COUNT, "justified", 1), "`justified` must be true or false"),
         (put(*COUNT, "reason", []), "expected a string of at most 200 characters"),
@@ -353,7 +425,7 @@ def test_check_accepts_what_a_current_record_justifies_and_says_so(beside: Path)
     assert done.returncode == 0
     assert (
         "note[sample-count-above-four] `color_ms` has 8 samples per pixel, which its study justifies: "
-        "it leaves 50 % of 4x's error for 1.9 times its time at 1920x1080 on a device (MSAA101)" in done.stdout
+        f"it leaves 50 % of 4x's error for 1.9 times its time {MEASURED} (MSAA101)" in done.stdout
     )
     (found,) = json.loads(check(beside, "--output", "json").stdout)["findings"]
     assert (found["severity"], found["fixable"], found["price"]) == ("note", False, None)

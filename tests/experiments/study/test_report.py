@@ -139,8 +139,8 @@ def test_a_software_driver_s_times_are_labelled_and_advise_nothing() -> None:
     of = costly(software=True, device="llvmpipe")
     text = printed(as_text, of, Options(width=100))
     check("software.txt", text)
-    assert "llvmpipe is a software driver: its times say nothing of a GPU" in text
-    assert all(word not in text for word in ("take ", "front", "worth its time from", "+0.3 ms"))
+    assert "llvmpipe is a software driver: its times say nothing about a GPU" in text
+    assert all(word not in text for word in ("take ", "front", "worth its time where", "+0.3 ms"))
     data = json.loads(printed(as_json, of, Options()))
     assert data["software"] is True and {each["software"] for each in data["points"]} == {True}
     assert data["recommendations"] == [] and {each["added_ms"] for each in data["steps"]} == {None}
