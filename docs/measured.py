@@ -15,6 +15,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from msaa_lint.cli.report.figure import draw
 from msaa_lint.cli.report.study_plot import plot
 from msaa_lint.experiments.confirm.child import Limits
 from msaa_lint.experiments.confirm.session import Session, environment
@@ -92,7 +93,7 @@ def plotted(found: list[Measured], device: str) -> bytes:
         if each.rmse is not None and each.time_ms is not None
     ]
     scenes = [SceneSummary(name, "", ()) for name in dict.fromkeys(each.scene for each in found)]
-    return plot(Study(device, "", (width, height), 8, scenes, mark_best(points), (), (), ()), "svg")
+    return draw(plot(Study(device, "", (width, height), 8, scenes, mark_best(points), (), (), ())), "svg")
 
 
 def table(found: list[Measured]) -> Iterator[str]:

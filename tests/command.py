@@ -19,7 +19,7 @@ from msaa_lint.__main__ import main
 from tests.paths import ROOT
 
 CACHES = os.path.join(tempfile.gettempdir(), f"msaa-lint-tests-{getpass.getuser()}")
-"""The folder for caches, in which a file is where the command would keep its own: matplotlib takes seconds to list the fonts."""
+"""The folder for caches, in which a file is where the command would keep its own."""
 
 os.makedirs(CACHES, exist_ok=True)
 Path(CACHES, "msaa-lint").touch()

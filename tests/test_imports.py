@@ -143,7 +143,8 @@ ONLY_IN = {
     "vulkan": {"experiments.confirm.binding"},
     "tree_sitter": {"input.code"},
     "backports": {"input.compression"},
-    "matplotlib": {"cli.report"},
+    "altair": {"cli.report"},
+    "vl_convert": {"cli.report.figure"},
     "numpy": {"experiments.study"},
 }
 """Packages of others, and the modules or rooms that may import them."""

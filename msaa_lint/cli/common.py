@@ -6,6 +6,7 @@ import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from importlib import import_module
+from importlib.util import find_spec
 from typing import IO, Any, NamedTuple, TypeVar
 
 from msaa_lint.core import atomic_write
@@ -199,23 +200,34 @@ def writes(path: str) -> Iterator[None]:
         raise UsageError(f"cannot write {path}: {error.strerror or error}") from None
 
 
-def write_chart(path: str, option: str, draw: Callable[[str], bytes]) -> None:
-    """Writes what `draw` returns for the format of a file. UsageError if it cannot be written or matplotlib is missing."""
+def write_figure(path: str, option: str, figure: Callable[[], dict[str, Any]]) -> None:
+    """Writes a figure in the format of a file. UsageError if it cannot be written, or the extra `chart` is not installed."""
+    from .report.figure import draw
+
+    format = figure_format(path, option)
     try:
-        data = draw(chart_format(path, option))
+        data = draw(figure(), format)
     except ModuleNotFoundError as error:
-        if (error.name or "").partition(".")[0] != "matplotlib":
+        if (error.name or "").partition(".")[0] not in ("altair", "vl_convert"):
             raise
         raise UsageError(needs_extra(option, "chart")) from None
     with writes(path):
         atomic_write.write_file(path, data)
 
 
-def chart_format(path: str, option: str) -> str:
-    """`svg` or `png`, by a file's extension. UsageError for another one."""
+def require_figures(option: str) -> None:
+    """UsageError if the extra `chart` is not installed."""
+    if find_spec("altair") is None or find_spec("vl_convert") is None:
+        raise UsageError(needs_extra(option, "chart"))
+
+
+def figure_format(path: str, option: str) -> str:
+    """The format of a figure by its file's extension. UsageError for another one."""
+    from .report.figure import FORMATS
+
     extension = os.path.splitext(path)[1].lower()
-    if extension not in (".svg", ".png"):
-        raise UsageError(f"`{option}` must be the name of an .svg or .png file, found {quoted(path)}")
+    if extension[1:] not in FORMATS:
+        raise UsageError(f"`{option}` must be the name of an .svg, .png, or .json file, found {quoted(path)}")
     return extension[1:]
 
 

@@ -20,7 +20,7 @@ from msaa_lint.linter.workspace import Request
 from .common import (
     Target,
     UsageError,
-    chart_format,
+    figure_format,
     input_options,
     note,
     overrides,
@@ -31,7 +31,7 @@ from .common import (
     report_module,
     report_options,
     run_command,
-    write_chart,
+    write_figure,
     write_output,
 )  # fmt: skip
 from .options import COST_FORMATS, Arguments
@@ -52,7 +52,7 @@ def _cost(arguments: Arguments) -> int:
     counts = parse_list(arguments["samples"], "--samples", {str(n): n for n in COUNTS}) if "samples" in arguments else DEFAULT_COUNTS
     chart = arguments.get("chart")
     if chart is not None:
-        chart_format(chart, "--chart")
+        figure_format(chart, "--chart")
     request = Request(**input_options(arguments), overrides=overrides(arguments))
     result = run_costs(request, terms, counts)
     comparison = None if arguments.get("each") else _comparison(result, request)
@@ -149,4 +149,4 @@ def _draw_chart(path: str, result: CostResult, comparison: CostComparison | None
         raise UsageError(f"--chart draws one frame, or two that are compared, not {len(frames)}")
     else:
         return
-    write_chart(path, "--chart", partial(cost_chart.draw, bars, title, escape(head(frame.cost)), frame.cost))
+    write_figure(path, "--chart", partial(cost_chart.chart, bars, title, escape(head(frame.cost)), frame.cost))

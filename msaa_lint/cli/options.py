@@ -223,7 +223,7 @@ COMMANDS = {
             ),
             "Output": (
                 _output(*COST_FORMATS),
-                Option("chart", "text", "Draw a chart to an .svg or .png file (extra `chart`).", "FILE"),
+                Option("chart", "text", "Draw a chart to an .svg, .png, or .json (Vega-Lite) file (extra `chart`).", "FILE"),
                 _COLOR,
             ),
             "Inputs": _INPUTS,
@@ -299,8 +299,8 @@ COMMANDS = {
             ),
             "Output": (
                 _output(*TEXT_FORMATS),
-                Option("plot", "text", "Plot error against time to an .svg or .png file (extra `chart`).", "FILE"),
-                Option("crops", "text", "Write enlarged crops of each scene to this folder (PNG).", "DIR"),
+                Option("plot", "text", "Draw error against time to an .svg, .png, or .json (Vega-Lite) file (extra `chart`).", "FILE"),
+                Option("crops", "text", "Write enlarged crops of each scene to this folder (PNG; extra `chart`).", "DIR"),
                 Option("record", "flag", "Write a record next to each description, for rule sample-count-above-four."),
                 _FORCE,
                 _COLOR,

@@ -27,7 +27,7 @@ from .common import (
     MAX_RENDER_SIDE,
     Target,
     UsageError,
-    chart_format,
+    figure_format,
     note,
     parse_list,
     parse_outputs,
@@ -35,9 +35,10 @@ from .common import (
     refuse_inputs,
     report_module,
     report_options,
+    require_figures,
     run_command,
     warn,
-    write_chart,
+    write_figure,
     write_output,
     writes,
 )  # fmt: skip
@@ -97,7 +98,10 @@ def parse_options(arguments: Arguments) -> StudyOptions:
     if not chosen:
         raise UsageError("--samples and --techniques leave nothing to measure: sample shading needs a count above 1")
     if "plot" in arguments:
-        chart_format(arguments["plot"], "--plot")
+        figure_format(arguments["plot"], "--plot")
+    for option in ("plot", "crops"):
+        if option in arguments:
+            require_figures(f"--{option}")
     if "budget" in arguments and "device" not in arguments:
         raise UsageError("--budget needs times: name the GPU that measures them with `--device NAME`")
     if arguments.get("ssim") and find_spec("skimage") is None:
@@ -168,7 +172,7 @@ def _study(arguments: Arguments, options: StudyOptions) -> int:
     if "plot" in arguments:
         from .report import study_plot
 
-        write_chart(arguments["plot"], "--plot", partial(study_plot.plot, outcome))
+        write_figure(arguments["plot"], "--plot", partial(study_plot.plot, outcome))
     if arguments.get("record"):
         outcome = outcome._replace(records=_write_records(studied, outcome, bool(arguments.get("force"))))
     for target in options.targets:
@@ -287,11 +291,19 @@ def _progress(total: int, arguments: Arguments) -> Iterator[Any]:
 
 
 def _write_crops(folder: str, force: bool, options: StudyOptions, studied: Sequence[Subject]) -> list[str]:
-    from msaa_lint.experiments.confirm.png import PictureFolder
+    from msaa_lint.experiments.confirm.png import PictureFolder, signed
     from msaa_lint.experiments.study.crops import crops
 
+    from .report.figure import draw
+    from .report.study_crops import crops_figure
+
     album = PictureFolder(folder, force)
-    return [crops(album, subject.input.name, subject.picture, options.techniques, options.bits) for subject in studied]
+    paths = []
+    for subject in studied:
+        name = subject.input.name
+        figure = crops_figure(name, crops(subject.picture, options.techniques, options.bits))
+        paths.append(album.write_file(signed(draw(figure, "png")), name, "crops"))
+    return paths
 
 
 def _write_records(studied: Sequence[Subject], outcome: Study, force: bool) -> list[str]:

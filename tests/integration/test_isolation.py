@@ -125,20 +125,11 @@ def test_no_program_of_the_working_folder_is_run(checkout: Path, path: str) -> N
 
 
 @pytest.mark.parametrize("option", [("cost", "frame.msaa.yaml", "--chart"), (*STUDY, "--jobs", "1", "--plot")])
-def test_no_matplotlibrc_is_read(checkout: Path, option: tuple[str, ...]) -> None:
+def test_no_settings_of_a_working_folder_change_a_figure(checkout: Path, option: tuple[str, ...]) -> None:
     assert run_process(checkout, *option, "plain.svg").returncode == 0
-    (checkout / "matplotlibrc").write_text("backend: module://evil\nfigure.facecolor: red\nno.such.setting: 1\n")
-    (checkout / "settings").mkdir()
-    (checkout / "settings" / "matplotlibrc").write_text("no.such.setting: 1\n")
-    environments: dict[str, dict[str, str]] = {"found": {}, "stated": {"MATPLOTLIBRC": "settings", "MPLCONFIGDIR": "settings"}}
-    for name in environments if option[0] == "cost" else ["stated"]:
-        done = run_process(checkout, *option, f"{name}.svg", **environments[name])
-        assert (done.returncode, "matplotlib" in done.stderr, "no.such" in done.stderr) == (0, False, False)
-        assert (checkout / f"{name}.svg").read_bytes() == (checkout / "plain.svg").read_bytes()
-    assert os.listdir(checkout / "settings") == ["matplotlibrc"]
-
-
-@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are no named pipes")
-def test_a_pipe_called_matplotlibrc_is_not_waited_for(checkout: Path) -> None:
-    os.mkfifo(checkout / "matplotlibrc")
-    assert run_process(checkout, "cost", "frame.msaa.yaml", "--chart", "chart.svg").returncode == 0
+    for name in ("package.json", "deno.json", "vl-convert.json", ".fonts.conf", "fonts.conf"):
+        (checkout / name).write_text("{")
+    done = run_process(checkout, *option, "again.svg", DENO_DIR="settings", FONTCONFIG_FILE="fonts.conf", TMPDIR=str(checkout))
+    assert (done.returncode, done.stderr) == (0, "")
+    assert (checkout / "again.svg").read_bytes() == (checkout / "plain.svg").read_bytes()
+    assert not (checkout / "settings").exists()

@@ -9,12 +9,13 @@ from msaa_lint.frame.cost.amounts import FrameCost
 from msaa_lint.frame.cost.input_cost import CostComparison, CostedFrame
 from msaa_lint.frame.cost.variants import AS_WRITTEN, NONE, Variant
 
-from .figure import save_figure
+from .figure import INK, Figure, Spec, title
 
-READ_COLOR, WRITE_COLOR = "#56B4E9", "#D55E00"
-"""Sky blue and vermilion of Okabe and Ito's palette, distinct for all kinds of color blindness and in grayscale; reads are also hatched."""
+COLORS = {"read": "#56B4E9", "write": "#D55E00"}
+"""Sky blue and vermilion of Okabe and Ito's palette: distinct for all kinds of color blindness, and one lighter than the other."""
 
-_BAR, _GAP = 0.72, 0.55
+_WIDTH, _STEP = 420, 20
+"""The length of the longest bar, and the distance of bars, in pixels."""
 
 
 class Bar(NamedTuple):
@@ -55,47 +56,54 @@ def _bar(name: str, group: str, cost: FrameCost) -> Bar:
     return Bar(name, group, total.read_mb_per_s, total.write_mb_per_s, total.milliwatts)
 
 
-def draw(bars: Sequence[Bar], title: str, subtitle: str, cost: FrameCost, format: str) -> bytes:
-    """The chart as SVG or PNG; `title` and `subtitle` are already escaped. ModuleNotFoundError if matplotlib is not installed."""
-    positions = _positions(bars)
+def chart(bars: Sequence[Bar], heading: str, subheading: str, cost: FrameCost) -> Spec:
+    """The chart; `heading` and `subheading` are already escaped."""
+    import altair
 
-    def draw_on(figure: Any) -> None:
-        axes = figure.add_subplot()
-        _draw_bars(axes, bars, positions, cost)
-        figure.suptitle(title, x=0.01, ha="left", fontweight="bold")
-        axes.set_title(subtitle, loc="left", fontsize=9)
-
-    return save_figure(10, 1.9 + 0.36 * (positions[-1] if positions else 0), draw_on, format)
-
-
-def _positions(bars: Sequence[Bar]) -> list[float]:
-    positions: list[float] = []
-    at, group = 0.0, bars[0].group if bars else ""
-    for bar in bars:
-        at += _GAP if bar.group != group else 0.0
-        group = bar.group
-        positions.append(at)
-        at += 1
-    return positions
-
-
-def _draw_bars(axes: Any, bars: Sequence[Bar], positions: Sequence[float], cost: FrameCost) -> None:
-    reads, writes = [bar.read for bar in bars], [bar.write for bar in bars]
-    edge: dict[str, Any] = {"height": _BAR, "edgecolor": "black", "linewidth": 0.6}
-    axes.barh(positions, reads, color=READ_COLOR, hatch="///", label="read", **edge)
-    axes.barh(positions, writes, left=reads, color=WRITE_COLOR, label="write", **edge)
+    rows = _rows(bars)
+    amounts = [
+        {"row": row, "access": access, "start": start, "end": start + amount, "amount": amount}
+        for row, bar in zip(rows, bars, strict=True)
+        for access, start, amount in (("read", 0.0, bar.read), ("write", bar.read, bar.write))
+    ]
+    texts = [
+        {"row": row, "start": 0.0, "end": bar.read + bar.write, "name": bar.name, "text": _text(bar, cost)}
+        for row, bar in zip(rows, bars, strict=True)
+    ]
     longest = max((bar.read + bar.write for bar in bars), default=0.0) or 1.0
-    for bar, at in zip(bars, positions, strict=True):
-        share = 100 * bar.milliwatts / cost.budget_milliwatts
-        text = f"{bar.read + bar.write:.0f} MB/s, {bar.milliwatts:.0f} mW ({share:.1f} %)"
-        box = {"facecolor": "white", "edgecolor": "none", "pad": 1}
-        axes.text(bar.read + bar.write + longest * 0.01, at, text, va="center", fontsize=9, bbox=box)
-    axes.set_yticks(positions, [bar.name for bar in bars])
-    axes.invert_yaxis()
-    axes.set_xlim(0, longest * 1.4)
-    axes.set_xlabel(f"traffic with external memory, MB/s (share of {cost.budget_milliwatts:g} mW in parentheses)")
-    axes.ticklabel_format(axis="x", style="plain", useOffset=False)
-    axes.grid(axis="x", color="#CCCCCC", linewidth=0.6)
-    axes.set_axisbelow(True)
-    axes.spines[["top", "right"]].set_visible(False)
-    axes.legend(loc="lower right", bbox_to_anchor=(1, 1), ncols=2, frameon=False)
+    units = f"traffic with external memory, MB/s (share of {cost.budget_milliwatts:g} mW in parentheses)"
+    # Names can be equal, so that the vertical axis is of rows.
+    y = altair.Y("row:O", axis=None, scale=altair.Scale(domain=list(range(rows[-1] + 1 if rows else 1)), paddingInner=0.25))
+
+    def x(field: str) -> Any:
+        axis = altair.Axis(labelExpr="format(datum.value, ',~f')", tickCount=6)
+        return altair.X(field, type="quantitative", title=units, scale=altair.Scale(domain=[0, longest], nice=False), axis=axis)
+
+    color = altair.Color(
+        "access:N", scale=altair.Scale(domain=list(COLORS), range=list(COLORS.values())), legend=altair.Legend(orient="top")
+    )
+    tooltip = [altair.Tooltip("access:N"), altair.Tooltip("amount:Q", title="MB/s", format=".1f")]
+    figure = Figure()
+    beside = figure.chart(texts)
+    layers = [
+        figure.chart(amounts).mark_bar(stroke=INK, strokeWidth=0.6).encode(x("start"), y, x2="end", color=color, tooltip=tooltip),
+        beside.mark_text(align="right", dx=-6, limit=_WIDTH, aria=False).encode(x("start"), y, text="name:N"),
+        beside.mark_text(align="left", dx=6, aria=False).encode(x("end"), y, text="text:N"),
+    ]
+    panel = altair.layer(*layers).properties(width=_WIDTH, height=altair.Step(_STEP))
+    figure.add([panel], title(heading, [subheading], 1.5 * _WIDTH, size=13))
+    return figure.spec()
+
+
+def _text(bar: Bar, cost: FrameCost) -> str:
+    share = 100 * bar.milliwatts / cost.budget_milliwatts
+    return f"{bar.read + bar.write:.0f} MB/s, {bar.milliwatts:.0f} mW ({share:.1f} %)"
+
+
+def _rows(bars: Sequence[Bar]) -> list[int]:
+    """The row of each bar; one is free between groups."""
+    rows: list[int] = []
+    for before, bar in zip([None, *bars], bars, strict=False):
+        apart = before is not None and bar.group != before.group
+        rows.append((rows[-1] if rows else -1) + (2 if apart else 1))
+    return rows

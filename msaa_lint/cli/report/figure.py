@@ -1,58 +1,93 @@
-"""matplotlib figures as bytes. Nothing that a user configures affects them, so the same data gives the same SVG."""
+"""Figures: Vega-Lite specifications as files.
+
+Specifications are built by altair and drawn by vl-convert, without a browser, the network, or anything that a user configures. The same
+specification always gives the same bytes: vl-convert brings the font with it.
+"""
 
 from __future__ import annotations
 
-import contextlib
-import io
-import os
-import warnings
-from collections.abc import Callable, Iterator
+from collections.abc import Sequence
 from typing import Any
 
-from msaa_lint.core.package import FOLDER
+FORMATS = ("svg", "png", "json")
+"""Pictures, and the Vega-Lite specification itself."""
 
-_SETTINGS: Any = {
-    "svg.hashsalt": "msaa-lint",
-    "svg.fonttype": "none",
-    "text.parse_math": False,
-    "font.size": 10,
-    "hatch.linewidth": 0.6,
-}
+Spec = dict[str, Any]
+"""A Vega-Lite specification with its data inline."""
+
+FONT = "Liberation Sans, Arial, Helvetica, sans-serif"
+"""vl-convert brings the first one; the next ones have letters of the same widths, for whoever shows the SVG."""
+
+INK, GRID = "#222222", "#DDDDDD"
+FONT_SIZE = 10
+"""Of axes and labels, in pixels."""
+
+_CONFIG: Spec = {
+    "font": FONT,
+    "axis": {
+        "domainColor": INK, "gridColor": GRID, "labelColor": INK, "labelFontSize": FONT_SIZE, "labelLimit": 400, "tickColor": INK,
+        "titleColor": INK, "titleFontSize": FONT_SIZE, "titleFontWeight": "normal",
+    },
+    "axisQuantitative": {"labelExpr": "format(datum.value, '~g')"},
+    "legend": {"direction": "horizontal", "labelColor": INK, "labelFontSize": FONT_SIZE, "orient": "bottom", "title": None},
+    "text": {"color": INK, "fontSize": FONT_SIZE},
+    "title": {
+        "anchor": "start", "color": INK, "fontSize": 12, "frame": "bounds", "subtitleColor": INK, "subtitleFontSize": FONT_SIZE,
+        "subtitlePadding": 4,
+    },
+    "view": {"stroke": GRID},
+}  # fmt: skip
+
+_SCALE = 2.0
+"""Pixels of a PNG per pixel of a figure."""
 
 
-def save_figure(width: float, height: float, draw: Callable[[Any], None], format: str) -> bytes:
-    """What `draw` puts on a figure of a size in inches, as `svg` or `png`. ModuleNotFoundError if matplotlib is not installed."""
-    with _without_settings():
-        import matplotlib
-        from matplotlib.backends.backend_agg import FigureCanvasAgg
-        from matplotlib.figure import Figure
-
-    with matplotlib.rc_context(), warnings.catch_warnings():
-        # A missing glyph is drawn as a box: nothing to print.
-        warnings.simplefilter("ignore")
-        matplotlib.rcdefaults()
-        matplotlib.rcParams.update(_SETTINGS)
-        figure = Figure(figsize=(width, height), layout="constrained")
-        FigureCanvasAgg(figure)
-        draw(figure)
-        out = io.BytesIO()
-        metadata: dict[str, Any] = {"Date": None, "Creator": "msaa-lint"} if format == "svg" else {"Software": "msaa-lint"}
-        figure.savefig(out, format=format, metadata=metadata, dpi=150)
-    return out.getvalue()
+def title(text: str, lines: Sequence[str], width: float, *, size: int) -> Spec:
+    """A title with further lines below it, cut off at a width in pixels."""
+    return {"text": text, "subtitle": list(lines), "fontSize": size, "limit": width, "offset": 8}
 
 
-@contextlib.contextmanager
-def _without_settings() -> Iterator[None]:
-    """While matplotlib is imported: it reads `matplotlibrc` of the working folder before all others."""
-    stated = {name: os.environ.pop(name, None) for name in ("MATPLOTLIBRC", "MPLCONFIGDIR")}
-    os.environ["MATPLOTLIBRC"] = os.devnull
-    if os.path.isabs(cache := stated["MPLCONFIGDIR"] or ""):
-        os.environ["MPLCONFIGDIR"] = cache
-    try:
-        with contextlib.chdir(FOLDER):
-            yield
-    finally:
-        for name, value in stated.items():
-            os.environ.pop(name, None)
-            if value is not None:
-                os.environ[name] = value
+class Figure:
+    """Charts below each other, with their data."""
+
+    def __init__(self) -> None:
+        self._parts: list[Spec] = []
+        self._data: dict[str, list[dict[str, Any]]] = {}
+
+    def chart(self, rows: list[dict[str, Any]]) -> Any:
+        """An altair chart of these rows. They are kept here, because altair copies what is within a chart many times."""
+        import altair
+
+        name = f"data-{len(self._data)}"
+        self._data[name] = rows
+        return altair.Chart(altair.NamedData(name))
+
+    def add(self, panels: Sequence[Any], heading: Spec, *, columns: int = 1, spacing: int = 0) -> None:
+        """Adds panels, which are altair charts, in rows from left to right under a heading."""
+        specs = [panel.to_dict() for panel in panels]
+        kept = [{key: value for key, value in spec.items() if key not in ("$schema", "config")} for spec in specs]
+        self._parts.append({"concat": kept, "columns": columns, "spacing": spacing, "title": heading})
+
+    def spec(self) -> Spec:
+        """The specification, in the style of all figures."""
+        import altair
+
+        apart = {"scale": {"color": "independent", "shape": "independent"}}
+        return {
+            "$schema": altair.SCHEMA_URL, "background": "white", "padding": 8, "config": _CONFIG, "spacing": 24, "resolve": apart,
+            "vconcat": self._parts, "datasets": self._data,
+        }  # fmt: skip
+
+
+def draw(spec: Spec, format: str) -> bytes:
+    """A specification as SVG, PNG, or JSON. ModuleNotFoundError if the extra `chart` is not installed."""
+    if format == "json":
+        import json
+
+        return (json.dumps(spec, indent=1, allow_nan=False) + "\n").encode()
+    import vl_convert
+
+    # Data is inline, so nothing is loaded from anywhere.
+    if format == "png":
+        return vl_convert.vegalite_to_png(spec, scale=_SCALE, allowed_base_urls=[])
+    return vl_convert.vegalite_to_svg(spec, allowed_base_urls=[]).encode()

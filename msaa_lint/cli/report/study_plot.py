@@ -1,133 +1,216 @@
-"""The plot of `study --plot`: error against time, one panel per scene, with the Pareto front joined."""
+"""The figures of `study --plot`: error against added time, one panel per scene and cost of shading, and the parts of the added time."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
-from typing import Any
+from itertools import pairwise
+from typing import Any, NamedTuple
 
 from msaa_lint.experiments.study.crops import short_name
 from msaa_lint.experiments.study.outcome import Study
-from msaa_lint.experiments.study.points import MSAA, SAMPLE_SHADING, SSAA, Point
+from msaa_lint.experiments.study.points import MSAA, SAMPLE_SHADING, SSAA
 
 from .escape import display
-from .figure import save_figure
+from .figure import INK, Figure, Spec, title
+from .labels import Box, Label, Place, around, place_labels
+from .scales import Scale, from_zero, linear_or_log
+from .study_panels import COLUMNS, Panel, panels
+from .study_parts import add_parts
 
-STYLES = {MSAA: ("#0072B2", "o", "MSAA"), SAMPLE_SHADING: ("#E69F00", "s", "sample shading"), SSAA: ("#D55E00", "^", "SSAA")}
-"""Colors of Okabe and Ito's palette, and shapes: distinct for all kinds of color blindness and in grayscale."""
+KINDS = {
+    MSAA: ("MSAA", "#0072B2", "circle"),
+    SAMPLE_SHADING: ("sample shading", "#E69F00", "square"),
+    SSAA: ("SSAA", "#D55E00", "triangle-up"),
+}
+"""Names, colors of Okabe and Ito's palette, and shapes: distinct for all kinds of color blindness and in grayscale."""
 
-_COLUMNS = 3
 _NARROW = 3.0
 """Errors within this factor of each other are drawn on a linear scale, as a logarithmic one would have no tick label."""
 
-_WIDE, _HIGH = 4.6, 3.7
+_WIDTHS = {1: 420.0, 2: 280.0}
+_WIDTH = 200.0
+"""Of a panel in pixels, by the number of columns; and of one of more columns."""
+
+_ROOMS = ((170.0, 40.0), (200.0, 40.0), (240.0, 60.0), (300.0, 90.0), (380.0, 400.0), (480.0, 500.0))
+"""Heights of a panel, and how far a label may be from its mark: the first at which all labels find room."""
+
+_RADIUS, _AREA = 4.5, 40
+"""Half the side of the square that a mark keeps free, and its size in Vega-Lite's terms."""
+
+_HAIR = 1.0
+"""Half the width that a line keeps free."""
 
 
-def plot(study: Study, format: str) -> bytes:
-    """The plot as SVG or PNG. ModuleNotFoundError if matplotlib is not installed."""
-    scenes = [scene for scene in study.scenes if plotted(study.of(scene.name))]
-    columns = max(1, min(_COLUMNS, len(scenes)))
-    rows = max(1, -(-len(scenes) // columns))
+class Axes(NamedTuple):
+    """The scales of a row of panels, and the width and height of its panels in pixels."""
 
-    def draw(figure: Any) -> None:
-        panels = figure.subplots(rows, columns, squeeze=False)
-        for panel in panels.flat[len(scenes) :]:
-            panel.set_axis_off()
-        for panel, scene in zip(panels.flat, scenes, strict=False):
-            _panel(panel, plotted(study.of(scene.name)))
-            panel.set_title(display(scene.name), loc="left", fontsize=10, fontweight="bold")
-            panel.set_ylabel("RMSE of coverage" if scene.coverage else "RMSE of linear color")
-        if scenes:
-            figure.legend(handles=_legend(), loc="outside lower left", ncols=4, frameon=False)
-        title = f"Error against time: {display(study.device)}" if study.device else "Error against samples (no times measured)"
-        figure.suptitle(f"{title}, {study.size[0]}x{study.size[1]}", x=0.01, ha="left", fontsize=11)
+    x: Scale
+    y: Scale
+    width: float
+    height: float
 
-    return save_figure(max(6.5, _WIDE * columns), 1.1 + _HIGH * rows, draw, format)
+    def pixels(self, x: float, y: float) -> Place:
+        """Where a point is in a panel."""
+        return self.x.share(x) * self.width, (1 - self.y.share(y)) * self.height
+
+    def values(self, place: Place) -> Place:
+        """The inverse of `pixels`."""
+        return self.x.value(place[0] / self.width), self.y.value(1 - place[1] / self.height)
 
 
-def plotted(points: Sequence[Point]) -> list[Point]:
-    """The points of a scene that have a place: those with a time if there are any."""
-    timed = any(point.time_ms is not None for point in points)
-    return [point for point in points if math.isfinite(point.rmse) and (point.time_ms is not None or not timed)]
+def plot(study: Study) -> Spec:
+    """The figures of a study that have something to show, below each other."""
+    rows, figure = panels(study), Figure()
+    _add_accuracy(figure, study, rows)
+    add_parts(figure, rows)
+    return figure.spec()
 
 
-def place(point: Point) -> tuple[float, float]:
-    """Where a point is drawn: its time, else samples plus shader invocations per pixel, and its error."""
-    cost = point.time_ms if point.time_ms is not None else float(point.technique.samples + point.technique.shaded)
-    return cost, point.rmse
+def _add_accuracy(figure: Figure, study: Study, rows: Sequence[Sequence[Panel]]) -> None:
+    """Adds the panels of error against added time to a figure."""
+    columns = len(rows[0]) if rows and len(rows[0]) > 1 else min(COLUMNS, max(len(rows), 1))
+    width = _WIDTHS.get(columns, _WIDTH)
+    charts = []
+    for row in rows:
+        axes, labels = _with_room(row, width, _front(study, row))
+        for number, panel in enumerate(row):
+            charts.append(_chart(panel, axes, labels[number], _front(study, [panel])[0], figure, first=number == 0))
+    lines = ["times of a software driver: they say nothing about a GPU"] if study.software else []
+    if study.device:
+        name = f"Error against added time: {display(study.device)}"
+        front = "" if study.software else "line: the Pareto front, with its names in bold; "
+        lines.append(f"{front}horizontal bars: 95 % intervals of the time")
+    else:
+        name = "Error against samples (no times measured)"
+        lines.append("bold: Pareto-optimal")
+    heading = title(f"{name}, {study.size[0]}x{study.size[1]}", lines, columns * width, size=13)
+    figure.add(charts, heading, columns=columns, spacing=14)
 
 
-def _panel(axes: Any, points: Sequence[Point]) -> None:
-    for kind, (color, shape, _) in STYLES.items():
-        places = [place(point) for point in points if point.technique.kind == kind]
-        if places:
-            costs, errors = zip(*places, strict=True)
-            axes.scatter(costs, errors, color=color, marker=shape, s=34, edgecolors="black", linewidths=0.6, zorder=3)
-    places = [place(point) for point in points]
-    timed = all(point.time_ms is not None for point in points)
-    # Without times the front has several dimensions, and is not a line in the plane.
-    front = sorted(place(point) for point in points if point.best and timed)
-    if front:
-        costs, errors = zip(*front, strict=True)
-        axes.plot(costs, errors, color="black", linewidth=1.2, drawstyle="steps-post", zorder=2)
-    least, most = min(error for _, error in places), max(error for _, error in places)
-    if least > 0 and most > _NARROW * least:
-        axes.set_yscale("log")
-    if all(cost > 0 for cost, _ in places):
-        axes.set_xscale("log")
-    axes.set_xlabel("time, ms" if timed else "samples and shader invocations per pixel")
-    axes.margins(0.14)
-    _names(axes, points)
-    axes.grid(which="both", color="#DDDDDD", linewidth=0.5)
-    axes.set_axisbelow(True)
-    for axis in (axes.xaxis, axes.yaxis):
-        axis.set_major_formatter(_plain)
-        axis.set_minor_formatter(_minor)
-    axes.tick_params(which="both", labelsize=7.5)
-    axes.spines[["top", "right"]].set_visible(False)
-
-
-def _names(axes: Any, points: Sequence[Point]) -> None:
-    """Writes the points' names next to them, where there is room."""
-    axes.autoscale_view()
-    axes.set_xlim(axes.get_xlim())
-    axes.set_ylim(axes.get_ylim())
-    taken: list[tuple[float, float, float]] = []
-    for point in sorted(points, key=lambda point: (not point.best, place(point))):
-        name = short_name(point.technique)
-        share_x, share_y = (axes.transScale + axes.transLimits).transform(place(point))
-        at = share_x * _PANEL[0], share_y * _PANEL[1]
-        wide = _LETTER * len(name)
-        offset = next((offset for offset in _OFFSETS if _free(at, offset, wide, taken)), _OFFSETS[0])
-        taken.append((at[0] + offset[0], at[1] + offset[1], wide))
-        weight: Any = "bold" if point.best else "normal"
-        axes.annotate(name, place(point), xytext=offset, textcoords="offset points", fontsize=7.5, fontweight=weight, zorder=4)
-
-
-_PANEL = 270.0, 190.0
-"""About the inner width and height of a panel, in points; then the size of a letter and a line."""
-_LETTER, _LINE = 4.7, 9.0
-_OFFSETS = [(4.0, 4.0), *((dx, dy) for dy in (-11.0, 14.0, -21.0, 24.0, -31.0, 34.0) for dx in (4.0, -8.0))]
-
-
-def _free(at: tuple[float, float], offset: tuple[float, float], wide: float, taken: Sequence[tuple[float, float, float]]) -> bool:
-    x, y = at[0] + offset[0], at[1] + offset[1]
-    return not any(x < right + other and right < x + wide and abs(y - above) < _LINE for right, above, other in taken)
-
-
-def _plain(value: float, _: object = None) -> str:
-    return f"{value:g}"
-
-
-def _minor(value: float, _: object = None) -> str:
-    return f"{value:g}" if f"{value:e}"[0] in "25" else ""
-
-
-def _legend() -> list[Any]:
-    from matplotlib.lines import Line2D
-
-    marks = [
-        Line2D([], [], color=color, marker=shape, linestyle="none", markeredgecolor="black", markeredgewidth=0.6, label=label)
-        for color, shape, label in STYLES.values()
+def _front(study: Study, row: Sequence[Panel]) -> list[list[Place]]:
+    """The Pareto front of each panel, from its fastest point on; nothing where it is not one of error against time."""
+    known = [study.software or any(point.time_ms is None for point in panel.points) for panel in row]
+    return [
+        [] if unknown else sorted(panel.place(point) for point in panel.points if point.best)
+        for panel, unknown in zip(row, known, strict=True)
     ]
-    return [*marks, Line2D([], [], color="black", linewidth=1.2, label="Pareto-optimal (names in bold)")]
+
+
+def _with_room(row: Sequence[Panel], width: float, fronts: Sequence[Sequence[Place]]) -> tuple[Axes, list[list[Label | None]]]:
+    """The axes of a row of panels, as high as its labels need, and the labels."""
+    places = [panel.place(point) for panel in row for point in panel.points]
+    costs = [x for x, _ in places] + [time for panel in row for point in panel.points for time in panel.interval(point) or ()]
+    related = any(panel.base is not None for panel in row)
+    scales = from_zero(costs) if related else linear_or_log(costs), linear_or_log([y for _, y in places], _NARROW)
+    for height, reach in _ROOMS:
+        axes = Axes(*scales, width, height)
+        labels = [_labels(panel, axes, front, reach) for panel, front in zip(row, fronts, strict=True)]
+        if all(label is not None for of_panel in labels for label in of_panel):
+            break
+    return axes, labels
+
+
+def _labels(panel: Panel, axes: Axes, front: Sequence[Place], reach: float) -> list[Label | None]:
+    """The labels of a panel's points. Those of the front are the first to choose."""
+    order = sorted(range(len(panel.points)), key=lambda n: (not panel.points[n].best, panel.place(panel.points[n])))
+    places = [axes.pixels(*panel.place(panel.points[n])) for n in order]
+    names = [short_name(panel.points[n].technique) for n in order]
+    lines = []
+    for point in panel.points:
+        if interval := panel.interval(point):
+            (left, y), (right, _) = (axes.pixels(x, point.rmse) for x in interval)
+            lines.append(Box(left, y - _HAIR, right, y + _HAIR))
+    corners = [axes.pixels(*place) for place in front]
+    for (x, y), (next_x, next_y) in pairwise(corners):
+        lines += [Box(x, y - _HAIR, next_x, y + _HAIR), Box(next_x - _HAIR, y, next_x + _HAIR, next_y)]
+    marks = [around(place, _RADIUS) for place in places]
+    found = dict(zip(order, place_labels(places, names, marks, lines, (axes.width, axes.height), reach=reach), strict=True))
+    return [found[n] for n in range(len(order))]
+
+
+def _chart(panel: Panel, axes: Axes, labels: Sequence[Label | None], front: Sequence[Place], figure: Figure, *, first: bool) -> Any:
+    """One panel. The first one of a row has the labels of the vertical axis."""
+    import altair
+
+    timed = any(point.time_ms is not None for point in panel.points)
+    across = "samples and shader invocations per pixel" if not timed else "time, ms" if panel.base is None else "added time, ms"
+    up = "RMSE of coverage" if panel.scene.coverage else "RMSE of linear color"
+    x_axis = {**axes.x.axis(axes.width, upright=False), "title": across}
+    y_axis = {**axes.y.axis(axes.height, upright=True), "title": up if first else None, "labels": first, "ticks": first}
+
+    def x(field: str) -> Any:
+        return altair.X(field, type="quantitative", scale=altair.Scale(**axes.x.spec()), axis=altair.Axis(**x_axis))
+
+    def y(field: str) -> Any:
+        return altair.Y(field, type="quantitative", scale=altair.Scale(**axes.y.spec()), axis=altair.Axis(**y_axis))
+
+    rows = _rows(panel)
+    names = _names(panel, axes, labels)
+    kinds = [name for name, _, _ in KINDS.values()]
+    color = altair.Color("kind:N", scale=altair.Scale(domain=kinds, range=[color for _, color, _ in KINDS.values()]))
+    shape = altair.Shape("kind:N", scale=altair.Scale(domain=kinds, range=[shape for _, _, shape in KINDS.values()]))
+    tooltip = [
+        altair.Tooltip(field, type="nominal" if field == "technique" else "quantitative", title=name)
+        for field, name in _TOOLTIPS.items()
+        if any(field in row for row in rows)
+    ]
+    layers = [
+        figure.chart([{"x": x, "y": y} for x, y in front])
+        .mark_line(interpolate="step-after", color=INK, strokeWidth=1.2)
+        .encode(x("x"), y("y")),
+        figure.chart([row for row in rows if "low" in row]).mark_rule(color=INK, strokeWidth=1).encode(x("low"), y("y"), x2="high"),
+        figure.chart([row for row in names if "end_x" in row])
+        .mark_rule(color="#888888", strokeWidth=0.6, aria=False)
+        .encode(x("x"), y("y"), x2="end_x", y2="end_y"),
+        figure.chart(rows)
+        .mark_point(filled=True, opacity=1, size=_AREA, stroke=INK, strokeWidth=0.6)
+        .encode(x("x"), y("y"), color=color, shape=shape, tooltip=tooltip),
+        *(
+            figure.chart([row for row in names if row["best"] is best])
+            .mark_text(fontWeight="bold" if best else "normal", aria=False)
+            .encode(x("label_x"), y("label_y"), text="name:N")
+            for best in (True, False)
+        ),
+    ]
+    return altair.layer(*layers).properties(width=axes.width, height=axes.height, title=panel.heading(axes.width))
+
+
+_TOOLTIPS = {"technique": "technique", "error": "error", "time": "time, ms", "least": "at least, ms", "most": "at most, ms"}
+
+
+def _rows(panel: Panel) -> list[dict[str, Any]]:
+    """What Vega-Lite draws of each point."""
+    rows = []
+    # MSAA is drawn last, above points at the same place.
+    for point in reversed(panel.points):
+        x, y = panel.place(point)
+        row: dict[str, Any] = {
+            "x": x,
+            "y": y,
+            "kind": KINDS[point.technique.kind][0],
+            "technique": point.technique.name,
+            "error": point.rmse,
+        }
+        if point.time_ms is not None:
+            row["time"] = point.time_ms
+        if interval := panel.interval(point):
+            row["low"], row["high"] = interval
+            row["least"], row["most"] = point.low_ms, point.high_ms
+        rows.append(row)
+    return rows
+
+
+def _names(panel: Panel, axes: Axes, labels: Sequence[Label | None]) -> list[dict[str, Any]]:
+    """What Vega-Lite draws of each label."""
+    rows = []
+    for point, label in zip(panel.points, labels, strict=True):
+        if label is None:
+            continue
+        box = label.box
+        label_x, label_y = axes.values(((box.left + box.right) / 2, (box.top + box.bottom) / 2))
+        row = {"name": short_name(point.technique), "best": point.best, "label_x": label_x, "label_y": label_y}
+        if label.leader is not None:
+            row["x"], row["y"] = axes.values(label.leader[0])
+            row["end_x"], row["end_y"] = axes.values(label.leader[1])
+        rows.append(row)
+    return rows

@@ -36,9 +36,17 @@ def png(picture: Picture) -> bytes:
     lines = b"".join(b"\0" + picture.rgb[n * row : (n + 1) * row] for n in range(picture.height))
     header = struct.pack(">IIBBBBB", picture.width, picture.height, 8, 2, 0, 0, 0)
     chunks = [(b"IHDR", header), (b"sRGB", b"\0"), _SOFTWARE, (b"IDAT", zlib.compress(lines, 6)), (b"IEND", b"")]
-    return b"\x89PNG\r\n\x1a\n" + b"".join(
-        struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data)) for kind, data in chunks
-    )
+    return b"\x89PNG\r\n\x1a\n" + b"".join(_chunk(kind, data) for kind, data in chunks)
+
+
+def _chunk(kind: bytes, data: bytes) -> bytes:
+    return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+
+def signed(data: bytes) -> bytes:
+    """A PNG file that another library encoded, with the mark by which `is_own_picture` knows it."""
+    start = 8 + 12 + 13
+    return data[:start] + _chunk(*_SOFTWARE) + data[start:]
 
 
 def is_own_picture(path: str) -> bool:
@@ -192,6 +200,10 @@ class PictureFolder:
 
     def write(self, picture: Picture, *parts: str) -> str:
         """Writes a picture and returns its path. A number distinguishes names that would be equal."""
+        return self.write_file(png(picture), *parts)
+
+    def write_file(self, data: bytes, *parts: str) -> str:
+        """`write`, of a signed PNG file."""
         stem = file_name(*parts)
         name, count = f"{stem}.png", 1
         while name.lower() in self.written:
@@ -200,7 +212,7 @@ class PictureFolder:
         self.written.append(name.lower())
         path = os.path.join(self.folder, name)
         try:
-            write_file(path, png(picture), None if self.force else is_own_picture)
+            write_file(path, data, None if self.force else is_own_picture)
         except OSError as error:
             raise NotWritten(f"cannot write {path}: {error.strerror or error}") from None
         return path

@@ -1,52 +1,42 @@
-"""Enlarged crops of a scene: the exact picture and the result of each technique, side by side, where they differ most."""
+"""Crops of a scene where techniques differ: the exact picture and the result of each technique."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from msaa_lint.experiments.confirm.png import EDGE, Picture, PictureFolder, enlarged
+from msaa_lint.experiments.confirm.png import EDGE, Picture
 
-from .points import KINDS, MSAA, SAMPLE_SHADING, Technique
+from .points import MSAA, SAMPLE_SHADING, Technique
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-_GAP = 8
 _PERIOD = 8
-_GRAY = b"\x80\x80\x80"
-
-_DOT = 3
-_GLYPHS = {
-    "0": "75557", "1": "26227", "2": "71747", "3": "71717", "4": "55711", "5": "74717", "6": "74757", "7": "71111", "8": "75757",
-    "9": "75717", "X": "55255", "S": "74717", "A": "75755", "E": "74747", "C": "74447", "T": "72222", "/": "11244", " ": "00000",
-}  # fmt: skip
-"""The letters of technique names: five rows, each an octal digit whose bits are three dots."""
 
 
-def crops(album: PictureFolder, name: str, scene: Any, techniques: Sequence[Technique], bits: int = 8) -> str:
-    """Writes one picture of a scene and returns its path.
+class Crops:
+    """The same part of a scene by each technique, and exactly; `corner` is its left top pixel."""
 
-    There is a row for each kind of technique, with the exact picture first and then the techniques in order, under their names (`4x/2` is
-    4x with two samples shaded). Linear colors are clipped to [0, 1] and encoded as sRGB.
+    def __init__(self, corner: tuple[int, int], exact: Picture, pictures: Sequence[tuple[Technique, Picture]]) -> None:
+        self.corner, self.exact, self.pictures = corner, exact, pictures
+
+
+def crops(scene: Any, techniques: Sequence[Technique], bits: int = 8) -> Crops:
+    """The crops of at most 16x16 pixels in which the first technique differs most from the exact picture.
+
+    Linear colors are clipped to [0, 1] and encoded as sRGB.
     """
     from .measure import truth
     from .simulate import simulate
 
     exact = display_codes(truth(scene, Technique(MSAA, 1), bits).image)
     # The first technique determines the crop; the others are rendered only there.
-    corner = align(most_different(display_codes(simulate(scene, techniques[0], bits).image), exact))
-    crop = window(scene, *corner)
-    exact_crop = exact[corner[1] : corner[1] + crop.height, corner[0] : corner[0] + crop.width]
-    rows: list[Picture] = []
-    for kind in KINDS:
-        of_kind = [technique for technique in techniques if technique.kind == kind]
-        if of_kind:
-            images = [exact_crop, *(display_codes(simulate(crop, technique, bits).image) for technique in of_kind)]
-            labels = label_row(["exact", *map(short_name, of_kind)], crop.width * EDGE)
-            rows += [labels, enlarged([_picture(image) for image in images], (0, 0))]
-    return album.write(stack(rows), name, "crops")
+    x, y = align(most_different(display_codes(simulate(scene, techniques[0], bits).image), exact))
+    part = window(scene, x, y)
+    pictures = [(technique, _picture(display_codes(simulate(part, technique, bits).image))) for technique in techniques]
+    return Crops((x, y), _picture(exact[y : y + part.height, x : x + part.width]), pictures)
 
 
 def align(corner: tuple[int, int]) -> tuple[int, int]:
@@ -95,37 +85,6 @@ def short_name(technique: Technique) -> str:
     return f"{technique.samples}x/{technique.shaded}" if technique.kind == SAMPLE_SHADING else technique.name
 
 
-def label_row(names: Sequence[str], label_width: int) -> Picture:
-    """Names in white on gray, each in `label_width` pixels and clipped there, with the gap of enlarged pictures between them."""
-    width = (label_width + _GAP) * len(names) - _GAP
-    lines = []
-    for row in range(5):
-        line = bytearray(_GRAY * width)
-        for number, name in enumerate(names):
-            for place, letter in enumerate(name.upper()):
-                bits = int(_GLYPHS.get(letter, "00000")[row], 8)
-                for dot in (n for n in range(3) if bits >> (2 - n) & 1):
-                    x = (place * 4 + dot) * _DOT
-                    if x + _DOT <= label_width:
-                        start = 3 * (number * (label_width + _GAP) + x)
-                        line[start : start + 3 * _DOT] = b"\xff" * (3 * _DOT)
-        lines += [bytes(line)] * _DOT
-    return Picture(width, 5 * _DOT, b"".join(lines))
-
-
 def _picture(codes: NDArray[np.uint8]) -> Picture:
     height, width = codes.shape[:2]
     return Picture(width, height, codes.tobytes())
-
-
-def stack(rows: Sequence[Picture]) -> Picture:
-    """Pictures below each other, aligned at the left."""
-    width = max((row.width for row in rows), default=1)
-    lines: list[bytes] = []
-    for number, row in enumerate(rows):
-        if number:
-            lines.append(_GRAY * (width * _GAP))
-        step = 3 * row.width
-        lines += [row.rgb[n * step : (n + 1) * step] + _GRAY * (width - row.width) for n in range(row.height)]
-    height = sum(row.height for row in rows) + _GAP * max(len(rows) - 1, 0)
-    return Picture(width, height, b"".join(lines)) if rows else Picture(1, 1, _GRAY)

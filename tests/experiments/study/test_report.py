@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 import os
-import zlib
+from pathlib import Path
 from typing import Any
 
 import jsonschema
@@ -15,14 +15,17 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from msaa_lint.cli.report import Options
+from msaa_lint.cli.report.figure import draw
+from msaa_lint.cli.report.study_crops import crops_figure
 from msaa_lint.cli.report.study_full import render as as_text
 from msaa_lint.cli.report.study_json import render as as_json
-from msaa_lint.cli.report.study_plot import place, plot, plotted
+from msaa_lint.cli.report.study_panels import plotted
+from msaa_lint.cli.report.study_plot import plot
 from msaa_lint.core.diagnostics import diagnostic
-from msaa_lint.experiments.confirm.png import Picture, png
+from msaa_lint.experiments.confirm.png import Picture, is_own_picture, png, signed
 from msaa_lint.experiments.study.advice import Advice
 from msaa_lint.experiments.study.answer import conclude
-from msaa_lint.experiments.study.crops import align, display_codes, label_row, most_different, short_name, stack, window
+from msaa_lint.experiments.study.crops import align, crops, display_codes, most_different, short_name, window
 from msaa_lint.experiments.study.outcome import SceneSummary, Study, UntimedTechnique
 from msaa_lint.experiments.study.points import MSAA, SAMPLE_SHADING, SSAA, Point, Technique, techniques
 from msaa_lint.experiments.study.scenes import scene
@@ -30,6 +33,7 @@ from msaa_lint.experiments.study.shading import Shading
 from msaa_lint.experiments.study.simulate import simulate
 from msaa_lint.experiments.study.tasks import FailedPoint
 from msaa_lint.experiments.study.time_model import TimeModel
+from tests.cli.report.drawn import Drawing, overlaps
 from tests.experiments.study.fakes import TIMES, point, shaded, timed
 from tests.paths import ROOT
 from tests.strength import examples
@@ -226,7 +230,7 @@ def test_nothing_studied_is_still_a_report() -> None:
     empty = study(scenes=[], points=[], failed=[], untimed=[])
     jsonschema.Draft202012Validator(SCHEMA).validate(json.loads(printed(as_json, empty, Options())))
     assert printed(as_text, empty, Options()).endswith("0 points of 0 scenes\n")
-    assert plot(empty, "png").startswith(b"\x89PNG")
+    assert draw(plot(empty), "png").startswith(b"\x89PNG")
 
 
 @examples(0.25)
@@ -238,32 +242,24 @@ def test_any_figures_can_be_printed(figures: list[float], technique: Technique) 
     assert technique.name in printed(as_text, of, Options(width=160))
 
 
-@pytest.mark.parametrize("format", ("svg", "png"))
-def test_plots_are_the_same_for_the_same_study(format: str) -> None:
-    assert plot(study(), format) == plot(study(), format)
+def test_hostile_names_are_plotted_as_text() -> None:
+    text = draw(plot(hostile()), "svg").decode()
+    assert "\x1b" not in text and "\u202e" not in text
 
 
 def test_a_plot_shows_what_has_a_place() -> None:
-    text = plot(study(), "svg").decode()
-    for name in ("1x", "4x", "8x/8", "SSAA 2x2", "edges", "texture", "time, ms", "RMSE of coverage", "RMSE of linear color", "a device"):
-        assert f">{name}</text>" in text or name in text, name
+    text = draw(plot(study()), "svg").decode()
+    for name in ("1x", "4x", "8x/8", "SSAA 2x2", "edges", "texture", "added time, ms", "RMSE of coverage", "RMSE of linear color"):
+        assert f">{name}</text>" in text, name
     assert ">16x</text>" not in text, "it was not timed"
-    bare = plot(study(device="", points=[point(technique) for technique in techniques()]), "svg").decode()
+    bare = draw(plot(study(device="", points=[point(technique) for technique in techniques()])), "svg").decode()
     assert ">16x</text>" in bare and "no times measured" in bare and "time, ms" not in bare
-
-
-def test_hostile_names_are_plotted_as_text() -> None:
-    text = plot(hostile(), "svg").decode()
-    assert "\x1b" not in text and "\u202e" not in text
-    odd = study(scenes=[SceneSummary("$\\frac{", "", ())], points=[each._replace(scene="$\\frac{") for each in study().points])
-    assert "$\\frac{" in plot(odd, "svg").decode()
 
 
 def test_an_error_of_zero_has_a_place_too() -> None:
     points = [timed(technique, rmse=0.0) for technique in techniques((MSAA,))]
-    assert plot(study(points=points), "png").startswith(b"\x89PNG")
+    assert draw(plot(study(points=points)), "png").startswith(b"\x89PNG")
     assert plotted([points[0]._replace(rmse=math.nan), points[1]._replace(time_ms=None)]) == []
-    assert place(point(Technique(SAMPLE_SHADING, 4, 0.5))) == (6.0, 0.0722)
 
 
 def picture(pixels: list[list[int]]) -> Any:
@@ -299,27 +295,44 @@ def test_a_part_is_drawn_as_in_the_whole(name: str, technique: Technique) -> Non
     assert simulate(window(whole, 88, 56), technique).image.shape == (8, 8, 4)
 
 
-def test_names_stand_above_their_crops() -> None:
-    made = label_row(["4x", "8x/2"], 40)
-    assert (made.width, made.height) == (40 + 8 + 40, 15)
-    lit = np.frombuffer(made.rgb, dtype=np.uint8).reshape(15, 88, 3)[::3, ::3, 0] == 255
-    rows = ["".join(".#"[int(dot)] for dot in row) for row in lit[:, :8]]
-    assert rows == ["#.#.#.#.", "#.#.#.#.", "###..#..", "..#.#.#.", "..#.#.#."]
-    assert lit[:, 16:].any() and not lit[:, 8:16].any()
+def test_crops_have_their_names_above_them_and_begin_with_the_exact_picture() -> None:
+    whole = scene("edge-fan", 96, 64)
+    found = crops(whole, techniques())
+    drawing = Drawing(draw(crops_figure("edge-fan", found), "svg"))
+    wanted = sorted(["exact"] * 4 + [short_name(technique) for technique, _ in found.pictures])
+    names = [text for text in drawing.texts if text.text in wanted]
+    assert sorted(text.text for text in names) == wanted
+    images = drawing.marks_of("image")
+    assert len(images) == len(names)
+    for text, image in zip(names, images, strict=True):
+        assert text.box.left == image.box.left and 0 < image.box.top - text.box.bottom < 6
+    boxes = [text.box for text in drawing.texts]
+    assert not list(overlaps(boxes, [image.box for image in images])) and not list(overlaps(boxes))
+    assert {text.box.left for text in names if text.text == "exact"} == {min(box.left for box in boxes)}
 
 
-def test_pictures_are_stacked_from_the_left() -> None:
-    made = stack([Picture(2, 1, b"\x01" * 6), Picture(1, 1, b"\x02" * 3)])
-    assert (made.width, made.height) == (2, 10)
-    assert made.rgb == b"\x01" * 6 + b"\x80" * 48 + b"\x02" * 3 + b"\x80" * 3
-    data = png(made)
-    assert len(zlib.decompress(data[data.index(b"IDAT") + 4 : -16])) == 10 * (1 + 2 * 3)
+def test_crops_are_of_the_same_pixels() -> None:
+    whole = scene("edge-fan", 96, 64)
+    found = crops(whole, techniques((MSAA,)))
+    x, y = found.corner
+    for technique, shown in found.pictures:
+        codes = display_codes(simulate(whole, technique).image)[y : y + 16, x : x + 16]
+        assert (shown.width, shown.height, shown.rgb) == (16, 16, codes.tobytes())
+
+
+def test_a_signed_picture_is_the_same_picture(tmp_path: Path) -> None:
+    data = png(Picture(2, 1, b"\x01" * 6))
+    plain = data.replace(signed(data)[33:64], b"")
+    assert signed(plain).count(b"msaa-lint") == 1 and signed(plain).startswith(plain[:33])
+    (tmp_path / "a.png").write_bytes(signed(plain))
+    assert is_own_picture(str(tmp_path / "a.png"))
+    (tmp_path / "b.png").write_bytes(plain)
+    assert not is_own_picture(str(tmp_path / "b.png"))
 
 
 @pytest.mark.parametrize("technique", techniques(), ids=lambda technique: technique.name)
-def test_short_names_are_short_and_lettered(technique: Technique) -> None:
+def test_short_names_are_short(technique: Technique) -> None:
     assert len(short_name(technique)) <= 8
-    assert set(short_name(technique).upper()) <= set("0123456789X/SA ")
 
 
 def test_points_are_told_by_scene() -> None:

@@ -2,23 +2,25 @@
 
 from __future__ import annotations
 
+import itertools
 import re
 import subprocess
 import sys
-from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
 
-from msaa_lint.cli.report.cost_chart import READ_COLOR, WRITE_COLOR, Bar, bars, compared_bars, draw
-from msaa_lint.frame.cost.amounts import Terms
+from msaa_lint.cli.report.cost_chart import COLORS, Bar, bars, chart, compared_bars
+from msaa_lint.cli.report.figure import draw
+from msaa_lint.cli.report.study_parts import PARTS
+from msaa_lint.frame.cost.amounts import FrameCost, Terms
 from msaa_lint.frame.cost.input_cost import CostedFrame, compare_inputs
 from msaa_lint.frame.cost.variants import variants
 from msaa_lint.frame.facts.global_facts import profile
+from tests.cli.report.drawn import Drawing, overlaps
 from tests.frame.cost.frames import EXAMPLES, cost, document, example
 
 SEPARATE = (EXAMPLES / "khronos-msaa/color-separate.msaa.yaml").read_text(encoding="utf-8")
-SVG = "{http://www.w3.org/2000/svg}"
 
 
 def costed(text: str = SEPARATE) -> CostedFrame:
@@ -28,8 +30,8 @@ def costed(text: str = SEPARATE) -> CostedFrame:
     return CostedFrame("frame.yaml", 0, 1, cost(text), listed, fixed, fixed, listed)
 
 
-def texts(svg: bytes) -> list[str]:
-    return ["".join(each.itertext()) for each in ElementTree.fromstring(svg).iter(f"{SVG}text")]
+def svg(bars: list[Bar], of: FrameCost, heading: str = "frame.yaml", subheading: str = "Mali-G76") -> bytes:
+    return draw(chart(bars, heading, subheading, of), "svg")
 
 
 def test_bars_are_as_written_fixed_and_every_count_in_both_places() -> None:
@@ -62,48 +64,72 @@ def test_the_two_colours_differ_in_lightness_too() -> None:
         linear = [part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4 for part in parts]
         return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
 
-    assert (luminance(READ_COLOR) + 0.05) / (luminance(WRITE_COLOR) + 0.05) > 1.5
+    for colors in (COLORS, PARTS):
+        lightness = sorted(luminance(color) + 0.05 for color in colors.values())
+        assert all(b / a > 1.5 for a, b in itertools.pairwise(lightness))
 
 
 def test_svg_has_names_and_units_as_text() -> None:
-    pytest.importorskip("matplotlib")
     found = costed()
-    shown = texts(draw(bars(found), "frame.yaml", "Mali-G76", found.cost, "svg"))
+    shown = Drawing(svg(bars(found), found.cost)).words()
     assert {"as written", "with --fix", "4x, separate, same fixes", "read", "write", "5058 MB/s, 506 mW (20.2 %)"} <= set(shown)
     assert "traffic with external memory, MB/s (share of 2500 mW in parentheses)" in shown
 
 
-def test_the_same_frame_gives_the_same_svg_whatever_is_configured(tmp_path: Path) -> None:
-    pytest.importorskip("matplotlib")
+def test_bars_are_as_long_as_their_traffic_and_apart_from_other_groups() -> None:
     found = costed()
-    once = draw(bars(found), "t", "s", found.cost, "svg")
-    assert once == draw(bars(found), "t", "s", found.cost, "svg")
-    assert not re.search(rb"dc:date|\d{4}-\d\d-\d\dT", once)
-    assert b"matplotlib.org/" not in once.split(b"<metadata>")[1].split(b"</metadata>")[0]
-    import matplotlib
+    listed = bars(found)
+    marks = [mark.box for mark in Drawing(svg(listed, found.cost)).marks_of("rect")]
+    reads, writes = list(marks[::2]), marks[1::2]
+    scale = 420 / max(bar.read + bar.write for bar in listed)
+    assert [box.right - box.left for box in reads] == pytest.approx([scale * bar.read for bar in listed], abs=0.01)
+    assert [box.right - box.left for box in writes] == pytest.approx([scale * bar.write for bar in listed], abs=0.01)
+    assert [box.left for box in writes] == pytest.approx([box.right for box in reads], abs=0.01)
+    gaps = [below.top - above.bottom for above, below in itertools.pairwise(reads)]
+    assert [gap > 2 * min(gaps) for gap in gaps] == [one.group != other.group for one, other in itertools.pairwise(listed)]
 
-    with matplotlib.rc_context({"font.size": 30, "axes.facecolor": "red", "svg.hashsalt": "x"}):
-        assert draw(bars(found), "t", "s", found.cost, "svg") == once
-        assert matplotlib.rcParams["font.size"] == 30
+
+@pytest.mark.parametrize("format", ["svg", "png", "json"])
+def test_the_same_frame_gives_the_same_bytes(format: str) -> None:
+    found = costed()
+    once, again = (draw(chart(bars(found), "t", "s", found.cost), format) for _ in range(2))
+    assert once == again and not re.search(rb"\d{4}-\d\d-\d\dT", once)
 
 
-@pytest.mark.parametrize("name", ["</text><script>alert(1)</script>", "$\\frac{1}{$", "$x$", "&amp; <b>", "日本語", '" onload="x', "]]>"])
+NAMES = ["</text><script>alert(1)</script>", "$x$", "&amp; <b>", "日本語", '" onload="x', "]]>", "'] + alert(1) + ['", "{{x}}", "\\u0041"]
+
+
+@pytest.mark.parametrize("name", NAMES)
 def test_a_name_is_text_and_nothing_else(name: str) -> None:
-    pytest.importorskip("matplotlib")
     found = costed()
-    svg = draw([Bar(name, "", 1, 1, 1)], name, name, found.cost, "svg")
-    assert texts(svg).count(name) == 3
-    root = ElementTree.fromstring(svg)
-    assert not list(root.iter(f"{SVG}script"))
-    assert draw([Bar(name, "", 1, 1, 1)], name, name, found.cost, "png").startswith(b"\x89PNG\r\n")
+    data = svg([Bar(name, "", 1, 1, 1)], found.cost, name, name)
+    assert Drawing(data).words().count(name) == 3
+    assert not list(ElementTree.fromstring(data).iter("{http://www.w3.org/2000/svg}script"))
+    assert draw(chart([Bar(name, "", 1, 1, 1)], name, name, found.cost), "png").startswith(b"\x89PNG\r\n")
 
 
 def test_a_frame_that_moves_nothing_is_drawn() -> None:
-    pytest.importorskip("matplotlib")
-    empty = cost("images: {}")
-    assert texts(draw([Bar("as written", "", 0, 0, 0)], "t", "s", empty, "svg")).count("0 MB/s, 0 mW (0.0 %)") == 1
+    words = Drawing(svg([Bar("as written", "", 0, 0, 0)], cost("images: {}"))).words()
+    assert words.count("0 MB/s, 0 mW (0.0 %)") == 1
+    assert "0" in words and Drawing(svg([], cost("images: {}"))).words()
 
 
-def test_nothing_loads_matplotlib_before_a_chart_is_drawn() -> None:
-    code = "import sys, msaa_lint.cli.report.cost_chart, msaa_lint.cli.cost; print('matplotlib' in sys.modules, 'numpy' in sys.modules)"
-    assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout == "False False\n"
+@pytest.mark.parametrize("listed", [
+    bars(costed()),
+    [Bar(f"bar {number}", str(number // 3), number, 2.0 * number, number) for number in range(200)],
+    [Bar("same name", "", 1, 2, 3), Bar("same name", "", 4e9, 5e9, 6e9), Bar("n" * 300, "", 1e-3, 0, 0)],
+])  # fmt: skip
+def test_no_text_is_cut_off_or_meets_another(listed: list[Bar]) -> None:
+    drawing = Drawing(svg(listed, costed().cost, "t" * 1000, "s" * 1000))
+    boxes = [text.box for text in drawing.texts]
+    assert len([word for word in drawing.words() if "MB/s, " in word and "mW (" in word]) == len(listed)
+    assert not list(overlaps(boxes))
+    assert not list(overlaps(boxes, [mark.box for mark in drawing.marks_of("rect")]))
+    assert min(box.left for box in boxes) >= 0 and max(box.right for box in boxes) <= drawing.width
+    assert min(box.top for box in boxes) >= 0 and max(box.bottom for box in boxes) <= drawing.height
+
+
+def test_nothing_loads_a_library_before_a_chart_is_drawn() -> None:
+    modules = "msaa_lint.cli.report.cost_chart, msaa_lint.cli.report.study_plot, msaa_lint.cli.report.study_crops, msaa_lint.cli.cost"
+    code = f"import sys, {modules}; print({{'altair', 'vl_convert', 'numpy'}} & set(sys.modules))"
+    assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout == "set()\n"

@@ -1,0 +1,77 @@
+"""What the figures of a study show: a panel for each scene and cost of shading, with the points that have a place in it."""
+
+import math
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+from msaa_lint.experiments.study.outcome import SceneSummary, Study
+from msaa_lint.experiments.study.points import MSAA, Point, Technique
+from msaa_lint.experiments.study.shading import Shading
+
+from .escape import display
+from .figure import title
+
+COLUMNS = 3
+"""Of panels, where there is one cost of shading."""
+
+
+class Panel(NamedTuple):
+    """The points of a scene under one cost of shading. `base` is the time of one sample, None if times do not refer to it."""
+
+    scene: SceneSummary
+    shading: Shading
+    points: Sequence[Point]
+    base: float | None
+
+    def place(self, point: Point) -> tuple[float, float]:
+        """What a point is drawn at: the time that it adds to that of one sample, or its time, or without times samples plus shader
+        invocations per pixel; and its error."""
+        if point.time_ms is None:
+            return float(point.technique.samples + point.technique.shaded), point.rmse
+        return point.time_ms - (self.base or 0.0), point.rmse
+
+    def interval(self, point: Point) -> tuple[float, float] | None:
+        """The bounds of a point's place; None without any."""
+        if point.time_ms is None or point.low_ms is None or point.high_ms is None:
+            return None
+        return point.low_ms - (self.base or 0.0), point.high_ms - (self.base or 0.0)
+
+    def heading(self, width: float) -> Any:
+        """The scene, the cost of shading as calibrated, and the time of one sample, as a title of a panel of this width."""
+        lines = []
+        if self.shading.name:
+            screen = self.shading.full_screen_ms
+            lines.append(f"shading: {display(self.shading.name)}" + (f", {screen:.3g} ms a full screen" if screen else ""))
+        if self.base is not None:
+            lines.append(f"1x takes {self.base:.3g} ms")
+        return title(display(self.scene.name), lines, width, size=11)
+
+
+def panels(study: Study) -> list[list[Panel]]:
+    """The panels by scene, each with one per cost of shading; nothing for a scene without a point that has a place."""
+    costs = {shading.name: shading for shading in study.shadings}
+    points = {scene.name: plotted(study.of(scene.name)) for scene in study.scenes}
+    names = list(dict.fromkeys(point.shading for scene in study.scenes for point in points[scene.name]))
+    rows = []
+    for scene in study.scenes:
+        if points[scene.name]:
+            row = [
+                Panel(scene, costs.get(name, Shading(name)), of_cost, _base(of_cost))
+                for name in names
+                for of_cost in [[point for point in points[scene.name] if point.shading == name]]
+            ]
+            related = all(panel.base is not None for panel in row if panel.points)
+            # Either all panels of a scene show what is added, or none does.
+            rows.append(row if related else [panel._replace(base=None) for panel in row])
+    return rows
+
+
+def _base(points: Sequence[Point]) -> float | None:
+    return next((point.time_ms for point in points if point.technique == Technique(MSAA, 1)), None)
+
+
+def plotted(points: Sequence[Point]) -> list[Point]:
+    """The points of a scene that have a place: those with a time if there are any."""
+    timed = any(point.time_ms is not None for point in points)
+    with_time = [point for point in points if point.time_ms is not None] if timed else points
+    return [point for point in with_time if math.isfinite(point.rmse) and math.isfinite(point.time_ms or 0.0)]
