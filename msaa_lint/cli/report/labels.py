@@ -138,10 +138,13 @@ def _candidates(place: Place, width: float, size: tuple[float, float], radius: f
             center_y = y + toward_y * (radius - _NEAR / 2 + HEIGHT / 2)
             box = Box(center_x - width / 2, center_y - HEIGHT / 2, center_x + width / 2, center_y + HEIGHT / 2)
             if box.left >= _EDGE and box.top >= _EDGE and box.right <= size[0] - _EDGE and box.bottom <= size[1] - _EDGE:
-                yield Label(box, (place, _nearest(box, place)) if radius > _FAR else None)
+                yield Label(box, _leader(place, box) if radius > _FAR else None)
         radius += _STEP
 
 
-def _nearest(box: Box, place: Place) -> Place:
-    """The place on a box that is nearest to another."""
-    return min(max(place[0], box.left), box.right), min(max(place[1], box.top), box.bottom)
+def _leader(place: Place, box: Box) -> Line:
+    """The line from a mark's rim to the nearest place on a box."""
+    x, y = place
+    end = min(max(x, box.left), box.right), min(max(y, box.top), box.bottom)
+    share = _NEAR / 2 / math.dist(place, end)
+    return (x + share * (end[0] - x), y + share * (end[1] - y)), end

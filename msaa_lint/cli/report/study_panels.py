@@ -4,6 +4,7 @@ import math
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
+from msaa_lint.experiments.study.measures import ERROR
 from msaa_lint.experiments.study.outcome import SceneSummary, Study
 from msaa_lint.experiments.study.points import MSAA, Point, Technique
 from msaa_lint.experiments.study.shading import Shading
@@ -27,14 +28,22 @@ class Panel(NamedTuple):
         """What a point is drawn at: the time that it adds to that of one sample, or its time, or without times samples plus shader
         invocations per pixel; and its error."""
         if point.time_ms is None:
-            return float(point.technique.samples + point.technique.shaded), point.rmse
-        return point.time_ms - (self.base or 0.0), point.rmse
+            return float(point.technique.samples + point.technique.shaded), error(self.scene, point)
+        return point.time_ms - (self.base or 0.0), error(self.scene, point)
 
     def interval(self, point: Point) -> tuple[float, float] | None:
         """The bounds of a point's place; None without any."""
         if point.time_ms is None or point.low_ms is None or point.high_ms is None:
             return None
         return point.low_ms - (self.base or 0.0), point.high_ms - (self.base or 0.0)
+
+    @property
+    def measure(self) -> str:
+        """The name of the error, for its axis."""
+        measure = self.scene.measure
+        if measure.key == ERROR.key:
+            return "RMSE of coverage" if self.scene.coverage else "RMSE of linear color"
+        return measure.name
 
     def heading(self, width: float) -> Any:
         """The scene, the cost of shading as calibrated, and the time of one sample, as a title of a panel of this width."""
@@ -50,7 +59,7 @@ class Panel(NamedTuple):
 def panels(study: Study) -> list[list[Panel]]:
     """The panels by scene, each with one per cost of shading; nothing for a scene without a point that has a place."""
     costs = {shading.name: shading for shading in study.shadings}
-    points = {scene.name: plotted(study.of(scene.name)) for scene in study.scenes}
+    points = {scene.name: plotted(scene, study.of(scene.name)) for scene in study.scenes}
     names = list(dict.fromkeys(point.shading for scene in study.scenes for point in points[scene.name]))
     rows = []
     for scene in study.scenes:
@@ -70,8 +79,14 @@ def _base(points: Sequence[Point]) -> float | None:
     return next((point.time_ms for point in points if point.technique == Technique(MSAA, 1)), None)
 
 
-def plotted(points: Sequence[Point]) -> list[Point]:
+def error(scene: SceneSummary, point: Point) -> float:
+    """The error of a point that its scene is about; NaN where it was not measured."""
+    value = scene.measure.of(point)
+    return math.nan if value is None else value
+
+
+def plotted(scene: SceneSummary, points: Sequence[Point]) -> list[Point]:
     """The points of a scene that have a place: those with a time if there are any."""
     timed = any(point.time_ms is not None for point in points)
     with_time = [point for point in points if point.time_ms is not None] if timed else points
-    return [point for point in with_time if math.isfinite(point.rmse) and math.isfinite(point.time_ms or 0.0)]
+    return [point for point in with_time if math.isfinite(error(scene, point)) and math.isfinite(point.time_ms or 0.0)]

@@ -8,7 +8,8 @@ from typing import Any, NamedTuple
 
 from msaa_lint.experiments.study.crops import short_name
 from msaa_lint.experiments.study.outcome import Study
-from msaa_lint.experiments.study.points import MSAA, SAMPLE_SHADING, SSAA
+from msaa_lint.experiments.study.pareto import tie
+from msaa_lint.experiments.study.points import MSAA, SAMPLE_SHADING, SSAA, Point
 
 from .escape import display
 from .figure import INK, Figure, Spec, title
@@ -36,6 +37,9 @@ _ROOMS = ((170.0, 40.0), (200.0, 40.0), (240.0, 60.0), (300.0, 90.0), (380.0, 40
 
 _RADIUS, _AREA = 4.5, 40
 """Half the side of the square that a mark keeps free, and its size in Vega-Lite's terms."""
+
+_PALE = 0.35
+"""The opacity of marks that are not on the front."""
 
 _HAIR = 1.0
 """Half the width that a line keeps free."""
@@ -76,13 +80,13 @@ def _add_accuracy(figure: Figure, study: Study, rows: Sequence[Sequence[Panel]])
         for number, panel in enumerate(row):
             charts.append(_chart(panel, axes, labels[number], _front(study, [panel])[0], figure, first=number == 0))
     lines = ["times of a software driver: they say nothing about a GPU"] if study.software else []
-    if study.device:
-        name = f"Error against added time: {display(study.device)}"
-        front = "" if study.software else "line: the Pareto front, with its names in bold; "
-        lines.append(f"{front}horizontal bars: 95 % intervals of the time")
+    name = f"Error against added time: {display(study.device)}" if study.device else "Error against samples (no times measured)"
+    if study.device and not study.software:
+        lines.append("line, and names in bold: the Pareto front; pale marks: not on it, nor within the noise of it")
     else:
-        name = "Error against samples (no times measured)"
-        lines.append("bold: Pareto-optimal")
+        lines.append("names in bold: Pareto-optimal in error, samples, and shader invocations")
+    if any(panel.interval(point) for row in rows for panel in row for point in panel.points):
+        lines.append("horizontal bars: 95 % intervals of the time")
     heading = title(f"{name}, {study.size[0]}x{study.size[1]}", lines, columns * width, size=13)
     figure.add(charts, heading, columns=columns, spacing=14)
 
@@ -118,7 +122,7 @@ def _labels(panel: Panel, axes: Axes, front: Sequence[Place], reach: float) -> l
     lines = []
     for point in panel.points:
         if interval := panel.interval(point):
-            (left, y), (right, _) = (axes.pixels(x, point.rmse) for x in interval)
+            (left, y), (right, _) = (axes.pixels(x, panel.place(point)[1]) for x in interval)
             lines.append(Box(left, y - _HAIR, right, y + _HAIR))
     corners = [axes.pixels(*place) for place in front]
     for (x, y), (next_x, next_y) in pairwise(corners):
@@ -134,9 +138,8 @@ def _chart(panel: Panel, axes: Axes, labels: Sequence[Label | None], front: Sequ
 
     timed = any(point.time_ms is not None for point in panel.points)
     across = "samples and shader invocations per pixel" if not timed else "time, ms" if panel.base is None else "added time, ms"
-    up = "RMSE of coverage" if panel.scene.coverage else "RMSE of linear color"
     x_axis = {**axes.x.axis(axes.width, upright=False), "title": across}
-    y_axis = {**axes.y.axis(axes.height, upright=True), "title": up if first else None, "labels": first, "ticks": first}
+    y_axis = {**axes.y.axis(axes.height, upright=True), "title": panel.measure if first else None, "labels": first, "ticks": first}
 
     def x(field: str) -> Any:
         return altair.X(field, type="quantitative", scale=altair.Scale(**axes.x.spec()), axis=altair.Axis(**x_axis))
@@ -163,8 +166,8 @@ def _chart(panel: Panel, axes: Axes, labels: Sequence[Label | None], front: Sequ
         .mark_rule(color="#888888", strokeWidth=0.6, aria=False)
         .encode(x("x"), y("y"), x2="end_x", y2="end_y"),
         figure.chart(rows)
-        .mark_point(filled=True, opacity=1, size=_AREA, stroke=INK, strokeWidth=0.6)
-        .encode(x("x"), y("y"), color=color, shape=shape, tooltip=tooltip),
+        .mark_point(filled=True, size=_AREA, opacity=1, stroke=INK, strokeWidth=0.6)
+        .encode(x("x"), y("y"), color=color, shape=shape, fillOpacity=altair.FillOpacity("opacity:Q", scale=None), tooltip=tooltip),
         *(
             figure.chart([row for row in names if row["best"] is best])
             .mark_text(fontWeight="bold" if best else "normal", aria=False)
@@ -191,6 +194,7 @@ def _rows(panel: Panel) -> list[dict[str, Any]]:
             "technique": point.technique.name,
             "error": point.rmse,
         }
+        row["opacity"] = 1.0 if _optimal(panel, point) else _PALE
         if point.time_ms is not None:
             row["time"] = point.time_ms
         if interval := panel.interval(point):
@@ -198,6 +202,12 @@ def _rows(panel: Panel) -> list[dict[str, Any]]:
             row["least"], row["most"] = point.low_ms, point.high_ms
         rows.append(row)
     return rows
+
+
+def _optimal(panel: Panel, point: Point) -> bool:
+    """Whether a point is on the front, or has the error and, within the noise, the time of a point on it."""
+    error = panel.scene.measure.rounded
+    return any(other is point or (error(other) == error(point) and tie(other, point)) for other in panel.points if other.best)
 
 
 def _names(panel: Panel, axes: Axes, labels: Sequence[Label | None]) -> list[dict[str, Any]]:

@@ -115,7 +115,7 @@ def test_labels_keep_clear_of_everything(points: list[Any], size: tuple[float, f
     for number, (label, mark, _) in enumerate(shown):
         if label.leader is not None:
             assert not any(box.crossed_by(label.leader) for other, box in enumerate(boxes) if other != number)
-            assert mark.meets(around(label.leader[0], 1))
+            assert mark.meets(around(label.leader[0], 0.5))
     if size[0] >= 900:
         assert len(shown) == len(points), "there is room for all"
 

@@ -259,7 +259,8 @@ def test_a_plot_shows_what_has_a_place() -> None:
 def test_an_error_of_zero_has_a_place_too() -> None:
     points = [timed(technique, rmse=0.0) for technique in techniques((MSAA,))]
     assert draw(plot(study(points=points)), "png").startswith(b"\x89PNG")
-    assert plotted([points[0]._replace(rmse=math.nan), points[1]._replace(time_ms=None)]) == []
+    scene = SceneSummary("edges", "", ())
+    assert plotted(scene, [points[0]._replace(rmse=math.nan), points[1]._replace(time_ms=None)]) == []
 
 
 def picture(pixels: list[list[int]]) -> Any:
@@ -308,7 +309,7 @@ def test_crops_have_their_names_above_them_and_begin_with_the_exact_picture() ->
         assert text.box.left == image.box.left and 0 < image.box.top - text.box.bottom < 6
     boxes = [text.box for text in drawing.texts]
     assert not list(overlaps(boxes, [image.box for image in images])) and not list(overlaps(boxes))
-    assert {text.box.left for text in names if text.text == "exact"} == {min(box.left for box in boxes)}
+    assert {text.box.left for text in names if text.text == "exact"} == {min(text.box.left for text in names)}
 
 
 def test_crops_are_of_the_same_pixels() -> None:
