@@ -81,7 +81,7 @@ WRONG = [
     ),
     ("cost a --budget 2500", "invalid power `2500` in `--budget`: a unit is missing; write 2500mW or 2.5W"),
     ("cost a --budget 50MB/s", "invalid power `50MB/s` in `--budget`: unknown unit `MB/s`; expected one of mW, W"),
-    ("cost a --chart a.pdf", "`--chart` must be the name of an .svg or .png file, found `a.pdf`"),
+    ("cost a --chart a.pdf", "`--chart` must be the name of an .svg, .png, or .json file, found `a.pdf`"),
     ("cost a --fps abc", "`--fps` must be a number above 0, found `abc`"),
     ("cost a --fps 0", "`--fps` must be a number above 0, found `0`"),
     ("cost a --fps -5", "`--fps` must be a number above 0, found `-5`"),
