@@ -29,6 +29,9 @@ MIN_SPAN = 0.5
 
 MAX_LOOPS = 32
 
+LONG = 4.0
+"""Milliseconds from which one frame of an item in a round is enough, without one before it that is not counted."""
+
 FRAGMENT_INVOCATIONS = 0x80
 """VK_QUERY_PIPELINE_STATISTIC_FRAGMENT_SHADER_INVOCATIONS_BIT."""
 
@@ -121,6 +124,7 @@ class _Timer:
         self.source = self.submitter.source
         self.software = opened.session.device["properties"]["deviceType"] == self.vk.VK_PHYSICAL_DEVICE_TYPE_CPU
         self.loops: dict[tuple[int, int], int] = {}
+        self.long: set[tuple[int, int]] = set()
         self.statistics: Any = None
         if opened.session.device["features"].get("pipelineStatisticsQuery"):
             create = self.vk.VkQueryPoolCreateInfo(queryType=PIPELINE_STATISTICS, queryCount=1, pipelineStatistics=FRAGMENT_INVOCATIONS)
@@ -157,16 +161,18 @@ class _Timer:
             if not self.software:
                 self.frame(each, number)
             span = self.frame(each, number)
+            if span > LONG:
+                self.long.add((each.number, number))
             self.loops[each.number, number] = 1 if self.software or span <= 0 else min(max(int(MIN_SPAN / span) + 1, 1), MAX_LOOPS)
         if self.statistics is not None:
             emit({"event": "invocations", "pass": each.number, "count": self._invocations(each)})
 
     def times(self, each: _Built, number: int, frames: int) -> Iterator[float]:
         """The milliseconds of some frames in succession, after one that is not counted."""
-        loops = self.loops[each.number, number]
-        if not self.software:
+        loops, is_long = self.loops[each.number, number], (each.number, number) in self.long
+        if not (self.software or is_long):
             self.frame(each, number, loops)
-        for _ in range(frames):
+        for _ in range(1 if is_long else frames):
             yield round(self.frame(each, number, loops), 6)
 
     def _invocations(self, each: _Built) -> int:

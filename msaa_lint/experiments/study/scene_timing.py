@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import shutil
+import struct
+from collections.abc import Callable, Iterator, Sequence
 from hashlib import sha256
 from types import TracebackType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-from .points import Technique
-from .times import Cost, CostModel, DeviceClock
+from .points import MSAA, Technique
+from .shading import NONE, Shading
+from .technique_frames import frame_of
+from .times import Cost, CostModel, Costs, DeviceClock
 
 if TYPE_CHECKING:
     from typing import Self
@@ -17,17 +22,48 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
+MAX_TRIANGLES = 4_000_000
+"""The most triangles of a picture: 144 MB of vertices."""
+
+
+class TechniquePlans(NamedTuple):
+    """The plans (confirm/parts.py) of a technique: `whole`, the frame; `bare`, the same without its resolve, None where it has none.
+    `reason` says why there are none."""
+
+    whole: Any = None
+    bare: Any = None
+    reason: str = ""
+
+
+class Geometry(NamedTuple):
+    """How a scene is drawn: `overdraw` times, with triangles whose sides are at most `triangle_size` pixels long (0: as they are)."""
+
+    overdraw: int = 1
+    triangle_size: float = 0.0
+
 
 class SceneClock:
-    """A device clock (study/times.py) for the triangles of a scene: `with SceneClock(clock, scene, model) as source:`.
+    """A device's clock for the triangles of a scene, or for the plans of a frame: `with SceneClock(clock, scene, model) as source:`.
 
-    `content` identifies the triangles.
+    `content` identifies what is drawn. `plans` gives the plans of a technique at a size instead of those of the scene, and `stages` are
+    the shader stages (confirm/parts.py) that draw instead of the built-in ones, of the cost of shading that has the name `own`.
     """
 
-    def __init__(self, clock: DeviceClock, scene: Any, model: CostModel) -> None:
+    def __init__(
+        self,
+        clock: DeviceClock,
+        scene: Any,
+        model: CostModel,
+        geometry: Geometry | None = None,
+        plans: Callable[[Technique, tuple[int, int]], TechniquePlans] | None = None,
+        stages: tuple[Any, ...] = (),
+        own: str = "",
+    ) -> None:
         self.clock, self.model, self.name = clock, model, clock.name
-        self._vertices = vertices(scene)
-        self.content = sha256(self._vertices).hexdigest()[:16]
+        self.stages, self.own = stages, own
+        self._vertices = vertices(scene, geometry or Geometry())
+        self._plans = plans
+        self.content = sha256(self._vertices + repr((stages, own)).encode()).hexdigest()[:16]
         self._folder = ""
 
     def __enter__(self) -> Self:
@@ -43,15 +79,148 @@ class SceneClock:
     def _path(self) -> str:
         return os.path.join(self._folder, self.content)
 
-    def of(self, technique: Technique, width: int, height: int) -> Cost:
-        """The device's time and the model's bytes."""
-        self.clock.model = self.model
-        return self.clock.of(technique, width, height, self._path)
+    def costs(self, techniques: Sequence[Technique], shadings: Sequence[Shading], size: tuple[int, int]) -> Costs:
+        """The device's times of all techniques, measured in turn, and the model's bytes."""
+        plans = {technique: self._supported(technique, size) for technique in techniques}
+        # Without shading in any case, as the parts of a time are relative to it.
+        none = Shading(NONE)
+        works = [none, *(shading for shading in shadings if shading.name not in (NONE, self.own))]
+        items: dict[tuple[Technique, str], tuple[Any, Sequence[Shading]]] = {}
+        for technique, each in plans.items():
+            if each.reason:
+                continue
+            items[technique, _WHOLE] = shaded(each.whole), works
+            if each.bare is not None:
+                items[technique, _BARE] = shaded(each.bare), [none]
+            if self.stages:
+                items[technique, _OWN] = own_shaders(each.whole, self.stages), [none]
+        timed = dict(zip(items, self.clock.time(list(items.values())).items, strict=True))
+        costs: dict[tuple[Technique, str], Cost] = {}
+        for technique, each in plans.items():
+            model = self.model.of(technique, *size)
+            for shading in shadings:
+                cost = model._replace(reason=each.reason)
+                if not each.reason:
+                    whole, bare = timed[technique, _WHOLE], timed.get((technique, _BARE))
+                    own = timed.get((technique, _OWN)) if shading.name == self.own else None
+                    cost = _cost(model, whole, bare, own or whole, 0 if own else _place(works, shading))
+                costs[technique, shading.name] = cost
+        return costs
+
+    def _supported(self, technique: Technique, size: tuple[int, int]) -> TechniquePlans:
+        """The plans of a technique, with the reason why the device cannot run them, if any."""
+        from msaa_lint.experiments.confirm import gate
+
+        plans = (self._plans or self._scene_plans)(technique, size)
+        return plans._replace(reason=plans.reason or next(iter(gate.gate(plans.whole, self.clock.device).values()), ""))
+
+    def _scene_plans(self, technique: Technique, size: tuple[int, int]) -> TechniquePlans:
+        from msaa_lint.experiments.confirm import plan
+
+        frame = frame_of(technique, *size, hdr=self.model.hdr, depth=self.model.depth)
+        whole = plan.plan(frame)._replace(vertices=self._path)
+        return TechniquePlans(whole, unresolved(whole))
 
 
-def vertices(scene: Any) -> bytes:
-    """The triangles of a scene in the vertex shader's input format (confirm/scene.py)."""
-    return clip(scene.triangles, scene.width, scene.height).tobytes()
+_WHOLE, _BARE, _OWN = "whole", "bare", "own"
+
+
+def _place(works: Sequence[Shading], shading: Shading) -> int:
+    return next(number for number, work in enumerate(works) if work.name == shading.name)
+
+
+def _cost(model: Cost, whole: Any, bare: Any, timed: Any, place: int) -> Cost:
+    """The cost of a technique, where `timed` (confirm/timed.py) has its times at `place`, and `whole` and `bare` those without shading."""
+    from msaa_lint.experiments.confirm.timing import timing
+
+    for each in (timed, whole, bare):
+        if each is not None and each.reason:
+            return model._replace(reason=each.reason, failed=True)
+    rounds = timed.times[place]
+    found, none = timing(rounds), timing(whole.times[0]).median
+    fill = timing(bare.times[0]).median if bare is not None else none
+    # A part is never longer than the whole, or negative but for noise.
+    fill = min(fill, none)
+    # Some devices resolve and downscale with fragment shaders of their own.
+    invocations = timed.invocations if bare is None else bare.invocations
+    return model._replace(
+        time_ms=found.median, low_ms=found.low, high_ms=found.high, fill_ms=fill, resolve_ms=none - fill,
+        shading_ms=max(found.median - none, 0.0), invocations=invocations, rounds=tuple(rounds),
+    )  # fmt: skip
+
+
+def shaded(plan: Any) -> Any:
+    """The plan, whose built-in fragment shaders do the work of a cost of shading."""
+    return _with_pipelines(plan, lambda pipeline: pipeline._replace(shaded=True) if not pipeline.stages else pipeline)
+
+
+def own_shaders(plan: Any, stages: tuple[Any, ...]) -> Any:
+    """The plan, whose draws use shader stages instead of built-in ones."""
+    return _with_pipelines(plan, lambda pipeline: pipeline._replace(stages=stages, shaded=False))
+
+
+def _with_pipelines(plan: Any, change: Callable[[Any], Any]) -> Any:
+    passes = (each._replace(pipelines=tuple(map(change, each.pipelines))) for each in plan.passes)
+    return plan._replace(passes=tuple(passes))
+
+
+def unresolved(plan: Any) -> Any:
+    """A plan without its resolves and blits; None where it has none."""
+    from msaa_lint.experiments.confirm.parts import NONE as NOTHING
+
+    kept = tuple(step for step in plan.steps if step.kind not in ("resolve", "blit"))
+    passes = tuple(
+        each._replace(rendered=tuple(target._replace(mode=0, resolve_image=NOTHING) for target in each.rendered)) for each in plan.passes
+    )
+    bare = plan._replace(steps=kept, passes=passes)
+    return bare if bare != plan else None
+
+
+@contextlib.contextmanager
+def full_screen(clock: DeviceClock, size: tuple[int, int]) -> Iterator[Any]:
+    """The plan of a full screen at one sample."""
+    from msaa_lint.experiments.confirm import plan
+
+    # One triangle, as every pixel is then shaded once: the halves of a rectangle share quads.
+    corners = (-1.0, -1.0, 0.5, 3.0, -1.0, 0.5, -1.0, 3.0, 0.5)
+    folder = clock.session.folder("calibrated")
+    path = os.path.join(folder, "vertices")
+    with open(path, "wb") as file:
+        file.write(struct.pack("<9f", *corners))
+    try:
+        yield shaded(plan.plan(frame_of(Technique(MSAA, 1), *size))._replace(vertices=path))
+    finally:
+        shutil.rmtree(folder, ignore_errors=True)
+
+
+def vertices(scene: Any, geometry: Geometry | None = None) -> bytes:
+    """The triangles of a scene in the vertex shader's input format (confirm/scene.py). ValueError for more than MAX_TRIANGLES."""
+    shape = geometry or Geometry()
+    triangles = divided(scene.triangles, shape.triangle_size) if shape.triangle_size else scene.triangles
+    if len(triangles) * shape.overdraw > MAX_TRIANGLES:
+        raise ValueError(f"{len(triangles):,} triangles drawn {shape.overdraw} times are more than {MAX_TRIANGLES:,}")
+    return clip(triangles, scene.width, scene.height).tobytes() * shape.overdraw
+
+
+def divided(triangles: NDArray[np.float64], size: float) -> NDArray[np.float64]:
+    """The triangles (T, 3, 2), each divided into equal parts whose sides are at most `size` pixels long."""
+    import numpy as np
+
+    sides = triangles - np.roll(triangles, -1, axis=1)
+    counts = np.maximum(np.ceil(np.sqrt((sides**2).sum(axis=2)).max(axis=1) / size), 1).astype(np.int64)
+    if int((counts**2).sum()) > MAX_TRIANGLES:
+        raise ValueError(f"triangles of {size:g} pixels would be more than {MAX_TRIANGLES:,}")
+    parts = []
+    for count in np.unique(counts):
+        corners = triangles[counts == count]
+        origin, first, second = corners[:, :1], corners[:, 1:2] - corners[:, :1], corners[:, 2:] - corners[:, :1]
+        for i in range(count):
+            for j in range(count - i):
+                steps = [((i, j), (i + 1, j), (i, j + 1))]
+                if i + j < count - 1:
+                    steps.append(((i + 1, j), (i + 1, j + 1), (i, j + 1)))
+                parts += [np.concatenate([origin + (first * a + second * b) / count for a, b in shape], axis=1) for shape in steps]
+    return np.concatenate(parts) if parts else triangles
 
 
 def clip(triangles: NDArray[np.float64], width: int, height: int) -> NDArray[np.float32]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from types import TracebackType
 from typing import Any, NamedTuple, Protocol
 
@@ -11,12 +11,25 @@ from msaa_lint.frame.cost.model import frame_cost
 from msaa_lint.frame.devices import DeviceProfile
 
 from .points import Technique
+from .shading import Shading, calibrated, target
 from .technique_frames import frame_of
+
+CALIBRATION_ROUNDS = 9
+PROBE = 256
+"""Operations of the first guess of a calibration."""
+
+CLOSE = 0.02
+"""A calibrated time may differ from its target by this share."""
+
+MAX_GUESSES = 8
+
+MAX_FETCHES = 0.9
+"""The largest share of a cost that texture fetches take: where they take more, there are fewer of them."""
 
 
 class Cost(NamedTuple):
-    """The cost of a technique at a size; None where unknown. `reason` says why a device does not support the technique, or, with
-    `failed`, why it could not be timed."""
+    """The cost of a technique at a size under a cost of shading; None where unknown. `reason` says why a device does not support the
+    technique, or, with `failed`, why it could not be timed. The times are those of a Point; `rounds` are the medians of each round."""
 
     time_ms: float | None = None
     bytes_per_frame: float | None = None
@@ -24,8 +37,17 @@ class Cost(NamedTuple):
     memory_mib: float | None = None
     low_ms: float | None = None
     high_ms: float | None = None
+    fill_ms: float | None = None
+    shading_ms: float | None = None
+    resolve_ms: float | None = None
+    invocations: int | None = None
+    rounds: tuple[float, ...] = ()
     reason: str = ""
     failed: bool = False
+
+
+Costs = Mapping[tuple[Technique, str], Cost]
+"""Costs by technique and by the name of the cost of shading."""
 
 
 class CostSource(Protocol):
@@ -33,8 +55,8 @@ class CostSource(Protocol):
 
     name: str
 
-    def of(self, technique: Technique, width: int, height: int) -> Cost:
-        """The cost of a technique."""
+    def costs(self, techniques: Sequence[Technique], shadings: Sequence[Shading], size: tuple[int, int]) -> Costs:
+        """The cost of each technique under each cost of shading."""
         ...
 
 
@@ -56,23 +78,28 @@ class CostModel:
         total = frame_cost(frame, self.device, Terms(fps=self.fps)).total
         return Cost(None, round(total.traffic_mb_per_s * 1e6 / self.fps), total.milliwatts, total.memory_mib)
 
+    def costs(self, techniques: Sequence[Technique], shadings: Sequence[Shading], size: tuple[int, int]) -> Costs:
+        """The same under each cost of shading."""
+        found = {technique: self.of(technique, *size) for technique in techniques}
+        return {(technique, shading.name): found[technique] for technique in techniques for shading in shadings}
+
 
 class DeviceClock:
-    """A device's clock: the median time of every technique that the device supports, over several repeats.
+    """A device whose clock times plans in turn.
 
     `with DeviceClock(name) as clock:`; `name` is a part of the device's name, None for lavapipe if it is installed. Raises the device
-    errors of `confirm` where there is no device.
+    errors of `confirm` where there is no device. `unstable` says that times had not settled when one was measured.
     """
 
-    def __init__(self, name: str | None = None, model: CostModel | None = None, *, repeats: int = 15, seconds: float = 60.0) -> None:
+    def __init__(self, name: str | None = None, *, repeats: int = 15, seconds: float = 60.0) -> None:
         from msaa_lint.experiments.confirm.child import Limits
         from msaa_lint.experiments.confirm.session import Session, environment
 
         self.session = Session(name, validation=False, limits=Limits(seconds=seconds), environment=environment(name))
-        self.model = model or CostModel()
         self.repeats = repeats
-        self.name, self.software = "", True
+        self.name, self.software, self.unstable = "", True, False
         self.device: Mapping[str, Any] = {}
+        self._calibrated: dict[tuple[str, tuple[int, int]], Shading] = {}
 
     def __enter__(self) -> DeviceClock:
         from msaa_lint.experiments.confirm.outcome import about
@@ -90,22 +117,62 @@ class DeviceClock:
     def __exit__(self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None) -> None:
         self.session.__exit__(kind, value, trace)
 
-    def of(self, technique: Technique, width: int, height: int, vertices: str = "") -> Cost:
-        """The device's time and the model's bytes. `vertices` is a file of triangles to draw (confirm/parts.py)."""
-        from msaa_lint.experiments.confirm import gate, plan
-        from msaa_lint.experiments.confirm.timing import timing
+    def time(self, plans: Sequence[tuple[Any, Sequence[Shading]]], rounds: int = 0) -> Any:
+        """Times plans (confirm/parts.py) in turn, each under costs of shading: a TimedRun (confirm/timed.py). `rounds` is by default the
+        number of repeats."""
+        from msaa_lint.experiments.confirm.timed import Item, TimingOptions, Work
 
-        cost = self.model.of(technique, width, height)
-        frame = frame_of(technique, width, height, hdr=self.model.hdr, depth=self.model.depth)
-        frame_plan = plan.plan(frame)._replace(vertices=vertices)
-        refused = gate.gate(frame_plan, self.device)
-        if refused:
-            return cost._replace(reason=next(iter(refused.values())))
-        # An idle GPU takes a while to raise its clock rate.
-        warmups = 3 if self.software else 100
-        run = self.session.run(frame_plan, [0], {"repeats": self.repeats, "warmups": warmups})
-        outcome = run.passes[0]
-        if run.failed or outcome.end or not outcome.times:
-            return cost._replace(reason=run.failed or outcome.reason or outcome.error or "no time was measured", failed=True)
-        times = timing(outcome.times, outcome.source)
-        return cost._replace(time_ms=times.median, low_ms=times.low, high_ms=times.high)
+        items = [Item(plan, tuple(Work(each.operations, each.fetches, each.footprint) for each in shadings)) for plan, shadings in plans]
+        run = self.session.time(items, TimingOptions(rounds or self.repeats))
+        self.unstable = self.unstable or not run.stable
+        return run
+
+    def shadings(self, names: Sequence[str], size: tuple[int, int]) -> list[Shading]:
+        """The costs of shading of these names for pictures of a size in pixels, calibrated on the device: the number of operations with
+        which a full screen takes as much longer as the name says. ValueError for an unknown name."""
+        missing = [name for name in names if (name, size) not in self._calibrated]
+        if missing:
+            self._calibrated |= {(name, size): found for name, found in zip(missing, self._calibrate(missing, size), strict=True)}
+        return [self._calibrated[name, size] for name in names]
+
+    def _calibrate(self, names: Sequence[str], size: tuple[int, int]) -> list[Shading]:
+        from .scene_timing import full_screen
+
+        targets = [target(name, size) for name in names]
+        tried = [each.shading if each.added_ms in (None, 0.0) else each.shading._replace(operations=PROBE) for each in targets]
+        with full_screen(self, size) as plan:
+            for guess in range(MAX_GUESSES):
+                bare = [shading._replace(operations=0) for shading in tried]
+                run = self.time([(plan, [Shading("none"), *bare, *tried])], CALIBRATION_ROUNDS)
+                (item,) = run.items
+                if item.reason:
+                    return [each.shading for each in targets]
+                none, *medians = [_median(times) for times in item.times]
+                fetching, added = medians[: len(targets)], [time - none for time in medians[len(targets) :]]
+                next_tried = []
+                for each, shading, time, fetches in zip(targets, tried, added, fetching, strict=True):
+                    next_tried.append(_next_guess(each.added_ms, shading, time, fetches - none))
+                if guess == MAX_GUESSES - 1 or next_tried == tried:
+                    break
+                tried = next_tried
+        return [calibrated(shading, time, size) for shading, time in zip(tried, added, strict=True)]
+
+
+def _next_guess(wanted_ms: float | None, shading: Shading, added_ms: float, fetches_ms: float) -> Shading:
+    """The cost with the operations that would add the wanted time, where each takes as long as those of the last guess; the same where it
+    is close enough."""
+    if not wanted_ms or abs(added_ms - wanted_ms) <= CLOSE * wanted_ms:
+        return shading
+    if shading.fetches and fetches_ms > MAX_FETCHES * wanted_ms:
+        fetches = int(shading.fetches * MAX_FETCHES * wanted_ms / fetches_ms)
+        return shading._replace(fetches=fetches, footprint=shading.footprint if fetches else 0)
+    rate = (added_ms - fetches_ms) / shading.operations
+    limit = 16 * shading.operations
+    operations = limit if rate <= 0 else min(round((wanted_ms - fetches_ms) / rate), limit)
+    return shading._replace(operations=max(operations, 1))
+
+
+def _median(values: Sequence[float]) -> float:
+    from statistics import median
+
+    return median(values)
