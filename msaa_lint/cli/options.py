@@ -294,7 +294,17 @@ COMMANDS = {
             ),
             "Times": (
                 Option("device", "text", "Measure times on this Vulkan device, by part of its name.", "NAME", default="no times"),
-                Option("repeats", "integer", "Number of timed runs of each technique.", "N", default="15"),
+                Option(
+                    "shading",
+                    "text",
+                    "Costs of shading: none, light, medium, heavy, 200ops, 500000ns (a million invocations), 4ms (a full screen).",
+                    "COST,...",
+                    default="none,medium,heavy",
+                ),
+                Option("shader", "text", "Time with this fragment shader, .spv or GLSL.", "FILE"),
+                Option("overdraw", "integer", "Draw each triangle this many times.", "N", default="1"),
+                Option("triangle_size", "decimal", "Divide triangles until no side is longer, in pixels.", "PIXELS", default="as they are"),
+                Option("repeats", "integer", "Number of rounds in which techniques are timed.", "N", default="15"),
                 Option("budget", "text", "Recommend what adds at most this time to one sample: 0.5ms, 500us.", "TIME"),
             ),
             "Output": (

@@ -7,7 +7,7 @@ import gc
 import os
 import re
 import sys
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from functools import partial
 from importlib.util import find_spec
 from typing import IO, TYPE_CHECKING, Any, NamedTuple
@@ -21,7 +21,6 @@ from msaa_lint.experiments.study.checkpoint import Checkpoint
 from msaa_lint.experiments.study.outcome import SceneSummary, Study, UntimedTechnique
 from msaa_lint.experiments.study.points import COUNTS, KINDS, MSAA, Point, Technique, techniques
 from msaa_lint.experiments.study.tasks import FailedPoint, Task, Unusable
-from msaa_lint.experiments.study.times import Cost, CostModel
 
 from .common import (
     MAX_RENDER_SIDE,
@@ -44,16 +43,14 @@ from .common import (
 )  # fmt: skip
 from .options import TEXT_FORMATS, Arguments
 from .report.escape import escape
-from .study_subjects import Subject, errors_of, subjects
+from .study_costs import AllCosts, subject_costs, timing_request
+from .study_subjects import Subject, subjects
 
 MAX_BUDGET_MS = 1000.0
 
 if TYPE_CHECKING:
     from msaa_lint.experiments.study.record import DocumentStudy
     from msaa_lint.frame.facts.frame import Frame
-
-Costs = Mapping[str, Mapping[Technique, Cost]]
-"""What each technique costs, by scene."""
 
 
 class StudyOptions(NamedTuple):
@@ -144,6 +141,8 @@ def _study(arguments: Arguments, options: StudyOptions) -> int:
     from msaa_lint.experiments.study.answer import conclude
     from msaa_lint.experiments.study.sweep import ordered, sweep, with_cost
 
+    # Wrong options are errors before anything is read.
+    timing_request(arguments)
     refuse_inputs([*(target.path for target in options.targets), arguments.get("plot")], arguments["paths"])
     checkpoint = Checkpoint(arguments["resume"]) if "resume" in arguments else None
     size, studied, errors, notes = subjects(arguments, options.size)
@@ -151,22 +150,29 @@ def _study(arguments: Arguments, options: StudyOptions) -> int:
         note(text)
     if arguments.get("record") and not any(subject.file for subject in studied) and not errors:
         raise UsageError("--record needs a description in a file, to write the record next to it")
-    costs, device, software = _costs(studied, errors, arguments, options, size, checkpoint)
-    studied = [subject for subject in studied if subject.input.name in costs]
+    with _progress(len(studied), arguments) as progress:
+        costs = subject_costs(studied, errors, arguments, options.techniques, size, checkpoint, progress)
+    if costs.unstable:
+        warn(f"the times of {costs.device} had not settled after 3 s: something else may be using the device")
+    studied = [subject for subject in studied if subject.input.name in costs.subjects]
     untimed = _warn_of_failures(costs, errors)
     tasks = [Task(subject.input, technique, *size, options.bits, options.ssim) for subject in studied for technique in options.techniques]
     with _progress(len(tasks), arguments) as progress:
         results = list(sweep(tasks, jobs=options.jobs, backend=options.backend, checkpoint=checkpoint, progress=progress))
     points: list[Point] = []
     failures: list[FailedPoint] = []
-    for result in ordered(results, [subject.input.name for subject in studied], options.techniques):
+    names = [subject.input.name for subject in studied]
+    for result in ordered(results, names, options.techniques):
         if isinstance(result, FailedPoint):
             failures.append(result)
             warn(f"{result.scene}: {result.technique.name}: {result.reason}")
         else:
-            points.append(with_cost(result, costs[result.scene], device))
-    outcome = _outcome(size, options.bits, studied, points, failures, costs, device, errors)
-    outcome = conclude(outcome._replace(software=software, budget_ms=options.budget_ms))
+            subject_shadings, subject_times = costs.subjects[result.scene]
+            points += [with_cost(result, subject_times, shading, costs.device) for shading in subject_shadings]
+    order = [(name, shading.name) for name in names for shading in costs.subjects[name].shadings]
+    points.sort(key=lambda point: order.index((point.scene, point.shading)))
+    outcome = _outcome(size, options.bits, studied, points, failures, costs, errors)
+    outcome = conclude(outcome._replace(budget_ms=options.budget_ms))
     if "crops" in arguments:
         outcome = outcome._replace(pictures=_write_crops(arguments["crops"], bool(arguments.get("force")), options, studied))
     if "plot" in arguments:
@@ -180,13 +186,18 @@ def _study(arguments: Arguments, options: StudyOptions) -> int:
     return 2 if errors or failures or untimed else 0
 
 
-def _warn_of_failures(costs: Costs, errors: Sequence[Finding]) -> bool:
+def _warn_of_failures(costs: AllCosts, errors: Sequence[Finding]) -> bool:
     """Prints the errors, and the techniques that a device failed to time; returns whether there are such techniques."""
     for error in errors:
         warn(f"{error.file}: {error.message}")
-    failed = [(scene, technique, cost) for scene, found in costs.items() for technique, cost in found.items() if cost.failed]
-    for scene, technique, cost in failed:
-        warn(f"{scene}: {technique.name}: {cost.reason}")
+    failed = {
+        f"{scene}: {technique.name}: {cost.reason}"
+        for scene, found in costs.subjects.items()
+        for (technique, _), cost in found.costs.items()
+        if cost.failed
+    }
+    for text in sorted(failed):
+        warn(text)
     return bool(failed)
 
 
@@ -196,15 +207,15 @@ def _outcome(
     studied: Sequence[Subject],
     points: Sequence[Point],
     failures: Sequence[FailedPoint],
-    costs: Costs,
-    device: str,
+    costs: AllCosts,
     errors: Sequence[Finding],
 ) -> Study:
     """What there is to report."""
-    untimed = {technique.name: cost.reason for by_technique in costs.values() for technique, cost in by_technique.items() if cost.reason}
+    every_cost = [item for subject in costs.subjects.values() for item in subject.costs.items()]
+    untimed = {technique.name: cost.reason for (technique, _), cost in every_cost if cost.reason}
     models = {subject.device.name if subject.device is not None else "" for subject in studied}
     return Study(
-        device,
+        costs.device,
         models.pop() if len(models) == 1 else "",
         size,
         bits,
@@ -213,6 +224,8 @@ def _outcome(
         failures,
         [UntimedTechnique(name, reason) for name, reason in untimed.items()],
         wrong=errors,
+        software=costs.software,
+        shadings=costs.shadings,
     )
 
 
@@ -226,47 +239,6 @@ def _scene(subject: Subject, points: Sequence[Point]) -> SceneSummary:
         for name in point.effects:
             effects.setdefault(name, "a technique needs it")
     return SceneSummary(subject.input.name, picture.description, tuple(effects.items()), picture.coverage_matter, about(picture))
-
-
-def _costs(
-    studied: Sequence[Subject],
-    errors: list[Finding],
-    arguments: Arguments,
-    options: StudyOptions,
-    size: tuple[int, int],
-    checkpoint: Checkpoint | None,
-) -> tuple[Costs, str, bool]:
-    """What each technique costs; the name of the device whose clock times it, empty if none does; and whether that is a software driver. An
-    internal error of one scene is added to `errors`."""
-    from msaa_lint.experiments.study.scene_timing import SceneClock
-    from msaa_lint.experiments.study.sweep import costs
-
-    by_scene: dict[str, Mapping[Technique, Cost]] = {}
-    with _clock(arguments) as clock, _progress(len(studied), arguments) as progress:
-        for number, subject in enumerate(studied):
-            if progress is not None and clock is not None:
-                progress(number, len(studied), f"{subject.input.name} on {clock.name}")
-            with errors_of(subject.input.name, errors, arguments):
-                effects = " ".join(subject.picture.effects).lower()
-                model = CostModel(subject.device, hdr="hdr" in effects, depth="depth" in effects)
-                if clock is None:
-                    by_scene[subject.input.name] = costs(options.techniques, size, model, checkpoint)
-                    continue
-                with SceneClock(clock, subject.picture, model) as source:
-                    by_scene[subject.input.name] = costs(options.techniques, size, source, checkpoint)
-        return by_scene, clock.name if clock is not None else "", clock is not None and clock.software
-
-
-def _clock(arguments: Arguments) -> contextlib.AbstractContextManager[Any]:
-    """The clock of the device that `--device` names; None without one."""
-    if "device" not in arguments:
-        return contextlib.nullcontext()
-    from msaa_lint.core.child_environment import ignored_paths
-    from msaa_lint.experiments.study.times import DeviceClock
-
-    for text in ignored_paths():
-        warn(text)
-    return DeviceClock(arguments["device"], repeats=arguments.get("repeats", 15))
 
 
 @contextlib.contextmanager

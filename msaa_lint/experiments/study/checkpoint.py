@@ -21,6 +21,7 @@ from msaa_lint.core.text.files import read
 from msaa_lint.core.text.source import Unreadable
 
 from .points import Point, Technique
+from .shading import Shading
 from .tasks import Task, Unusable
 from .times import Cost, CostSource
 
@@ -43,22 +44,20 @@ class Checkpoint:
         values = self._read(_key(task), _name(task), Point)
         if values is None or values["scene"] != task.input.name:
             return None
-        effects = values["effects"]
-        values["effects"] = tuple(map(str, effects)) if isinstance(effects, list) else ()
         return Point(**{**values, "technique": task.technique})
 
     def save_point(self, task: Task, point: Point) -> None:
         """Stores a point."""
         self._write(_key(task), _name(task), point._replace(technique=Technique("", 0)))
 
-    def cost(self, source: CostSource, technique: Technique, size: tuple[int, int]) -> Cost | None:
-        """The stored cost of a technique, if any."""
-        values = self._read(_cost_key(source, technique, size), f"time-{technique.name}", Cost)
+    def cost(self, source: CostSource, technique: Technique, shading: Shading, size: tuple[int, int]) -> Cost | None:
+        """The stored cost of a technique under a cost of shading, if any."""
+        values = self._read(_cost_key(source, technique, shading, size), f"time-{technique.name}", Cost)
         return None if values is None else Cost(**values)
 
-    def save_cost(self, source: CostSource, technique: Technique, size: tuple[int, int], cost: Cost) -> None:
-        """Stores the cost of a technique."""
-        self._write(_cost_key(source, technique, size), f"time-{technique.name}", cost)
+    def save_cost(self, source: CostSource, technique: Technique, shading: Shading, size: tuple[int, int], cost: Cost) -> None:
+        """Stores the cost of a technique under a cost of shading."""
+        self._write(_cost_key(source, technique, shading, size), f"time-{technique.name}", cost)
 
     def _path(self, key: Mapping[str, Any], name: str) -> str:
         digest = sha256(json.dumps(key, sort_keys=True).encode()).hexdigest()[:16]
@@ -73,6 +72,7 @@ class Checkpoint:
         if not isinstance(values, dict) or set(values) != set(kind._fields):
             return None
         hints = get_type_hints(kind)
+        values = {name: _tuple(value) for name, value in values.items()}
         return values if all(_has_type(value, hints[name]) for name, value in values.items()) else None
 
     def _write(self, key: Mapping[str, Any], name: str, values: Point | Cost) -> None:
@@ -86,13 +86,25 @@ class Checkpoint:
         return Unusable(f"--resume {self.folder}: {error.strerror}")
 
 
+def _tuple(value: Any) -> Any:
+    """A JSON value with tuples instead of lists."""
+    return tuple(map(_tuple, value)) if isinstance(value, list) else value
+
+
 def _has_type(value: object, hint: Any) -> bool:
-    """Whether a JSON value has the type of a member. The contents of lists and objects are not checked."""
+    """Whether a value has the type of a member: a scalar, an optional one, or a tuple; that of techniques is not checked."""
     if hint is float:
         return type(value) in (int, float)
     if hint in (int, str, bool, type(None)):
         return type(value) is hint
-    return any(_has_type(value, option) for option in get_args(hint)) if isinstance(hint, UnionType) else isinstance(value, (list, dict))
+    if isinstance(hint, UnionType):
+        return any(_has_type(value, option) for option in get_args(hint))
+    elements = get_args(hint)
+    if not elements or not isinstance(value, tuple):
+        return isinstance(value, tuple)
+    if elements[-1] is ...:
+        return all(_has_type(each, elements[0]) for each in value)
+    return len(value) == len(elements) and all(map(_has_type, value, elements))
 
 
 def _name(task: Task) -> str:
@@ -126,8 +138,9 @@ def _contents(path: str) -> bytes:
         return b""
 
 
-def _cost_key(source: CostSource, technique: Technique, size: tuple[int, int]) -> dict[str, Any]:
-    return {"version": VERSION, "source": identity(source), "technique": list(technique), "size": list(size)}
+def _cost_key(source: CostSource, technique: Technique, shading: Shading, size: tuple[int, int]) -> dict[str, Any]:
+    # Calibrations of the same cost differ a little from run to run.
+    return {"version": VERSION, "source": identity(source), "technique": list(technique), "shading": shading.name, "size": list(size)}
 
 
 def identity(source: CostSource) -> list[Any]:

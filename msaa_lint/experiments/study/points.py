@@ -49,11 +49,12 @@ class Point(NamedTuple):
     measured.
 
     `shading` names the cost of shading under which the point was timed (study/shading.py). `time_ms` is the median time on the device that
-    `time_from` names, None if unknown; `low_ms` and `high_ms` bound it with 95 % confidence; `ratio` is that time over the time of one
-    sample. `resolve_ms` is the part of the time that resolving takes (SSAA: downscaling), `fill_ms` the rest without shading, and
-    `shading_ms` what shading adds. `invocations` are the device's fragment shader invocations (pipeline statistics), and
-    `expected_invocations` those that the model expects. `bytes_per_frame` is the cost model's. `simulated_ms` is the time that the
-    simulation took, which says nothing about a GPU, and `stages` the part of it that each effect took. `effects` are the stages that ran.
+    `time_from` names, None if unknown; `low_ms` and `high_ms` bound it with 95 % confidence, and `rounds` are the medians of each round;
+    `ratio` is that time over the time of one sample. `resolve_ms` is the part of the time that resolving takes (SSAA: downscaling),
+    `fill_ms` the rest without shading, and `shading_ms` what shading adds. `invocations` are the device's fragment shader invocations
+    (pipeline statistics), and `expected_invocations` those that the model expects. `bytes_per_frame` is the cost model's. `simulated_ms` is
+    the time that the simulation took, which says nothing about a GPU, and `stages` the part of it that each effect took. `effects` are the
+    stages that ran.
     """
 
     scene: str
@@ -75,6 +76,7 @@ class Point(NamedTuple):
     time_ms: float | None = None
     low_ms: float | None = None
     high_ms: float | None = None
+    rounds: tuple[float, ...] = ()
     time_from: str = ""
     ratio: float | None = None
     fill_ms: float | None = None

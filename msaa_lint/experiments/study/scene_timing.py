@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-import contextlib
 import os
 import shutil
-import struct
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from hashlib import sha256
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from .points import MSAA, Technique
+from .points import Technique
 from .shading import NONE, Shading
 from .technique_frames import frame_of
 from .times import Cost, CostModel, Costs, DeviceClock
@@ -174,23 +172,6 @@ def unresolved(plan: Any) -> Any:
     )
     bare = plan._replace(steps=kept, passes=passes)
     return bare if bare != plan else None
-
-
-@contextlib.contextmanager
-def full_screen(clock: DeviceClock, size: tuple[int, int]) -> Iterator[Any]:
-    """The plan of a full screen at one sample."""
-    from msaa_lint.experiments.confirm import plan
-
-    # One triangle, as every pixel is then shaded once: the halves of a rectangle share quads.
-    corners = (-1.0, -1.0, 0.5, 3.0, -1.0, 0.5, -1.0, 3.0, 0.5)
-    folder = clock.session.folder("calibrated")
-    path = os.path.join(folder, "vertices")
-    with open(path, "wb") as file:
-        file.write(struct.pack("<9f", *corners))
-    try:
-        yield shaded(plan.plan(frame_of(Technique(MSAA, 1), *size))._replace(vertices=path))
-    finally:
-        shutil.rmtree(folder, ignore_errors=True)
 
 
 def vertices(scene: Any, geometry: Geometry | None = None) -> bytes:

@@ -15,8 +15,9 @@ from msaa_lint.core.parent_process import end_with_parent
 
 from .checkpoint import Checkpoint
 from .points import MSAA, Point, Technique
+from .shading import Shading
 from .tasks import FailedPoint, StudyInput, Task, Unusable
-from .times import Cost, CostSource
+from .times import Cost, Costs, CostSource
 
 Measure = Callable[[Task], Point]
 Progress = Callable[[int, int, str], None]
@@ -60,17 +61,28 @@ def measure_point(task: Task) -> Point:
 
 
 def costs(
-    techniques: Sequence[Technique], size: tuple[int, int], source: CostSource, checkpoint: Checkpoint | None = None
-) -> dict[Technique, Cost]:
-    """The cost of each technique, and of one sample in any case, because ratios are to it. Call it while no points are simulated, which
-    would slow the device down."""
-    found: dict[Technique, Cost] = {}
+    techniques: Sequence[Technique],
+    shadings: Sequence[Shading],
+    size: tuple[int, int],
+    source: CostSource,
+    checkpoint: Checkpoint | None = None,
+) -> Costs:
+    """The cost of each technique under each cost of shading, and of one sample in any case, because ratios are to it. Call it while no
+    points are simulated, which would slow the device down. Techniques that the checkpoint does not have are measured together."""
+    found: dict[tuple[Technique, str], Cost] = {}
+    missing: list[Technique] = []
     for technique in dict.fromkeys((Technique(MSAA, 1), *techniques)):
-        stored = checkpoint.cost(source, technique, size) if checkpoint is not None else None
-        found[technique] = stored if stored is not None else source.of(technique, *size)
-        if checkpoint is not None and stored is None and not found[technique].failed:
-            checkpoint.save_cost(source, technique, size, found[technique])
-    return found
+        stored = {shading: checkpoint.cost(source, technique, shading, size) if checkpoint is not None else None for shading in shadings}
+        if None in stored.values():
+            missing.append(technique)
+        found |= {(technique, shading.name): cost for shading, cost in stored.items() if cost is not None}
+    measured = source.costs(missing, shadings, size) if missing else {}
+    for shading in shadings:
+        for technique in missing:
+            cost = measured[technique, shading.name]
+            if checkpoint is not None and not cost.failed:
+                checkpoint.save_cost(source, technique, shading, size, cost)
+    return {**found, **measured}
 
 
 def sweep(
@@ -109,11 +121,19 @@ def sweep(
         yield result if isinstance(result, Point) else FailedPoint(task.input.name, task.technique, result)
 
 
-def with_cost(point: Point, by_technique: Mapping[Technique, Cost], source: str) -> Point:
-    """The point with its time, the ratio to the time of one sample, bytes and power."""
-    cost, one = by_technique[point.technique], by_technique[Technique(MSAA, 1)].time_ms
+def with_cost(point: Point, costs: Costs, shading: Shading, source: str) -> Point:
+    """The point under a cost of shading: with its time, the ratio to the time of one sample, bytes and power."""
+    cost, one = costs[point.technique, shading.name], costs[Technique(MSAA, 1), shading.name].time_ms
     return point._replace(
+        shading=shading.name,
         time_ms=cost.time_ms,
+        low_ms=cost.low_ms,
+        high_ms=cost.high_ms,
+        rounds=cost.rounds,
+        fill_ms=cost.fill_ms,
+        shading_ms=cost.shading_ms,
+        resolve_ms=cost.resolve_ms,
+        invocations=cost.invocations,
         time_from=source if cost.time_ms is not None else "",
         ratio=cost.time_ms / one if cost.time_ms is not None and one else None,
         bytes_per_frame=cost.bytes_per_frame,

@@ -11,20 +11,8 @@ from msaa_lint.frame.cost.model import frame_cost
 from msaa_lint.frame.devices import DeviceProfile
 
 from .points import Technique
-from .shading import Shading, calibrated, target
+from .shading import Shading
 from .technique_frames import frame_of
-
-CALIBRATION_ROUNDS = 9
-PROBE = 256
-"""Operations of the first guess of a calibration."""
-
-CLOSE = 0.02
-"""A calibrated time may differ from its target by this share."""
-
-MAX_GUESSES = 8
-
-MAX_FETCHES = 0.9
-"""The largest share of a cost that texture fetches take: where they take more, there are fewer of them."""
 
 
 class Cost(NamedTuple):
@@ -99,7 +87,6 @@ class DeviceClock:
         self.repeats = repeats
         self.name, self.software, self.unstable = "", True, False
         self.device: Mapping[str, Any] = {}
-        self._calibrated: dict[tuple[str, tuple[int, int]], Shading] = {}
 
     def __enter__(self) -> DeviceClock:
         from msaa_lint.experiments.confirm.outcome import about
@@ -126,53 +113,3 @@ class DeviceClock:
         run = self.session.time(items, TimingOptions(rounds or self.repeats))
         self.unstable = self.unstable or not run.stable
         return run
-
-    def shadings(self, names: Sequence[str], size: tuple[int, int]) -> list[Shading]:
-        """The costs of shading of these names for pictures of a size in pixels, calibrated on the device: the number of operations with
-        which a full screen takes as much longer as the name says. ValueError for an unknown name."""
-        missing = [name for name in names if (name, size) not in self._calibrated]
-        if missing:
-            self._calibrated |= {(name, size): found for name, found in zip(missing, self._calibrate(missing, size), strict=True)}
-        return [self._calibrated[name, size] for name in names]
-
-    def _calibrate(self, names: Sequence[str], size: tuple[int, int]) -> list[Shading]:
-        from .scene_timing import full_screen
-
-        targets = [target(name, size) for name in names]
-        tried = [each.shading if each.added_ms in (None, 0.0) else each.shading._replace(operations=PROBE) for each in targets]
-        with full_screen(self, size) as plan:
-            for guess in range(MAX_GUESSES):
-                bare = [shading._replace(operations=0) for shading in tried]
-                run = self.time([(plan, [Shading("none"), *bare, *tried])], CALIBRATION_ROUNDS)
-                (item,) = run.items
-                if item.reason:
-                    return [each.shading for each in targets]
-                none, *medians = [_median(times) for times in item.times]
-                fetching, added = medians[: len(targets)], [time - none for time in medians[len(targets) :]]
-                next_tried = []
-                for each, shading, time, fetches in zip(targets, tried, added, fetching, strict=True):
-                    next_tried.append(_next_guess(each.added_ms, shading, time, fetches - none))
-                if guess == MAX_GUESSES - 1 or next_tried == tried:
-                    break
-                tried = next_tried
-        return [calibrated(shading, time, size) for shading, time in zip(tried, added, strict=True)]
-
-
-def _next_guess(wanted_ms: float | None, shading: Shading, added_ms: float, fetches_ms: float) -> Shading:
-    """The cost with the operations that would add the wanted time, where each takes as long as those of the last guess; the same where it
-    is close enough."""
-    if not wanted_ms or abs(added_ms - wanted_ms) <= CLOSE * wanted_ms:
-        return shading
-    if shading.fetches and fetches_ms > MAX_FETCHES * wanted_ms:
-        fetches = int(shading.fetches * MAX_FETCHES * wanted_ms / fetches_ms)
-        return shading._replace(fetches=fetches, footprint=shading.footprint if fetches else 0)
-    rate = (added_ms - fetches_ms) / shading.operations
-    limit = 16 * shading.operations
-    operations = limit if rate <= 0 else min(round((wanted_ms - fetches_ms) / rate), limit)
-    return shading._replace(operations=max(operations, 1))
-
-
-def _median(values: Sequence[float]) -> float:
-    from statistics import median
-
-    return median(values)

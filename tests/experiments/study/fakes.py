@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import math
 import os
+from collections.abc import Sequence
 from typing import Any
 
 from msaa_lint.experiments.study.points import MSAA, SSAA, Point, Technique
+from msaa_lint.experiments.study.shading import Shading
 from msaa_lint.experiments.study.tasks import StudyInput, Task
-from msaa_lint.experiments.study.times import Cost
+from msaa_lint.experiments.study.times import Cost, Costs
 
 ERRORS = {1: 0.2887, 2: 0.1443, 4: 0.0722, 8: 0.0361, 16: 0.0363}
 TIMES = {1: 1.0, 2: 1.3, 4: 2.0, 8: 3.8, 16: 7.6}
@@ -62,9 +64,13 @@ class DeviceClock:
         self.unsupported = unsupported
         self.input: list[Technique] = []
 
-    def of(self, technique: Technique, width: int, height: int) -> Cost:
-        """Its samples in milliseconds."""
-        self.input.append(technique)
+    def costs(self, techniques: Sequence[Technique], shadings: Sequence[Shading], size: tuple[int, int]) -> Costs:
+        """Its samples in milliseconds, and as much again for each operation of shading."""
+        self.input += techniques
+        return {(technique, shading.name): self._of(technique, shading) for technique in techniques for shading in shadings}
+
+    def _of(self, technique: Technique, shading: Shading) -> Cost:
         if technique.samples in self.unsupported:
             return Cost(None, 1000, 1.0, 0.5, reason="the device does not have that count")
-        return Cost(2.0 * technique.samples, 1000 * technique.samples, 1.0, 0.5, 1.9 * technique.samples, 2.1 * technique.samples)
+        time = 2.0 * technique.samples * (1 + shading.operations)
+        return Cost(time, 1000 * technique.samples, 1.0, 0.5, 0.95 * time, 1.05 * time)

@@ -272,7 +272,8 @@ def test_a_device_s_clock_is_named(tmp_path: Path) -> None:
     assert done.returncode == 0, done.stderr
     data = report(done.stdout)
     assert "llvmpipe" in data["device"]
-    one, four, eight = data["points"]
+    one, four, eight = data["points"][:3]
+    assert [point["name"] for point in data["points"]] == ["1x", "4x", "8x"] * 3, "a point for each technique under each cost of shading"
     assert one["time_ms"] > 0 and four["time_ms"] > 0 and one["ratio"] == 1.0
     assert one["time_from"] == four["time_from"] == data["device"]
     assert (eight["time_ms"], eight["time_from"], eight["best"]) == (None, "", False)

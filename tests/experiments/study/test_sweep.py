@@ -15,6 +15,7 @@ from hypothesis import strategies as st
 from msaa_lint.core.extras import needs_extra, pip_install
 from msaa_lint.experiments.study.checkpoint import Checkpoint
 from msaa_lint.experiments.study.points import MSAA, SAMPLE_SHADING, Point, Technique, techniques
+from msaa_lint.experiments.study.shading import Shading
 from msaa_lint.experiments.study.sweep import costs, ordered, sweep, with_cost
 from msaa_lint.experiments.study.tasks import FailedPoint, StudyInput, Task, Unusable
 from msaa_lint.experiments.study.times import Cost, CostModel
@@ -23,6 +24,9 @@ from tests.strength import examples
 
 ALL = techniques()
 FEW = [Technique(MSAA, 1), Technique(MSAA, 4), Technique(MSAA, 8), Technique(SAMPLE_SHADING, 4, 0.5)]
+
+NO_SHADING = [Shading("")]
+WORK = Shading("2ops", operations=2)
 
 
 def in_order(results: list[Point | FailedPoint], *names: str, own: list[Technique]) -> list[Point | FailedPoint]:
@@ -189,41 +193,52 @@ def test_infinity_survives(tmp_path: Path) -> None:
 
 def test_one_sample_is_always_timed_and_each_technique_once() -> None:
     clock = DeviceClock()
-    found = costs([Technique(MSAA, 4), Technique(MSAA, 4)], (64, 48), clock)
+    found = costs([Technique(MSAA, 4), Technique(MSAA, 4)], [Shading("none"), WORK], (64, 48), clock)
     assert clock.input == [Technique(MSAA, 1), Technique(MSAA, 4)]
-    made = with_cost(point(Technique(MSAA, 4)), found, clock.name)
-    assert (made.time_ms, made.time_from, made.ratio, made.bytes_per_frame) == (8.0, "a device", 4.0, 4000)
+    made = with_cost(point(Technique(MSAA, 4)), found, Shading("none"), clock.name)
+    assert (made.shading, made.time_ms, made.time_from, made.ratio, made.bytes_per_frame) == ("none", 8.0, "a device", 4.0, 4000)
+    assert (made.low_ms, made.high_ms) == (0.95 * 8.0, 1.05 * 8.0)
+    worked = with_cost(point(Technique(MSAA, 4)), found, WORK, clock.name)
+    assert (worked.shading, worked.time_ms, worked.ratio) == ("2ops", 24.0, 4.0), "the ratio is to one sample under the same cost"
 
 
 def test_what_the_device_does_not_draw_has_no_time_and_no_source() -> None:
-    found = costs([Technique(MSAA, 8)], (64, 48), DeviceClock(unsupported=(8,)))
-    made = with_cost(point(Technique(MSAA, 8)), found, "a device")
+    found = costs([Technique(MSAA, 8)], NO_SHADING, (64, 48), DeviceClock(unsupported=(8,)))
+    made = with_cost(point(Technique(MSAA, 8)), found, NO_SHADING[0], "a device")
     assert (made.time_ms, made.time_from, made.ratio, made.bytes_per_frame) == (None, "", None, 1000)
-    unknown = with_cost(point(Technique(MSAA, 4)), {Technique(MSAA, 1): Cost(), Technique(MSAA, 4): Cost(time_ms=2.0)}, "a device")
+    unknown = with_cost(
+        point(Technique(MSAA, 4)),
+        {(Technique(MSAA, 1), ""): Cost(), (Technique(MSAA, 4), ""): Cost(time_ms=2.0)},
+        NO_SHADING[0],
+        "a device",
+    )
     assert (unknown.time_ms, unknown.ratio) == (2.0, None)
 
 
 def test_times_that_are_kept_are_not_taken_again(tmp_path: Path) -> None:
     first, again = DeviceClock(), DeviceClock()
-    found = costs(ALL, (64, 48), first, Checkpoint(str(tmp_path)))
-    assert costs(ALL, (64, 48), again, Checkpoint(str(tmp_path))) == found
+    found = costs(ALL, NO_SHADING, (64, 48), first, Checkpoint(str(tmp_path)))
+    assert costs(ALL, NO_SHADING, (64, 48), again, Checkpoint(str(tmp_path))) == found
     assert again.input == []
     for other in (DeviceClock("another device"),):
-        costs(ALL, (64, 48), other, Checkpoint(str(tmp_path)))
+        costs(ALL, NO_SHADING, (64, 48), other, Checkpoint(str(tmp_path)))
         assert len(other.input) == len(ALL)
+    shaded = DeviceClock()
+    costs(ALL, [*NO_SHADING, WORK], (64, 48), shaded, Checkpoint(str(tmp_path)))
+    assert len(shaded.input) == len(ALL), "all costs of shading are timed together"
     bigger = DeviceClock()
-    costs(ALL, (65, 48), bigger, Checkpoint(str(tmp_path)))
+    costs(ALL, NO_SHADING, (65, 48), bigger, Checkpoint(str(tmp_path)))
     assert len(bigger.input) == len(ALL)
 
 
 def test_the_models_costs_are_kept_by_what_it_takes_a_frame_to_be(tmp_path: Path) -> None:
     kept = Checkpoint(str(tmp_path))
-    plain = costs(FEW, (64, 48), CostModel(), kept)
-    assert plain[Technique(MSAA, 4)].time_ms is None, "the cost model has no time"
-    assert costs(FEW, (64, 48), CostModel(hdr=True), kept)[Technique(MSAA, 1)].bytes_per_frame == 2 * (
-        plain[Technique(MSAA, 1)].bytes_per_frame or 0
+    plain = costs(FEW, NO_SHADING, (64, 48), CostModel(), kept)
+    assert plain[Technique(MSAA, 4), ""].time_ms is None, "the cost model has no time"
+    assert costs(FEW, NO_SHADING, (64, 48), CostModel(hdr=True), kept)[Technique(MSAA, 1), ""].bytes_per_frame == 2 * (
+        plain[Technique(MSAA, 1), ""].bytes_per_frame or 0
     )
-    assert costs(FEW, (64, 48), CostModel(), kept) == plain
+    assert costs(FEW, NO_SHADING, (64, 48), CostModel(), kept) == plain
 
 
 @pytest.mark.parametrize(("package", "backend", "words"), [

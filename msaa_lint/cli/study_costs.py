@@ -1,0 +1,166 @@
+"""What the techniques of `msaa-lint study` cost: times on the device that `--device` names, and amounts of the cost model."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, NamedTuple
+
+from msaa_lint.core.finding import Finding
+from msaa_lint.core.quote import quoted
+from msaa_lint.experiments.study.checkpoint import Checkpoint
+from msaa_lint.experiments.study.points import Technique
+from msaa_lint.experiments.study.shading import DEFAULT, SHARES, Shading, target
+from msaa_lint.experiments.study.times import CostModel, Costs
+
+from .common import UsageError, warn
+from .options import Arguments
+from .study_subjects import Subject, errors_of
+
+MAX_SHADINGS = 8
+MAX_OVERDRAW = 100
+DEVICE_ALONE = ("shading", "shader", "overdraw", "triangle_size")
+"""The options that say how a device draws."""
+
+Progress = Callable[[int, int, str], None]
+
+
+class TimingRequest(NamedTuple):
+    """How a device draws: the names of the costs of shading, the file of one's own fragment shader (or empty), how often each triangle is
+    drawn, and the longest side of a triangle in pixels (0: as the scene has it)."""
+
+    shadings: tuple[str, ...] = DEFAULT
+    shader: str = ""
+    overdraw: int = 1
+    triangle_size: float = 0.0
+
+
+class SubjectCosts(NamedTuple):
+    """The costs of shading under which a subject is timed, and what its techniques cost under each."""
+
+    shadings: Sequence[Shading]
+    costs: Costs
+
+
+class AllCosts(NamedTuple):
+    """The costs of each subject by its name, and the device whose clock timed them: its name (empty without any), whether it is a CPU, and
+    whether its times had not settled."""
+
+    subjects: Mapping[str, SubjectCosts]
+    device: str = ""
+    software: bool = False
+    unstable: bool = False
+
+    @property
+    def shadings(self) -> list[Shading]:
+        """All costs of shading, the cheapest first."""
+        found = {shading.name: shading for subject in self.subjects.values() for shading in subject.shadings if shading.name}
+        return sorted(found.values(), key=lambda shading: shading.full_screen_ms or 0.0)
+
+
+def timing_request(arguments: Arguments) -> TimingRequest:
+    """The options of times. UsageError if one cannot be used."""
+    stated = [name for name in DEVICE_ALONE if name in arguments]
+    if stated and "device" not in arguments:
+        raise UsageError(f"`--{stated[0].replace('_', '-')}` is about times: add `--device NAME`")
+    shader = arguments.get("shader", "")
+    names: list[str] = [] if shader else list(DEFAULT)
+    if "shading" in arguments:
+        names = [_shading(word.strip()) for word in arguments["shading"].split(",")]
+    if len(names) > MAX_SHADINGS:
+        raise UsageError(f"`--shading` takes up to {MAX_SHADINGS} costs, found {len(names)}")
+    overdraw = arguments.get("overdraw", 1)
+    if overdraw > MAX_OVERDRAW:
+        raise UsageError(f"`--overdraw` must be at most {MAX_OVERDRAW}, found {overdraw}")
+    size = arguments.get("triangle_size", 0.0)
+    return TimingRequest(tuple(dict.fromkeys(names)), shader, overdraw, size)
+
+
+def _shading(word: str) -> str:
+    try:
+        return target(word, (1, 1)).shading.name
+    except ValueError:
+        units = "200ops (operations), 500000ns (a million invocations), or 4ms (a full screen)"
+        raise UsageError(f"`--shading` takes {', '.join(SHARES)}, or a cost such as {units}; found {quoted(word)}") from None
+
+
+def subject_costs(
+    studied: Sequence[Subject],
+    errors: list[Finding],
+    arguments: Arguments,
+    techniques: Sequence[Technique],
+    size: tuple[int, int],
+    checkpoint: Checkpoint | None,
+    progress: Progress | None,
+) -> AllCosts:
+    """What each technique costs. An internal error of one scene is added to `errors`."""
+    from msaa_lint.experiments.study.calibration import Calibration
+    from msaa_lint.experiments.study.sweep import costs
+
+    request = timing_request(arguments)
+    found: dict[str, SubjectCosts] = {}
+    with _clock(arguments) as clock:
+        stages = _own_stages(request, clock) if clock is not None else ()
+        calibration = Calibration(clock)
+        for number, subject in enumerate(studied):
+            if progress is not None and clock is not None:
+                progress(number, len(studied), f"{subject.input.name} on {clock.name}")
+            with errors_of(subject.input.name, errors, arguments):
+                effects = " ".join(subject.picture.effects).lower()
+                model = CostModel(subject.device, hdr="hdr" in effects, depth="depth" in effects)
+                shadings: Sequence[Shading] = [Shading("")]
+                if clock is None:
+                    found[subject.input.name] = SubjectCosts(shadings, costs(techniques, shadings, size, model, checkpoint))
+                    continue
+                shadings = _shadings(subject, request, calibration, size)
+                with _source(subject, request, clock, model, stages) as source:
+                    found[subject.input.name] = SubjectCosts(shadings, costs(techniques, shadings, size, source, checkpoint))
+        if clock is None:
+            return AllCosts(found)
+        return AllCosts(found, clock.name, clock.software, clock.unstable)
+
+
+def _shadings(subject: Subject, request: TimingRequest, calibration: Any, size: tuple[int, int]) -> list[Shading]:
+    """The costs of shading of a subject: those asked for, its own, and that of one's own shader."""
+    stated = subject.frame.description.scene if subject.frame is not None else None
+    own = [stated.shading] if stated is not None and stated.shading is not None else []
+    names = list(dict.fromkeys([*request.shadings, *own]))
+    shadings: list[Shading] = calibration.shadings(names, size) if names else []
+    return [*shadings, *([Shading(os.path.basename(request.shader))] if request.shader else [])]
+
+
+def _source(subject: Subject, request: TimingRequest, clock: Any, model: CostModel, stages: tuple[Any, ...]) -> Any:
+    from msaa_lint.experiments.study.scene_timing import Geometry, SceneClock
+
+    geometry = Geometry(request.overdraw, request.triangle_size)
+    return SceneClock(clock, subject.picture, model, geometry, stages=stages, own=os.path.basename(request.shader))
+
+
+def _own_stages(request: TimingRequest, clock: Any) -> tuple[Any, ...]:
+    """The stages of one's own shader. UsageError if it cannot be used on the device."""
+    if not request.shader:
+        return ()
+    from msaa_lint.experiments.confirm.own_shader import UnusableOwnShader, own_shader
+    from msaa_lint.experiments.confirm.shader_support import unsupported
+
+    try:
+        stages: tuple[Any, ...] = own_shader(request.shader)
+    except UnusableOwnShader as error:
+        raise UsageError(f"--shader: {error}") from None
+    reason = unsupported(stages, clock.device)
+    if reason:
+        raise UsageError(f"--shader {quoted(request.shader)} {reason}")
+    return stages
+
+
+def _clock(arguments: Arguments) -> contextlib.AbstractContextManager[Any]:
+    """The clock of the device that `--device` names; None without one."""
+    if "device" not in arguments:
+        return contextlib.nullcontext()
+    from msaa_lint.core.child_environment import ignored_paths
+    from msaa_lint.experiments.study.times import DeviceClock
+
+    for text in ignored_paths():
+        warn(text)
+    return DeviceClock(arguments["device"], repeats=arguments.get("repeats", 15))

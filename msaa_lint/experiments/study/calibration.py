@@ -1,0 +1,103 @@
+"""Calibrates costs of shading on a device: the work with which a full screen takes as much longer as each cost says."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import shutil
+import struct
+from collections.abc import Iterator, Sequence
+from statistics import median
+from typing import Any
+
+from .points import MSAA, Technique
+from .scene_timing import shaded
+from .shading import NONE, Shading, calibrated, target
+from .technique_frames import frame_of
+from .times import DeviceClock
+
+ROUNDS = 9
+PROBE = 256
+"""Operations of the first guess of a calibration."""
+
+CLOSE = 0.02
+"""A calibrated time may differ from its target by this share."""
+
+MAX_GUESSES = 8
+
+MAX_FETCHES = 0.9
+"""The largest share of a cost that texture fetches take: where they take more, there are fewer of them."""
+
+
+GROWTH = 16
+"""How many times as many operations the next guess has at most."""
+
+MAX_OPERATIONS = 1 << 20
+"""The most operations of a guess: where noise hides the time of that many, more would only hang the device."""
+
+
+class Calibration:
+    """The costs of shading on a device, each calibrated once at each size of a picture."""
+
+    def __init__(self, clock: DeviceClock) -> None:
+        self.clock = clock
+        self._calibrated: dict[tuple[str, tuple[int, int]], Shading] = {}
+
+    def shadings(self, names: Sequence[str], size: tuple[int, int]) -> list[Shading]:
+        """The costs of shading of these names for pictures of a size in pixels, calibrated on the device: the number of operations with
+        which a full screen takes as much longer as the name says. ValueError for an unknown name."""
+        missing = [name for name in names if (name, size) not in self._calibrated]
+        if missing:
+            self._calibrated |= {(name, size): found for name, found in zip(missing, self._calibrate(missing, size), strict=True)}
+        return [self._calibrated[name, size] for name in names]
+
+    def _calibrate(self, names: Sequence[str], size: tuple[int, int]) -> list[Shading]:
+        targets = [target(name, size) for name in names]
+        tried = [each.shading if each.added_ms in (None, 0.0) else each.shading._replace(operations=PROBE) for each in targets]
+        with _full_screen(self.clock, size) as plan:
+            for guess in range(MAX_GUESSES):
+                bare = [shading._replace(operations=0) for shading in tried]
+                run = self.clock.time([(plan, [Shading(NONE), *bare, *tried])], ROUNDS)
+                (item,) = run.items
+                if item.reason:
+                    return [each.shading for each in targets]
+                none, *medians = [median(times) for times in item.times]
+                fetching, added = medians[: len(targets)], [time - none for time in medians[len(targets) :]]
+                next_tried = []
+                for each, shading, time, fetches in zip(targets, tried, added, fetching, strict=True):
+                    next_tried.append(_next_guess(each.added_ms, shading, time, fetches - none))
+                if guess == MAX_GUESSES - 1 or next_tried == tried:
+                    break
+                tried = next_tried
+        return [calibrated(shading, time, size) for shading, time in zip(tried, added, strict=True)]
+
+
+def _next_guess(wanted_ms: float | None, shading: Shading, added_ms: float, fetches_ms: float) -> Shading:
+    """The cost with the operations that would add the wanted time, where each takes as long as those of the last guess; the same where it
+    is close enough."""
+    if not wanted_ms or abs(added_ms - wanted_ms) <= CLOSE * wanted_ms:
+        return shading
+    if shading.fetches and fetches_ms > MAX_FETCHES * wanted_ms:
+        fetches = int(shading.fetches * MAX_FETCHES * wanted_ms / fetches_ms)
+        return shading._replace(fetches=fetches, footprint=shading.footprint if fetches else 0)
+    rate = (added_ms - fetches_ms) / shading.operations
+    limit = min(GROWTH * shading.operations, MAX_OPERATIONS)
+    operations = limit if rate <= 0 else min(round((wanted_ms - fetches_ms) / rate), limit)
+    return shading._replace(operations=max(operations, 1))
+
+
+@contextlib.contextmanager
+def _full_screen(clock: DeviceClock, size: tuple[int, int]) -> Iterator[Any]:
+    """The plan of a full screen at one sample."""
+    from msaa_lint.experiments.confirm import plan
+
+    # One triangle, as every pixel is then shaded once: the halves of a rectangle share quads.
+    corners = (-1.0, -1.0, 0.5, 3.0, -1.0, 0.5, -1.0, 3.0, 0.5)
+    folder = clock.session.folder("calibrated")
+    path = os.path.join(folder, "vertices")
+    with open(path, "wb") as file:
+        file.write(struct.pack("<9f", *corners))
+    try:
+        yield shaded(plan.plan(frame_of(Technique(MSAA, 1), *size))._replace(vertices=path))
+    finally:
+        shutil.rmtree(folder, ignore_errors=True)
