@@ -5,6 +5,7 @@ from __future__ import annotations
 from msaa_lint.core.quote import quoted_path
 from msaa_lint.core.text.files import read
 from msaa_lint.core.text.source import Unreadable
+from msaa_lint.frame.spirv.bindings import INPUT_ATTACHMENT
 from msaa_lint.frame.spirv.module import Module
 from msaa_lint.frame.spirv.words import SpirvError
 from msaa_lint.input.glsl_compiler import CompilationError, compiled
@@ -34,6 +35,10 @@ def own_shader(path: str) -> tuple[Stage, Stage]:
             code = compiled(path)
         module = Module(code)
         fragment = reflected_stage(module, fragment_entry(module, None), FRAGMENT, "", ())
+        attachment = next((each for each in fragment.interface.descriptors if each.kind == INPUT_ATTACHMENT), None)
+        if attachment is not None:
+            where = f"input attachment {attachment.attachment} at set {attachment.set}, binding {attachment.binding}"
+            raise Unmakeable(f"reads {where}, and the passes of a study have none")
         outputs = {each.location: each.type for each in fragment.interface.outputs if each.blend_index == 0}
         if not outputs.get(0, "").startswith(("float", "vec")):
             found = f"its output at location 0 is of type {outputs[0]}" if 0 in outputs else "it has no output at location 0"

@@ -100,7 +100,9 @@ def _binding(number: int, binding: int, variables: Sequence[Reflected], contents
             data = max((contents.of(each.block) for each in variables), key=len)
         except SpirvError as error:
             raise Unmakeable(f"has a buffer at {where} that cannot be created: {error}") from None
-        return made._replace(size=max(-(-len(data) // 16) * 16, 16), contents=packed(data))
+        # The size decides the length of a runtime array.
+        unit = 16 if first.kind == bindings.UNIFORM_BUFFER else 4
+        return made._replace(size=max(-(-len(data) // unit) * unit, unit), contents=packed(data))
     return made
 
 

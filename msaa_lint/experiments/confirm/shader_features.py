@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-ALWAYS = frozenset({0, 1, 40, 43, 44, 46, 47, 50, 51, 52, 61, 62, 63, 64, 65, 66, 67, 68, 4437, 6025})
+ALWAYS = frozenset({0, 1, 40, 43, 44, 46, 47, 50, 51, 52, 61, 62, 63, 64, 65, 66, 67, 68, 4437, 5301, 6025})
 """Capabilities of SPIR-V that need no feature. Devices without the operations of subgroups in fragment shaders are not known."""
 
 _NEEDS = {
@@ -20,7 +20,7 @@ _NEEDS = {
     4427: "shaderDrawParameters", 4433: "storageBuffer16BitAccess", 4434: "uniformAndStorageBuffer16BitAccess",
     4435: "storagePushConstant16", 4436: "storageInputOutput16", 4439: "multiview", 4441: "variablePointersStorageBuffer",
     4442: "variablePointers", 4448: "storageBuffer8BitAccess", 4449: "uniformAndStorageBuffer8BitAccess", 4450: "storagePushConstant8",
-    5301: "descriptorIndexing", 5302: "runtimeDescriptorArray", 5303: "shaderInputAttachmentArrayDynamicIndexing",
+    5302: "runtimeDescriptorArray", 5303: "shaderInputAttachmentArrayDynamicIndexing",
     5304: "shaderUniformTexelBufferArrayDynamicIndexing", 5305: "shaderStorageTexelBufferArrayDynamicIndexing",
     5306: "shaderUniformBufferArrayNonUniformIndexing", 5307: "shaderSampledImageArrayNonUniformIndexing",
     5308: "shaderStorageBufferArrayNonUniformIndexing", 5309: "shaderStorageImageArrayNonUniformIndexing",
@@ -50,7 +50,7 @@ _BY_STRUCTURE = {
     }),
 }  # fmt: skip
 _OF_1_2 = frozenset({
-    "shaderFloat16", "shaderInt8", "shaderBufferInt64Atomics", "shaderOutputLayer", "shaderOutputViewportIndex", "descriptorIndexing",
+    "shaderFloat16", "shaderInt8", "shaderBufferInt64Atomics", "shaderOutputLayer", "shaderOutputViewportIndex",
     "runtimeDescriptorArray", "vulkanMemoryModel", "vulkanMemoryModelDeviceScope", "storageBuffer8BitAccess",
     "uniformAndStorageBuffer8BitAccess", "storagePushConstant8", "scalarBlockLayout", "uniformBufferStandardLayout",
     *(name for number, name in _NEEDS.items() if 5303 <= number <= 5312),
