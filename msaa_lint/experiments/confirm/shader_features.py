@@ -33,10 +33,12 @@ _NEEDS = {
 
 _CAPABILITIES = {
     7: "Linkage", 38: "GenericPointer", 53: "TransformFeedback", 4422: "FragmentShadingRateKHR", 4447: "SampleMaskPostDepthCoverage",
-    4472: "RayQueryKHR", 4478: "RayTraversalPrimitiveCullingKHR", 5013: "StencilExportEXT", 5015: "ImageReadWriteLodAMD",
-    5016: "Int64ImageEXT", 5265: "FragmentFullyCoveredEXT", 5284: "FragmentBarycentricKHR", 5291: "FragmentDensityEXT",
-    5347: "PhysicalStorageBufferAddresses", 5363: "FragmentShaderSampleInterlockEXT", 5372: "FragmentShaderShadingRateInterlockEXT",
-    5378: "FragmentShaderPixelInterlockEXT", 6033: "AtomicFloat32AddEXT", 6034: "AtomicFloat64AddEXT",
+    4464: "DenormPreserve", 4465: "DenormFlushToZero", 4466: "SignedZeroInfNanPreserve", 4467: "RoundingModeRTE",
+    4468: "RoundingModeRTZ", 4472: "RayQueryKHR", 4478: "RayTraversalPrimitiveCullingKHR", 5010: "FragmentMaskAMD",
+    5013: "StencilExportEXT", 5015: "ImageReadWriteLodAMD", 5016: "Int64ImageEXT", 5055: "ShaderClockKHR", 5265: "FragmentFullyCoveredEXT",
+    5284: "FragmentBarycentricKHR", 5291: "FragmentDensityEXT", 5347: "PhysicalStorageBufferAddresses",
+    5363: "FragmentShaderSampleInterlockEXT", 5372: "FragmentShaderShadingRateInterlockEXT", 5378: "FragmentShaderPixelInterlockEXT",
+    6033: "AtomicFloat32AddEXT", 6034: "AtomicFloat64AddEXT",
 }  # fmt: skip
 """Names of capabilities that are not supported."""
 
