@@ -23,7 +23,7 @@ all the time of a 60 Hz frame it is 1.7 ms; whether more is worth it depends on 
 
 class AddedTime(NamedTuple):
     """The difference of two times in milliseconds, its bounds, and it as a share of the smaller technique's time. The bounds hold with the
-    confidence of the two times, whose errors are independent: their half-widths add up as squares."""
+    confidence of the two times, whose errors are independent: their half-widths add up as squares (MOVER, Zou and Donner 2008)."""
 
     ms: float
     low_ms: float

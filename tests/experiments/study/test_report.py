@@ -202,7 +202,7 @@ def test_optional_columns_come_with_their_figures() -> None:
 
 
 def hostile() -> Study:
-    points = [each._replace(scene=HOSTILE, time_from=HOSTILE) for each in study().points]
+    points = [each._replace(scene=HOSTILE, time_from=HOSTILE, shading=HOSTILE, fill_ms=1.0) for each in study().points]
     return study(
         device=HOSTILE,
         model=HOSTILE,
@@ -210,7 +210,8 @@ def hostile() -> Study:
         points=points,
         failed=[FailedPoint(HOSTILE, Technique(MSAA, 4), HOSTILE)],
         untimed=[UntimedTechnique("16x", HOSTILE)],
-        advice=[Advice(HOSTILE, HOSTILE, HOSTILE)],
+        shadings=[Shading(HOSTILE, 1, 1, 1, 1.0, 1.0)],
+        models=[TimeModel(HOSTILE, {}, {}, 0.1, 0.1)],
         wrong=[diagnostic("MSAA901", HOSTILE, HOSTILE)],
         records=[HOSTILE],
         pictures=[HOSTILE],
@@ -218,10 +219,11 @@ def hostile() -> Study:
 
 
 def test_hostile_texts_are_safe_to_show() -> None:
-    text = printed(as_text, hostile(), Options(width=200))
+    of = hostile()
+    text = printed(as_text, of._replace(advice=[Advice(HOSTILE, HOSTILE, HOSTILE)]), Options(width=200))
     assert "\x1b" not in text and "\u202e" not in text and "##[" not in text and "\udcff" not in text
     assert "\\x1b[31m" in text and "[bold]" in text, "shown as it is, not taken for markup"
-    data = printed(as_json, hostile(), Options())
+    data = printed(as_json, of, Options())
     assert data.isascii()
     jsonschema.Draft202012Validator(SCHEMA).validate(json.loads(data))
 
