@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
 from typing import NamedTuple
@@ -34,7 +33,7 @@ class Advice(NamedTuple):
 def advice(points: Sequence[Point], measure: Measure = ERROR) -> Iterator[Advice]:
     """What the errors of one scene say, whatever the time: `points` are those under one cost of shading. `steps` reports the
     steps from count to count."""
-    finite = [point for point in points if math.isfinite(point.rmse)]
+    finite = [point for point in points if ERROR.is_finite(point)]
     counts = sorted((point for point in finite if point.technique.kind == MSAA), key=lambda point: point.technique)
     sentences = (*_counts(finite, counts), *_shading(finite, counts), *_supersampling(finite, counts), *_worth(counts, measure))
     return (Advice(finite[0].scene, text, reason) for text, reason in sentences)
@@ -160,7 +159,7 @@ class Ruling(NamedTuple):
 def ruling(points: Sequence[Point], samples: int, measure: Measure = ERROR, *, software: bool = False) -> Ruling:
     """Whether the points of one scene under one cost of shading justify a sample count above four. `software` says that their times are a
     software driver's."""
-    counts = {point.technique.samples: point for point in points if point.technique.kind == MSAA and math.isfinite(point.rmse)}
+    counts = {point.technique.samples: point for point in points if point.technique.kind == MSAA and measure.is_finite(point)}
     point = counts.get(samples)
     base = counts.get(max((count for count in counts if count <= MAX_EFFICIENT), default=0))
     if point is None:

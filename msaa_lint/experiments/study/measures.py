@@ -27,9 +27,9 @@ class Measure(NamedTuple):
         return 10.0 ** (-min(max(value, -1000.0), 1000.0) / 20) if not math.isinf(value) else 0.0 if value > 0 else math.inf
 
     def is_finite(self, point: Point) -> bool:
-        """Whether the error was measured, and is a finite number."""
+        """Whether the error was measured, and is a finite number that is not negative."""
         value = self.of(point)
-        return value is not None and math.isfinite(value)
+        return value is not None and 0 <= value < math.inf
 
     def rounded(self, point: Point) -> float:
         """The error to as many digits as are compared; NaN where it was not measured."""
@@ -50,7 +50,7 @@ def measure_of(about: Sequence[str], points: Sequence[Point]) -> Measure:
     thin lines their flicker; otherwise, and where that was not measured of all points, the RMSE."""
     preferred = (FLIP, DISPLAY) if HDR in about else (FLICKER,) if THIN_LINES in about else ()
     for measure in preferred:
-        finite = [point for point in points if math.isfinite(point.rmse)]
+        finite = [point for point in points if ERROR.is_finite(point)]
         if finite and all(map(measure.is_finite, finite)):
             return measure
     return ERROR

@@ -26,7 +26,7 @@ def mark_best(points: Iterable[Point], measures: Mapping[str, Measure] | None = 
     for (scene, *_), group in _groups(all_points).items():
         measure = (measures or {}).get(scene, ERROR)
         # Some devices do not draw every technique.
-        drawn = [n for n in group if all_points[n].time_ms is not None]
+        drawn = [n for n in group if has_time(all_points[n])]
         group_points = [all_points[n] for n in drawn or group]
         optimal = fastest(group_points, measure) if timed and drawn else front(vectors(group_points, measure))
         for n, is_best in zip(drawn or group, optimal, strict=True):
@@ -44,11 +44,17 @@ def _groups(points: Sequence[Point]) -> dict[tuple[str, str, int, int], list[int
 def interval(point: Point) -> tuple[float, float]:
     """The bounds of a point's time, in milliseconds: those measured, else its time within half of the factor SAME on both sides; NaN where
     there is no time."""
-    if point.time_ms is None:
+    if not has_time(point):
         return math.nan, math.nan
-    if point.low_ms is None or point.high_ms is None:
-        return point.time_ms / math.sqrt(SAME), point.time_ms * math.sqrt(SAME)
-    return point.low_ms, point.high_ms
+    time, low, high = point.time_ms or 0.0, point.low_ms, point.high_ms
+    if low is None or high is None or not low <= time <= high:
+        return time / math.sqrt(SAME), time * math.sqrt(SAME)
+    return low, high
+
+
+def has_time(point: Point) -> bool:
+    """Whether a point has a time: a positive number."""
+    return point.time_ms is not None and 0 < point.time_ms < math.inf
 
 
 def as_fast(one: Point, other: Point) -> bool:
@@ -69,7 +75,7 @@ def fastest(points: Sequence[Point], measure: Measure = ERROR) -> list[bool]:
     point that is not on the front is dominated by one that is.
     """
     best: list[int] = []
-    errors = [measure.rounded(point) if point.time_ms is not None and not math.isnan(point.time_ms) else math.nan for point in points]
+    errors = [measure.rounded(point) if has_time(point) else math.nan for point in points]
     for error in sorted({error for error in errors if not math.isnan(error)}):
         left = [n for n, other in enumerate(errors) if other == error and not any(as_fast(points[m], points[n]) for m in best)]
         if left:

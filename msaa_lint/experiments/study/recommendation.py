@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterator, Sequence
 from itertools import pairwise
 from typing import NamedTuple
 
 from .measures import Measure
-from .pareto import fastest, tie
+from .pareto import fastest, has_time, tie
 from .points import MSAA, Point, Technique
 from .shading import Shading
 from .steps import MAX_ADDED, MAX_REMAINING, AddedTime, added_text, added_time, is_enough, percent
@@ -36,7 +35,7 @@ class Recommendation(NamedTuple):
 
 def recommendation(points: Sequence[Point], measure: Measure, budget_ms: float | None) -> Recommendation | None:
     """What to take of the points of one scene under one cost of shading; None where one sample, or nothing else, was timed."""
-    timed = [point for point in points if point.time_ms and math.isfinite(point.time_ms) and math.isfinite(measure.rounded(point))]
+    timed = [point for point in points if has_time(point) and measure.is_finite(point)]
     one = next((point for point in timed if point.technique == Technique(MSAA, 1)), None)
     if one is None or len(timed) < 2:
         return None

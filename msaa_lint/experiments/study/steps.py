@@ -8,7 +8,7 @@ from itertools import pairwise
 from typing import NamedTuple
 
 from .measures import DISPLAY, ERROR, FLICKER, FLIP, MEASURES, Measure
-from .pareto import interval, tie
+from .pareto import has_time, interval, tie
 from .points import MSAA, SAMPLE_SHADING, Point, Technique
 from .scenes.about import ALPHA, TEXTURE
 
@@ -60,7 +60,7 @@ class Step(NamedTuple):
 def steps(points: Sequence[Point], about: Sequence[str], measure: Measure, *, timed: bool) -> Iterator[Step]:
     """The steps of one scene under one cost of shading: from each sample count to the next, and where the error may lie inside triangles,
     from each count to shading every sample of it."""
-    known = [point for point in points if point.time_ms is not None] if timed else []
+    known = [point for point in points if has_time(point)] if timed else []
     # Where a device lacks a count, the step is to the next that it has.
     counts = sorted((point for point in known or points if point.technique.kind == MSAA), key=lambda point: point.technique)
     pairs = list(pairwise(counts))
@@ -100,7 +100,7 @@ def is_enough(measure: Measure, before: Point, after: Point) -> bool:
 
 def added_time(one: Point, other: Point) -> AddedTime | None:
     """What a technique adds to the time of another; None where a time is not known."""
-    if one.time_ms is None or not other.time_ms:
+    if one.time_ms is None or other.time_ms is None or not (has_time(one) and has_time(other)):
         return None
     (one_low, one_high), (other_low, other_high) = interval(one), interval(other)
     added = one.time_ms - other.time_ms

@@ -235,13 +235,20 @@ def test_nothing_studied_is_still_a_report() -> None:
     assert draw(plot(empty), "png").startswith(b"\x89PNG")
 
 
-@examples(0.25)
-@given(st.lists(st.floats(), min_size=8, max_size=8), st.sampled_from(techniques()))
-def test_any_figures_can_be_printed(figures: list[float], technique: Technique) -> None:
-    names = ("rmse", "rmse_all", "max_error", "bias", "psnr_db", "psnr_display_db", "time_ms", "bytes_per_frame")
-    of = study(points=[timed(technique, **dict(zip(names, figures, strict=True)))], scenes=[SceneSummary("edges", "", ())])
-    json.loads(printed(as_json, of, Options()))
-    assert technique.name in printed(as_text, of, Options(width=160))
+ODD = st.floats() | st.sampled_from([0.0, 1.0, 1.0, math.inf, math.nan])
+FIGURES = ("rmse", "rmse_all", "max_error", "bias", "psnr_db", "psnr_display_db", "time_ms", "bytes_per_frame", "low_ms", "high_ms", "flip",
+           "flicker")  # fmt: skip
+
+
+@examples(0.5)
+@given(st.lists(st.lists(ODD, min_size=len(FIGURES), max_size=len(FIGURES)), min_size=1, max_size=5), st.sampled_from(["edges", "hdr"]))
+def test_any_figures_can_be_printed(rows: list[list[float]], about: str) -> None:
+    points = [timed(technique, **dict(zip(FIGURES, figures, strict=True))) for technique, figures in zip(techniques(), rows, strict=False)]
+    for budget in (None, 0.5):
+        of = study(points=points, scenes=[SceneSummary("edges", "", (), about=(about,))], budget_ms=budget)
+        json.loads(printed(as_json, of, Options()))
+        text = printed(as_text, of, Options(width=160))
+        assert all(one.technique.name in text for one in points)
 
 
 def test_hostile_names_are_plotted_as_text() -> None:
