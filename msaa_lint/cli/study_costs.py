@@ -13,6 +13,7 @@ from msaa_lint.experiments.study.checkpoint import Checkpoint
 from msaa_lint.experiments.study.points import Technique
 from msaa_lint.experiments.study.shading import DEFAULT, SHARES, Shading, target
 from msaa_lint.experiments.study.times import CostModel, Costs
+from msaa_lint.linter.study_record import DEFAULT_SHADING, stated_shading
 
 from .common import UsageError, warn
 from .options import Arguments
@@ -113,7 +114,7 @@ def subject_costs(
                 if clock is None:
                     found[subject.input.name] = SubjectCosts(shadings, costs(techniques, shadings, size, model, checkpoint))
                     continue
-                shadings = _shadings(subject, request, calibration, size)
+                shadings = _shadings(subject, request, calibration, size, bool(arguments.get("record")))
                 with _source(subject, request, clock, model, stages) as source:
                     found[subject.input.name] = SubjectCosts(shadings, costs(techniques, shadings, size, source, checkpoint))
         if clock is None:
@@ -121,12 +122,14 @@ def subject_costs(
         return AllCosts(found, clock.name, clock.software, clock.unstable)
 
 
-def _shadings(subject: Subject, request: TimingRequest, calibration: Any, size: tuple[int, int]) -> list[Shading]:
-    """The costs of shading of a subject: those asked for, its own, and that of one's own shader."""
-    stated = subject.frame.description.scene if subject.frame is not None else None
-    own = [stated.shading] if stated is not None and stated.shading is not None else []
-    names = list(dict.fromkeys([*request.shadings, *own]))
+def _shadings(subject: Subject, request: TimingRequest, calibration: Any, size: tuple[int, int], record: bool) -> list[Shading]:
+    """The costs of shading of a subject, the cheapest first: those asked for, its own, and that of one's own shader. Its record needs its
+    own, else the default one."""
+    stated = stated_shading(subject.frame) if subject.frame is not None else None
+    own = stated or (DEFAULT_SHADING if record and subject.frame is not None else None)
+    names = list(dict.fromkeys([*request.shadings, *([own] if own else [])]))
     shadings: list[Shading] = calibration.shadings(names, size) if names else []
+    shadings.sort(key=lambda shading: shading.full_screen_ms or 0.0)
     return [*shadings, *([Shading(os.path.basename(request.shader))] if request.shader else [])]
 
 

@@ -145,5 +145,5 @@ def _timing(study: Study, size: str) -> Iterator[str]:
 def _work(shading: Shading) -> str:
     parts = [plural(shading.operations, "operation")]
     if shading.fetches:
-        parts.append(f"{plural(shading.fetches, 'texture fetch')} from {shading.footprint / 1024:.4g} KiB")
+        parts.append(f"{plural(shading.fetches, 'texture fetch')} from {shading.footprint / (1 << 20):.3g} MiB")
     return " and ".join(parts)

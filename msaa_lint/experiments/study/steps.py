@@ -7,6 +7,8 @@ from collections.abc import Iterator, Sequence
 from itertools import pairwise
 from typing import NamedTuple
 
+from msaa_lint.experiments.confirm.timing import timing
+
 from .measures import DISPLAY, ERROR, FLICKER, FLIP, MEASURES, Measure
 from .pareto import has_time, interval, tie
 from .points import MSAA, SAMPLE_SHADING, Point, Technique
@@ -22,8 +24,11 @@ all the time of a 60 Hz frame it is 1.7 ms; whether more is worth it depends on 
 
 
 class AddedTime(NamedTuple):
-    """The difference of two times in milliseconds, its bounds, and it as a share of the smaller technique's time. The bounds hold with the
-    confidence of the two times, whose errors are independent: their half-widths add up as squares (MOVER, Zou and Donner 2008)."""
+    """The difference of two times in milliseconds, its bounds with 95 % confidence, and it as a share of the time that it is added to.
+
+    Techniques are timed in turn, so it is the median of the differences in each round. Without rounds, it is that of the times; as their
+    errors are then independent, their half-widths add up as squares (MOVER, Zou and Donner 2008).
+    """
 
     ms: float
     low_ms: float
@@ -102,6 +107,9 @@ def added_time(one: Point, other: Point) -> AddedTime | None:
     """What a technique adds to the time of another; None where a time is not known."""
     if one.time_ms is None or other.time_ms is None or not (has_time(one) and has_time(other)):
         return None
+    if one.rounds and len(one.rounds) == len(other.rounds):
+        found = timing([time - base for time, base in zip(one.rounds, other.rounds, strict=True)])
+        return AddedTime(found.median, found.low, found.high, found.median / other.time_ms, found.low / other.time_ms)
     (one_low, one_high), (other_low, other_high) = interval(one), interval(other)
     added = one.time_ms - other.time_ms
     low = added - math.hypot(one.time_ms - one_low, other_high - other.time_ms)

@@ -42,6 +42,17 @@ def test_a_step_says_what_it_adds_and_removes() -> None:
     assert step.changes == pytest.approx({"rmse": -0.42, "flicker": -0.55})
 
 
+def test_what_a_step_adds_is_the_median_of_the_differences_in_each_round() -> None:
+    """A clock that slows down makes both slower, and the difference stays."""
+    drift = [1.0, 1.2, 1.5, 1.1, 1.3, 1.4, 1.6]
+    two = timed(Technique(MSAA, 2), time_ms=1.3, low_ms=1.0, high_ms=1.6, rounds=tuple(drift))
+    four = timed(Technique(MSAA, 4), time_ms=1.8, low_ms=1.5, high_ms=2.1, rounds=tuple(time + 0.5 for time in drift))
+    added = added_time(four, two)
+    assert added == pytest.approx((0.5, 0.5, 0.5, 0.5 / 1.3, 0.5 / 1.3))
+    apart = added_time(four._replace(rounds=()), two)
+    assert apart is not None and apart.high_ms == pytest.approx(0.5 + math.hypot(0.3, 0.3))
+
+
 def test_a_step_within_the_noise_takes_the_same_time() -> None:
     two = timed(Technique(MSAA, 2), time_ms=3.4, low_ms=3.3, high_ms=3.5, rmse=0.2)
     four = timed(Technique(MSAA, 4), time_ms=3.5, low_ms=3.4, high_ms=3.6, rmse=0.2)

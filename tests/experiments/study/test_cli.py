@@ -266,6 +266,24 @@ def test_a_record_lies_beside_its_description(tmp_path: Path) -> None:
     assert refused.returncode == 2 and "--record: no sample count was measured" in refused.stderr
 
 
+@pytest.mark.parametrize(("stated", "deciding"), [("", "medium"), (", shading: 100ops", "100ops")])
+def test_a_record_is_made_under_the_description_s_own_cost(tmp_path: Path, stated: str, deciding: str) -> None:
+    (tmp_path / "frame.msaa.yaml").write_text(FRAME.replace("edges: true", f"edges: true{stated}"))
+    few = ("--samples", "1,4,8", "--techniques", "msaa", "--device", "llvmpipe", "--repeats", "3", "--shading", "none")
+    done = run(tmp_path, "frame.msaa.yaml", "--jobs", "1", *few, "--record", "--output", "json")
+    assert done.returncode == 0, done.stderr
+    data = report(done.stdout)
+    assert [each["name"] for each in data["shadings"]] == ["none", deciding], "beside what was asked for"
+    assert [point["shading"] for point in data["points"]] == ["none"] * 3 + [deciding] * 3
+    assert data["software"] and data["recommendations"] == []
+    (study,) = json.loads((tmp_path / "frame.msaa.yaml.msaa-study.json").read_text())["studies"]
+    assert study["shading"]["name"] == deciding
+    checked = run_command(tmp_path, "check", "--isolated", "--select", "MSAA101", "frame.msaa.yaml")
+    assert checked.returncode == 1
+    assert f"under {deciding} shading (" in checked.stdout and (", the default)" in checked.stdout) == (not stated)
+    assert "its time is a software driver's, which says nothing about a GPU" in checked.stdout
+
+
 def test_a_device_s_clock_is_named(tmp_path: Path) -> None:
     done = run(tmp_path, "edge-fan", *SMALL, "--samples", "1,4,8", "--techniques", "msaa", "--device", "llvmpipe", "--repeats", "3",
                "--output", "json")  # fmt: skip

@@ -74,8 +74,8 @@ def study(**other: Any) -> Study:
 
 COSTS = (
     Shading("none", nanoseconds=0.0, full_screen_ms=0.0),
-    Shading("medium", 312, 4, 65536, 2e6, 4.17),
-    Shading("heavy", 936, 12, 262144, 8e6, 12.5),
+    Shading("medium", 312, 4, 16 << 20, 2e6, 4.17),
+    Shading("heavy", 936, 12, 16 << 20, 8e6, 12.5),
 )
 
 
