@@ -113,7 +113,7 @@ def _summary(study: Study) -> Iterator[str]:
             yield f"{MARK} Pareto-optimal: no other technique has less error for as few samples, shader invocations, and bytes"
         for scene in study.scenes:
             if scene.measure != ERROR:
-                yield f"the error of {display(scene.name)} that counts is its {scene.measure.name}: it is about {', '.join(scene.about)}"
+                yield f"{display(scene.name)} is about {', '.join(scene.about)}: its techniques are compared by {scene.measure.name}"
         model = f" for {display(study.model)}" if study.model else ""
         yield f"bytes, power, and memory: the cost model{model}, with samples kept on the tile"
     names: dict[str, list[str]] = {}
@@ -131,7 +131,8 @@ def _timing(study: Study, size: str) -> Iterator[str]:
     """The origin of the times: the device, the calibrated costs of shading, and the models."""
     yield f"{size}; times measured by the clock of {display(study.device)}"
     if study.software:
-        yield f"{display(study.device)} is a software driver: its times say nothing about a GPU, and advice does not use them"
+        budget = "" if study.budget_ms is None else f", and nothing is recommended within {study.budget_ms:.4g} ms"
+        yield f"{display(study.device)} is a software driver: its times say nothing about a GPU, and advice does not use them{budget}"
     if any(point.low_ms is not None for point in study.points):
         yield f"± half of the 95 % interval of the median; {TIE} the same time, within the noise, as the next shorter one"
     for shading in study.shadings:

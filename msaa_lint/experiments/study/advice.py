@@ -78,6 +78,9 @@ def _shading(points: Sequence[Point], counts: Sequence[Point]) -> Iterator[tuple
         best = min(improved, key=lambda point: (point.rmse, point.technique))
         name, base = f"{best.technique.samples}x", plain[best.technique.samples]
         reason = f"RMSE {best.rmse:.4f} against {base.rmse:.4f}: the error lies inside triangles, which multisampling shades once per pixel"
+        more = plain.get(2 * best.technique.samples)
+        if more is not None:
+            reason += f"; {more.technique.name} without it leaves {_percent(more.rmse, base.rmse)}"
         yield f"shading {best.technique.shaded} samples at {name} leaves {_percent(best.rmse, base.rmse)} of its error", reason
     elif shaded:
         yield "sample shading gains nothing here", "edges are the same with more shader invocations per pixel"

@@ -77,7 +77,8 @@ def test_sample_shading_is_told_from_what_it_gains() -> None:
     assert says([timed(shaded)]) == []
     more = Technique(SAMPLE_SHADING, 8, 1.0)
     both = [timed(plain), timed(Technique(MSAA, 8)), timed(shaded, rmse=0.01), timed(more, rmse=0.02)]
-    assert any(line.startswith("shading 4 samples at 4x leaves 14 % of its error") for line in says(both)), "where it gains most"
+    (line,) = [line for line in says(both) if line.startswith("shading ")]
+    assert line == f"shading 4 samples at 4x leaves 14 % of its error (RMSE 0.0100 against 0.0722: {inside}; 8x without it leaves 50 %)"
 
 
 def test_grids_are_held_against_as_many_samples() -> None:
