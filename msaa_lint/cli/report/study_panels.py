@@ -7,10 +7,12 @@ from typing import Any, NamedTuple
 from msaa_lint.experiments.study.measures import ERROR
 from msaa_lint.experiments.study.outcome import SceneSummary, Study
 from msaa_lint.experiments.study.points import MSAA, Point, Technique
-from msaa_lint.experiments.study.shading import Shading
+from msaa_lint.experiments.study.shading import NONE, Shading
 
 from .escape import display
 from .figure import title
+
+SOFTWARE = "times of a software driver: they say nothing about a GPU"
 
 COLUMNS = 3
 """Of panels, where there is one cost of shading."""
@@ -50,7 +52,8 @@ class Panel(NamedTuple):
         lines = []
         if self.shading.name:
             screen = self.shading.full_screen_ms
-            lines.append(f"shading: {display(self.shading.name)}" + (f", {screen:.3g} ms a full screen" if screen else ""))
+            known = screen is not None and self.shading.name != NONE
+            lines.append(f"shading: {display(self.shading.name)}" + (f", {screen:.3g} ms a full screen" if known else ""))
         if self.base is not None:
             lines.append(f"1x takes {self.base:.3g} ms")
         return title(display(self.scene.name), lines, width, size=11)

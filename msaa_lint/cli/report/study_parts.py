@@ -22,13 +22,13 @@ _STEP = 14
 """From bar to bar."""
 
 
-def add_parts(figure: Figure, rows: Sequence[Sequence[Panel]]) -> None:
-    """Adds the panels to a figure, if parts of times are known."""
+def add_parts(figure: Figure, rows: Sequence[Sequence[Panel]], lines: Sequence[str]) -> None:
+    """Adds the panels to a figure, with these lines above them, if parts of times are known."""
     known = [row for row in rows if any(_bars(panel) for panel in row)]
     if known:
         width = _WIDTHS.get(len(known[0]), _WIDTH)
         charts = [_chart(panel, width, figure, first=number == 0) for row in known for number, panel in enumerate(row)]
-        heading = title("What each technique adds to the time of one sample, by part", [], len(known[0]) * (width + 80), size=13)
+        heading = title("What each technique adds to the time of one sample, by part", lines, len(known[0]) * (width + 80), size=13)
         figure.add(charts, heading, columns=len(known[0]), spacing=14)
 
 

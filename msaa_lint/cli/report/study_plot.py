@@ -15,7 +15,7 @@ from .escape import display
 from .figure import INK, Figure, Spec, title
 from .labels import Box, Label, Place, around, place_labels
 from .scales import Scale, from_zero, linear_or_log
-from .study_panels import COLUMNS, Panel, panels
+from .study_panels import COLUMNS, SOFTWARE, Panel, panels
 from .study_parts import add_parts
 
 KINDS = {
@@ -66,7 +66,7 @@ def plot(study: Study) -> Spec:
     """The figures of a study that have something to show, below each other."""
     rows, figure = panels(study), Figure()
     _add_accuracy(figure, study, rows)
-    add_parts(figure, rows)
+    add_parts(figure, rows, [SOFTWARE] if study.software else [])
     return figure.spec()
 
 
@@ -79,8 +79,9 @@ def _add_accuracy(figure: Figure, study: Study, rows: Sequence[Sequence[Panel]])
         axes, labels = _with_room(row, width, _front(study, row))
         for number, panel in enumerate(row):
             charts.append(_chart(panel, axes, labels[number], _front(study, [panel])[0], figure, first=number == 0))
-    lines = ["times of a software driver: they say nothing about a GPU"] if study.software else []
-    name = f"Error against added time: {display(study.device)}" if study.device else "Error against samples (no times measured)"
+    lines = [SOFTWARE] if study.software else []
+    added = "Error against added time on a software driver" if study.software else "Error against added time"
+    name = f"{added}: {display(study.device)}" if study.device else "Error against samples (no times measured)"
     if study.device and not study.software:
         lines.append("line, and names in bold: the Pareto front; pale marks: not on it, nor within the noise of it")
     else:

@@ -18,11 +18,12 @@ _NUMBER = r"-?\d+(?:\.\d+)?(?:e-?\d+)?"
 
 
 class Shape(NamedTuple):
-    """A text, or a mark, whose `kind` is the role of the group that it is in."""
+    """A text, or a mark, whose `kind` is the role of the group that it is in; and the corners of a rule or a line."""
 
     kind: str
     box: Box
     text: str = ""
+    corners: tuple[tuple[float, float], ...] = ()
 
 
 class Drawing:
@@ -64,10 +65,13 @@ class Drawing:
         if element.tag == f"{SVG}path" and name == "background" and "h0v0" not in element.get("d", ""):
             self.panels.append(_path_box(element.get("d", ""), x, y))
         elif element.tag == f"{SVG}path" and "role-mark" in kind and not name:
-            self.marks.append(Shape(kind, _path_box(element.get("d", ""), x, y)))
+            path = element.get("d", "")
+            corners = [(x + float(a), y + float(b)) for a, b in re.findall(rf"[ML]({_NUMBER}),({_NUMBER})", path)]
+            self.marks.append(Shape(kind, _path_box(path, x, y), corners=tuple(corners)))
         elif element.tag == f"{SVG}line" and "role-mark" in kind:
             end_x, end_y = x + float(element.get("x2", 0)), y + float(element.get("y2", 0))
-            self.marks.append(Shape(kind, Box(min(x, end_x), min(y, end_y), max(x, end_x), max(y, end_y))))
+            box = Box(min(x, end_x), min(y, end_y), max(x, end_x), max(y, end_y))
+            self.marks.append(Shape(kind, box, corners=((x, y), (end_x, end_y))))
         elif element.tag == f"{SVG}image":
             self.marks.append(Shape(kind, Box(x, y, x + float(element.attrib["width"]), y + float(element.attrib["height"]))))
         for child in element:
