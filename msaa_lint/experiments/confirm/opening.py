@@ -29,13 +29,14 @@ EXTENSIONS = (
     "VK_KHR_swapchain", "VK_EXT_extended_dynamic_state3", "VK_EXT_load_store_op_none", "VK_KHR_load_store_op_none",
     "VK_KHR_create_renderpass2", "VK_KHR_depth_stencil_resolve", "VK_KHR_multiview", "VK_KHR_maintenance2", "VK_KHR_dynamic_rendering",
     "VK_KHR_synchronization2", "VK_KHR_separate_depth_stencil_layouts", "VK_EXT_rasterization_order_attachment_access",
+    "VK_GOOGLE_decorate_string", "VK_GOOGLE_hlsl_functionality1", "VK_GOOGLE_user_type", "VK_KHR_shader_non_semantic_info",
 )  # fmt: skip
 """Enabled if offered; extensions that were promoted only below the version of Vulkan that includes them."""
 
 TAKEN_UP = {
     "VK_KHR_create_renderpass2": (1, 2), "VK_KHR_depth_stencil_resolve": (1, 2), "VK_KHR_multiview": (1, 1),
     "VK_KHR_maintenance2": (1, 1), "VK_KHR_dynamic_rendering": (1, 3), "VK_KHR_synchronization2": (1, 3),
-    "VK_KHR_separate_depth_stencil_layouts": (1, 2),
+    "VK_KHR_separate_depth_stencil_layouts": (1, 2), "VK_KHR_shader_non_semantic_info": (1, 3),
 }  # fmt: skip
 
 NOT_ENABLED = ("robustBufferAccess",)

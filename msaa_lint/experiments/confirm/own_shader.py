@@ -14,8 +14,8 @@ from .parts import Stage, packed
 from .plan_descriptors import Unmakeable
 from .shader_stages import FRAGMENT, fragment_entry, reflected_stage, scene_stage
 
-MAX_OWN = 4 << 20
-"""Bytes of SPIR-V or GLSL."""
+MAX_OWN = 1 << 19
+"""Bytes of SPIR-V or GLSL. The code is part of every plan, and the plans of a timing are one request to the child process."""
 
 
 class UnusableOwnShader(Exception):
@@ -33,6 +33,8 @@ def own_shader(path: str) -> tuple[Stage, Stage]:
             if path.endswith(".spv"):
                 raise SpirvError("it is not SPIR-V")
             code = compiled(path)
+        if len(code) > MAX_OWN:
+            raise SpirvError(f"its SPIR-V is larger than {MAX_OWN >> 10} KiB")
         module = Module(code)
         fragment = reflected_stage(module, fragment_entry(module, None), FRAGMENT, "", ())
         attachment = next((each for each in fragment.interface.descriptors if each.kind == INPUT_ATTACHMENT), None)

@@ -20,6 +20,9 @@ RUNTIME_DESCRIPTORS = 16
 MAX_DESCRIPTORS = 4096
 """Descriptors of a binding."""
 
+MAX_BINDINGS = 256
+"""Bindings of a shader, each of which may take megabytes."""
+
 SAMPLES = 4
 """Samples of a multisampled image."""
 
@@ -65,8 +68,10 @@ def planned(descriptors: Sequence[Reflected], contents: BufferContents) -> tuple
     for each in descriptors:
         if each.set is None or each.binding is None:
             raise Unmakeable("has a descriptor without a set or binding")
-    groups = groupby(descriptors, lambda each: (each.set or 0, each.binding or 0))
-    return tuple(_binding(*place, list(group), contents) for place, group in groups)
+    groups = [(place, list(group)) for place, group in groupby(descriptors, lambda each: (each.set or 0, each.binding or 0))]
+    if len(groups) > MAX_BINDINGS:
+        raise Unmakeable(f"has {len(groups)} bindings; at most {MAX_BINDINGS} are created")
+    return tuple(_binding(*place, group, contents) for place, group in groups)
 
 
 def _binding(number: int, binding: int, variables: Sequence[Reflected], contents: BufferContents) -> Descriptor:

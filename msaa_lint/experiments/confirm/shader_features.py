@@ -42,6 +42,15 @@ _CAPABILITIES = {
 }  # fmt: skip
 """Names of capabilities that are not supported."""
 
+EXTENSIONS = frozenset({
+    "SPV_KHR_storage_buffer_storage_class", "SPV_KHR_variable_pointers", "SPV_KHR_shader_draw_parameters", "SPV_KHR_multiview",
+    "SPV_KHR_device_group", "SPV_KHR_16bit_storage", "SPV_KHR_8bit_storage", "SPV_EXT_descriptor_indexing",
+    "SPV_EXT_shader_viewport_index_layer", "SPV_KHR_vulkan_memory_model", "SPV_KHR_no_integer_wrap_decoration", "SPV_KHR_float_controls",
+    "SPV_EXT_demote_to_helper_invocation", "SPV_KHR_terminate_invocation", "SPV_KHR_integer_dot_product", "SPV_KHR_non_semantic_info",
+    "SPV_GOOGLE_decorate_string", "SPV_GOOGLE_hlsl_functionality1", "SPV_GOOGLE_user_type",
+})  # fmt: skip
+"""The extensions of SPIR-V that Vulkan 1.3 includes, and those that only name things."""
+
 _BY_STRUCTURE = {
     "VkPhysicalDeviceVulkan11Features": frozenset({
         "shaderDrawParameters", "storageBuffer16BitAccess", "uniformAndStorageBuffer16BitAccess", "storagePushConstant16",

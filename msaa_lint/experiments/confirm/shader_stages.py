@@ -13,7 +13,7 @@ from msaa_lint.frame.spirv.words import SpirvError
 from .buffer_contents import BufferContents
 from .parts import Stage, packed
 from .plan_descriptors import Unmakeable, planned
-from .shader_features import needed
+from .shader_features import EXTENSIONS, needed
 from .shaders.vertex import vertex_shader
 
 VERTEX, FRAGMENT = 1, 16
@@ -41,6 +41,9 @@ def reflected_stage(module: Module, entry: Entry, number: int, path: str, consta
     features, unsupported = needed(found.capabilities)
     if unsupported:
         raise Unmakeable(f"needs the capability {unsupported}, which is not supported")
+    extension = min(found.extensions - EXTENSIONS, default="")
+    if extension:
+        raise Unmakeable(f"needs the extension {extension[:60]}, which is not supported")
     contents = BufferContents(layouts)
     pushed = packed(contents.of(found.push_constants)) if found.push_constants else ""
     if any(descriptor.writes for descriptor in found.descriptors):

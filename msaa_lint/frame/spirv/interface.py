@@ -38,6 +38,7 @@ class Interface(NamedTuple):
     entry: Entry
     version: tuple[int, int]
     capabilities: frozenset[int]
+    extensions: frozenset[str]
     descriptors: tuple[Descriptor, ...]
     push_constants: int
     push_size: int
@@ -57,6 +58,7 @@ def interface(module: Module, entry: Entry, constants: Constants) -> Interface:
         entry,
         (version >> 16 & 0xFF, version >> 8 & 0xFF),
         frozenset(module.capabilities),
+        frozenset(module.extensions),
         descriptors(module, used, layouts),
         push,
         push_size,

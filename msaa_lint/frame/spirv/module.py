@@ -48,6 +48,7 @@ class Module:
             raise SpirvError(f"it is larger than {MAX_BYTES >> 20} MiB")
         self.words: array.array[int] = words_of(code)
         self.capabilities: set[int] = set()
+        self.extensions: set[str] = set()
         self.entries: list[Entry] = []
         self.modes: dict[int, set[int]] = {}
         """Execution modes by the function of an entry point."""
@@ -125,6 +126,8 @@ class Module:
             self.modes.setdefault(words[at + 1], set()).add(words[at + 2])
         elif number == op.CAPABILITY:
             self.capabilities.add(words[at + 1])
+        elif number == op.EXTENSION:
+            self.extensions.add(text_at(words, at + 1, end)[0])
         else:
             self.imports[words[at + 1]] = text_at(words, at + 2, end)[0]
 
@@ -176,6 +179,7 @@ _READ = {
     op.ENTRY_POINT: 4,
     op.EXECUTION_MODE: 3,
     op.CAPABILITY: 2,
+    op.EXTENSION: 2,
     op.EXT_INST_IMPORT: 3,
 }
 """The recorded instructions outside of functions, and their minimum number of words."""
