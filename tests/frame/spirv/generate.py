@@ -1,4 +1,4 @@
-"""Makes the SPIR-V of the tests' and the rule pages' shaders: `python -m tests.frame.spirv.generate`."""
+"""Makes the SPIR-V of the tests', the rule pages', and an example's shaders: `python -m tests.frame.spirv.generate`."""
 
 from __future__ import annotations
 
@@ -9,7 +9,8 @@ from pathlib import Path
 
 SHADERS = Path(__file__).parent / "shaders"
 RULES = Path(__file__).parents[3] / "rules" / "shaders"
-ENVIRONMENTS = {SHADERS: "vulkan1.1", RULES: "vulkan1.0"}
+EXAMPLE = Path(__file__).parents[3] / "examples" / "lit"
+ENVIRONMENTS = {SHADERS: "vulkan1.1", RULES: "vulkan1.0", EXAMPLE: "vulkan1.0"}
 
 
 def sources(folder: Path) -> list[Path]:
@@ -37,7 +38,7 @@ def optimised(code: bytes, *passes: str) -> bytes:
 
 def main() -> int:
     """Writes the SPIR-V beside each shader."""
-    for folder in (SHADERS, RULES):
+    for folder in ENVIRONMENTS:
         for source in sources(folder):
             source.with_name(f"{source.name}.spv").write_bytes(compiled(source))
     return 0

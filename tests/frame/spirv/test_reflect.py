@@ -11,7 +11,7 @@ import pytest
 
 from msaa_lint.frame.spirv.reflect import Alpha, Multisampled, Reflected, Where, reflect
 from msaa_lint.frame.spirv.words import SpirvError, instructions, words_of
-from tests.frame.spirv.generate import RULES, SHADERS, compiled, optimised, sources
+from tests.frame.spirv.generate import EXAMPLE, RULES, SHADERS, compiled, optimised, sources
 
 FIRST = Where(0, 0)
 NO_ALPHA = Alpha(False, False, None)
@@ -104,7 +104,7 @@ def said(found: Reflected) -> Said:
     return Said(tuple(own), found.alpha, found.built_ins, found.sample_inputs, found.sample_rate_shading, found.interlock, found.discards)
 
 
-@pytest.mark.parametrize("folder", [SHADERS, RULES], ids=["tests", "rules"])
+@pytest.mark.parametrize("folder", [SHADERS, RULES, EXAMPLE], ids=["tests", "rules", "example"])
 def test_the_code_is_that_of_the_source(folder: Path) -> None:
     assert sorted(path.name for path in folder.glob("*.spv")) == [f"{path.name}.spv" for path in sources(folder)]
     for source in sources(folder):
