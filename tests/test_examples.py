@@ -13,6 +13,7 @@ EXAMPLES = ROOT / "examples"
 
 EXPECTED: dict[str, list[tuple[int, str]]] = {
     "khronos-msaa/inline.msaa.yaml": [],
+    "lit/forward.msaa.yaml": [],
     "khronos-msaa/stored-and-resolved.msaa.yaml": [
         (6, "multisampled-image-not-transient"),
         (7, "multisampled-image-not-transient"),
