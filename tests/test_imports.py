@@ -145,7 +145,7 @@ ONLY_IN = {
     "backports": {"input.compression"},
     "altair": {"cli.report"},
     "vl_convert": {"cli.report.figure"},
-    "numpy": {"experiments.study"},
+    "numpy": {"experiments.study", "experiments.confirm.mesh_buffers"},
 }
 """Packages of others, and the modules or rooms that may import them."""
 

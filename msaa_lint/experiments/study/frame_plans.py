@@ -63,6 +63,18 @@ class FramePlans:
         self.as_described = bool(drawn) and all(pipeline.has_fragment_shader for pipeline in drawn)
         self.notes = (*plan.defaults, *self._notes(frame))
 
+    @property
+    def triangle_area(self) -> float | None:
+        """The mean area in pixels of the triangles of the passes to which techniques apply; None if no number of vertices is known."""
+        triangles, covered = 0, 0.0
+        for step in self.base.steps:
+            meshes = [mesh for inner in step.inner for mesh in inner.mesh if mesh.columns and not inner.full_screen]
+            if step.number in self.passes and meshes:
+                number = sum(mesh.triangles * mesh.draws for mesh in meshes)
+                triangles += number
+                covered += number * step.area[2] * step.area[3] / (2 * meshes[0].columns * meshes[0].rows)
+        return covered / triangles if triangles else None
+
     def _notes(self, frame: Frame) -> list[str]:
         begun = dict.fromkeys(step.number for step in self.base.steps if step.kind == "begin")
         names = [self.base.passes[number].name for number in begun if number in self.passes]
@@ -147,9 +159,10 @@ def _without_fills(plan: Plan) -> Plan:
 
 
 def _multisampled_passes(plan: Plan) -> frozenset[int]:
-    """The passes that are drawn with more than one sample."""
+    """The passes of the frame that are drawn with more than one sample."""
     found = set()
-    for number, each in enumerate(plan.passes):
+    for number in {step.number for step in plan.steps if step.kind == "begin"}:
+        each = plan.passes[number]
         images = {image for framebuffer in range(len(each.framebuffers)) for part in attached(each, framebuffer) for image in part}
         counts = [plan.images[image].samples for image in images] + [attachment.samples for attachment in each.attachments]
         single = each.single_sampled or any(subpass.single_sampled for subpass in each.subpasses)

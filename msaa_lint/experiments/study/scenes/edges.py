@@ -9,6 +9,8 @@ import numpy as np
 from . import area, shapes
 from .scene import WHITE, Scene
 
+MIN_SIDE = 4.0
+
 
 def _white(polygons: list[list[shapes.Point]], width: int, height: int) -> Scene:
     """White shapes that do not overlap, on black: a scene of coverage alone."""
@@ -80,10 +82,10 @@ def siemens_star(width: int, height: int) -> Scene:
     return _white(wedges, width, height)
 
 
-def mesh(width: int, height: int) -> Scene:
-    """Squares of about 12 pixels with displaced corners, each in two triangles, over the whole picture. No color of the 8 is on both sides
-    of an edge or twice within a pixel."""
-    columns, rows = max(round(width / 12), 2), max(round(height / 12), 2)
+def mesh(width: int, height: int, side: float = 12) -> Scene:
+    """Squares of about `side` pixels with displaced corners, each in two triangles, over the whole picture. No color of the 8 is on both
+    sides of an edge or, from MIN_SIDE on, twice within a pixel."""
+    columns, rows = max(round(width / side), 2), max(round(height / side), 2)
     pitch_x, pitch_y = width / columns, height / rows
 
     def corner(column: int, row: int) -> shapes.Point:
