@@ -18,8 +18,8 @@ from .texels import format_name
 SINGLE_SAMPLED = "VK_EXT_multisampled_render_to_single_sampled"
 MIXED = ("VK_AMD_mixed_attachment_samples", "VK_NV_framebuffer_mixed_samples")
 
-BLEND_FEATURE = 0x100
-"""VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT."""
+BLEND_FEATURE, BLIT_SRC, BLIT_DST, LINEAR_FILTER = 0x100, 0x400, 0x800, 0x1000
+"""VkFormatFeatureFlagBits: COLOR_ATTACHMENT_BLEND, BLIT_SRC, BLIT_DST, and SAMPLED_IMAGE_FILTER_LINEAR."""
 
 DYNAMIC = {
     parts.SAMPLES_DYNAMIC: "extendedDynamicState3RasterizationSamples",
@@ -295,8 +295,20 @@ def _pipeline(plan: Plan, frame_pass: Pass, pipeline: Pipeline, offered: DeviceS
             yield f"the device does not blend {format_name(number)}"
 
 
+def _blits(plan: Plan, frame_pass: Pass, offered: DeviceSupport) -> Iterator[str]:
+    """Blits of formats that the device does not blit, or not with their filter."""
+    number = next(n for n, one in enumerate(plan.passes) if one is frame_pass)
+    for step in (step for step in plan.steps if step.kind == "blit" and step.number == number):
+        source_features = BLIT_SRC | (LINEAR_FILTER if step.filter else 0)
+        for image, needed, word in ((step.source, source_features, "from"), (step.target, BLIT_DST, "to")):
+            support = offered.formats.get(str(plan.images[image].format))
+            if support is not None and "features" in support and support["features"] & needed != needed:
+                filtered = " with a linear filter" if step.filter and needed != BLIT_DST else ""
+                yield f"the device does not blit {word} {format_name(plan.images[image].format)}{filtered}"
+
+
 _Check = Callable[[Plan, Pass, DeviceSupport], Iterator[str]]
-_CHECKS: tuple[_Check, ...] = (_way, _mixed, _images, _images_of_attachments, _resolves, _pipelines)
+_CHECKS: tuple[_Check, ...] = (_way, _mixed, _images, _images_of_attachments, _resolves, _pipelines, _blits)
 
 
 def _aspects(number: int) -> int:
