@@ -29,6 +29,12 @@ EXPECTED: dict[str, list[tuple[int, str]]] = {
         (46, "hdr-resolved-before-tone-mapping"),
         (46, "resolve-outside-pass"),
     ],
+    "phone/forward.msaa.yaml": [
+        (26, "hdr-resolved-before-tone-mapping"),
+        (35, "framebuffer-readback"),
+        (60, "multisampled-float-blending"),
+    ],
+    "lit/rocks.msaa.yaml": [],
     "tutorial/final.msaa.yaml": [
         (7, "sample-count-above-four"),
         (7, "sample-count-not-portable"),

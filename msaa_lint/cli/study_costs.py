@@ -11,7 +11,7 @@ from msaa_lint.core.finding import Finding
 from msaa_lint.core.quote import quoted
 from msaa_lint.experiments.study.checkpoint import Checkpoint
 from msaa_lint.experiments.study.points import Technique
-from msaa_lint.experiments.study.shading import DEFAULT, SHARES, Shading, target
+from msaa_lint.experiments.study.shading import AS_DESCRIBED, DEFAULT, SHARES, Shading, target
 from msaa_lint.experiments.study.times import CostModel, Costs
 from msaa_lint.linter.study_record import DEFAULT_SHADING, stated_shading
 
@@ -114,8 +114,12 @@ def subject_costs(
                 if clock is None:
                     found[subject.input.name] = SubjectCosts(shadings, costs(techniques, shadings, size, model, checkpoint))
                     continue
-                shadings = _shadings(subject, request, calibration, size, bool(arguments.get("record")))
-                with _source(subject, request, clock, model, stages) as source:
+                plans = _frame_plans(subject, request, size)
+                recorded = bool(arguments.get("record"))
+                shadings = _shadings(subject, request, calibration, size, recorded)
+                if plans is not None and plans.as_described and not request.shader and not recorded:
+                    shadings = [Shading(AS_DESCRIBED)]
+                with _source(subject, request, clock, model, stages, plans) as source:
                     found[subject.input.name] = SubjectCosts(shadings, costs(techniques, shadings, size, source, checkpoint))
         if clock is None:
             return AllCosts(found)
@@ -133,11 +137,26 @@ def _shadings(subject: Subject, request: TimingRequest, calibration: Any, size: 
     return [*shadings, *([Shading(os.path.basename(request.shader))] if request.shader else [])]
 
 
-def _source(subject: Subject, request: TimingRequest, clock: Any, model: CostModel, stages: tuple[Any, ...]) -> Any:
+def _frame_plans(subject: Subject, request: TimingRequest, size: tuple[int, int]) -> Any:
+    """The plans of a subject's own frame; None for a scene without one, and for a description without passes."""
+    if subject.frame is None:
+        return None
+    from msaa_lint.experiments.study.frame_plans import FramePlans, stated_sizes
+
+    stated = stated_sizes(subject.frame)
+    sizes = stated._replace(
+        overdraw=request.overdraw if request.overdraw > 1 else stated.overdraw, side=request.triangle_size or stated.side
+    )
+    plans = FramePlans(subject.frame, subject.file, size, sizes)
+    return plans if plans.base.passes else None
+
+
+def _source(subject: Subject, request: TimingRequest, clock: Any, model: CostModel, stages: tuple[Any, ...], plans: Any) -> Any:
     from msaa_lint.experiments.study.scene_timing import Geometry, SceneClock
 
-    geometry = Geometry(request.overdraw, request.triangle_size)
-    return SceneClock(clock, subject.picture, model, geometry, stages=stages, own=os.path.basename(request.shader))
+    # A frame has its own overdraw, and triangles of its own size.
+    geometry = Geometry(request.overdraw, request.triangle_size) if plans is None else Geometry()
+    return SceneClock(clock, subject.picture, model, geometry, plans, stages, os.path.basename(request.shader))
 
 
 def _own_stages(request: TimingRequest, clock: Any) -> tuple[Any, ...]:

@@ -10,10 +10,12 @@ Key = tuple[int, int]
 
 
 class Contents:
-    """Tracks the contents of the images of a plan step by step."""
+    """Tracks the contents of the images of a plan step by step. With `assumed`, all images have defined contents: what is timed may be
+    undefined, as nobody looks at it."""
 
-    def __init__(self, plan: Plan) -> None:
+    def __init__(self, plan: Plan, *, assumed: bool = False) -> None:
         self.plan = plan
+        self.assumed = assumed
         self.known: set[Key] = set()
         self.suspended: set[Key] = set()
 
@@ -40,7 +42,9 @@ class Contents:
         image = self.plan.images[number]
         usage = image.usage & parts.SAMPLED and not image.usage & parts.TRANSIENT
         aspect = image.aspects & (COLOR | DEPTH)
-        return bool(usage and aspect and image.numeric not in ("UINT", "SINT") and image.type == 1) and self.whole(number, aspect)
+        return bool(usage and aspect and image.numeric not in ("UINT", "SINT") and image.type == 1) and (
+            self.assumed or self.whole(number, aspect)
+        )
 
     def begin(self, frame_pass: Pass, step: Step) -> None:
         """Applies the effects of a pass."""

@@ -48,7 +48,7 @@ class Recorder:
         self.call = built.opened.call
         self.plan = built.plan
         self.layouts = Layouts(built)
-        self.contents = Contents(self.plan)
+        self.contents = Contents(self.plan, assumed=work is not None)
 
     def step(self, buffer: Any, step: Step) -> None:
         """Records one step."""

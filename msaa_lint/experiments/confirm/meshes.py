@@ -24,18 +24,18 @@ POINTS, LINES, LINE_STRIPS, STRIPS, FANS = 0, (1, 6), (2, 7), (4, 9), 5
 
 
 class Sizes(NamedTuple):
-    """How large the triangles are: `overdraw` is how many cover a pixel on average, and `area` their mean area in pixels, None if their
-    number decides."""
+    """How large the triangles are: `overdraw` is how many cover a pixel on average, and `side` the longest side of one in pixels, or 0 for
+    what their number implies."""
 
     overdraw: float = 1.0
-    area: float | None = None
+    side: float = 0.0
 
 
 def with_meshes(plan: Plan, sizes: Sizes) -> Plan:
     """A plan whose draws with a known number of vertices draw that many triangles, over the render area, each layer nearer than the last.
 
     Full-screen draws cover it, draws of points and lines are left out, and those of an unknown number stay as they are, unless
-    `sizes.area` says how many triangles there are. Notes say so.
+    `sizes.side` says how many triangles there are. Notes say so.
     """
     notes = Notes()
     left = MAX_FRAME_VERTICES
@@ -68,14 +68,15 @@ class _Layout:
         width, height = step.area[2:]
         self.counts = {id(inner): self._count(inner) for inner in step.inner if inner.kind == "draw"}
         total = sum(count * inner.draws for inner in step.inner for count in [self.counts.get(id(inner)) or 0])
-        if sizes.area is not None:
-            cells = width * height / (2 * sizes.area)
+        if sizes.side:
+            # A cell is a square whose diagonal is the longest side of its two triangles.
+            cells = 2 * width * height / sizes.side**2
         else:
             cells = max(total, 1) / (2 * sizes.overdraw)
         self.columns = max(1, min(round(math.sqrt(cells * width / height)), 1 << 14))
         self.rows = max(1, min(math.ceil(cells / self.columns), 1 << 14))
         unknown = sum(max(inner.draws, 1) for inner in step.inner if inner.kind == "draw" and self.counts[id(inner)] is None)
-        self.share = math.ceil(2 * self.columns * self.rows * sizes.overdraw / unknown) if unknown and sizes.area is not None else 0
+        self.share = math.ceil(2 * self.columns * self.rows * sizes.overdraw / unknown) if unknown and sizes.side else 0
 
     def commands(self) -> tuple[PassCommand, ...]:
         """The commands of the pass, with meshes."""

@@ -6,6 +6,7 @@ they resolve to is drawn to directly. In a frame without multisampled passes, th
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from typing import NamedTuple
 
 from msaa_lint.experiments.confirm import plan as planning
@@ -34,31 +35,38 @@ GREATER = (4, 6)
 
 
 class FramePlan(NamedTuple):
-    """The plan of a frame under a technique; `reason` says why there is none."""
+    """The plan of a frame under a technique; `bare` is the same without resolves and without scaling down, None where it has none. `reason`
+    says why there is no plan."""
 
     plan: Plan
+    bare: Plan | None = None
     reason: str = ""
 
 
+def stated_sizes(frame: Frame) -> Sizes:
+    """How large the triangles of a frame are, as its description states it."""
+    scene = frame.description.scene
+    if scene is None:
+        return Sizes()
+    return Sizes(float(scene.overdraw or 1.0), float(scene.triangleSize or 0.0))
+
+
 class FramePlans:
-    """The plans of a frame at a size in pixels. `file` is the description's, whose shader modules are next to it, and `vertices` a file of
-    triangles (confirm/parts.py) that draws of an unknown number of vertices draw.
+    """The plans of a frame at a size in pixels. `file` is the description's, whose shader modules are next to it; `sizes` are used in place
+    of those that the description states.
 
     `passes` are the numbers of the passes to which techniques apply, and `notes` say what is assumed. `as_described` says that all draws of
     these passes have fragment shaders of the frame, so that a cost of shading does not apply.
     """
 
-    def __init__(self, frame: Frame, file: str, size: tuple[int, int], vertices: str = "") -> None:
-        scene = frame.description.scene
-        overdraw = scene.overdraw if scene is not None and scene.overdraw is not None else 1.0
-        area = scene.triangleArea if scene is not None else None
+    def __init__(self, frame: Frame, file: str, size: tuple[int, int], sizes: Sizes | None = None) -> None:
         plan = planning.plan(frame, file)
-        plan = with_meshes(_without_fills(_nearer_as_tested(plan)), Sizes(float(overdraw), float(area) if area is not None else None))
+        plan = with_meshes(_without_fills(_nearer_as_tested(plan)), sizes or stated_sizes(frame))
         self.passes = _multisampled_passes(plan)
         self.is_multisampled = bool(self.passes)
         if not self.passes:
             self.passes = _geometry_passes(plan)
-        self.base = resized(plan, size, self.passes)._replace(vertices=vertices)
+        self.base = resized(plan, size, self.passes)
         drawn = [pipeline for number in self.passes for pipeline in _drawn(plan, number)]
         self.as_described = bool(drawn) and all(pipeline.has_fragment_shader for pipeline in drawn)
         self.notes = (*plan.defaults, *self._notes(frame))
@@ -88,15 +96,15 @@ class FramePlans:
     def of(self, technique: Technique) -> FramePlan:
         """The plan under a technique."""
         if not self.base.passes:
-            return FramePlan(self.base, "the frame has no passes")
+            return FramePlan(self.base, reason="the frame has no passes")
         numbers = self.passes or range(len(self.base.passes))
         refused = [each for each in (self.base.passes[number] for number in numbers) if each.refused or each.failed]
         if refused:
-            return FramePlan(self.base, f"{refused[0].name} cannot be drawn: {refused[0].refused or refused[0].failed}")
+            return FramePlan(self.base, reason=f"{refused[0].name} cannot be drawn: {refused[0].refused or refused[0].failed}")
         side = technique.grid if technique.kind == SSAA else 1
         samples = 1 if technique.kind == SSAA else technique.samples
         if not self.passes and (samples > 1 or side > 1):
-            return FramePlan(self.base, "no pass of the frame draws geometry to color attachments that it clears")
+            return FramePlan(self.base, reason="no pass of the frame draws geometry to color attachments that it clears")
         plan = self.base
         if self.is_multisampled:
             plan = resampled(plan, samples)
@@ -104,7 +112,8 @@ class FramePlans:
             plan = multisampled(plan, self.passes, samples)
         if side > 1:
             plan = supersampled(plan, self.passes, side)
-        return FramePlan(self._shaded(plan, technique))
+        whole = self._shaded(plan, technique)
+        return FramePlan(whole, _unresolved(whole, self.passes))
 
     def _shaded(self, plan: Plan, technique: Technique) -> Plan:
         """The plan with sample shading on its pipelines if the technique has it, and with shading of a cost where they have no shader."""
@@ -114,7 +123,7 @@ class FramePlans:
             shading = max(each.sample_shading, fraction)
             return each._replace(sample_shading=shading, shaded=not each.has_fragment_shader and any(each.numerics))
 
-        passes = list(plan.passes)
+        passes = [each._replace(pipelines=tuple(map(_without_color, each.pipelines))) for each in plan.passes]
         for number in self.passes:
             passes[number] = passes[number]._replace(pipelines=tuple(map(pipeline, passes[number].pipelines)))
         without = tuple(name for name in plan.without if fraction < 0 or name != "sampleRateShading")
@@ -125,6 +134,12 @@ def _drawn(plan: Plan, number: int) -> list[Pipeline]:
     """The pipelines with color that draw in a pass."""
     used = {inner.pipeline for step in plan.steps if step.number == number for inner in step.inner if inner.kind == "draw"}
     return [plan.passes[number].pipelines[index] for index in used if any(plan.passes[number].pipelines[index].numerics)]
+
+
+def _without_color(pipeline: Pipeline) -> Pipeline:
+    """A pipeline without a fragment shader if it writes no color, as that of a depth prepass."""
+    writes = any(blend.mask for blend in pipeline.blends) or pipeline.alpha_to_coverage or pipeline.has_fragment_shader
+    return pipeline if writes else pipeline._replace(numerics=("",) * len(pipeline.numerics))
 
 
 def _nearer_as_tested(plan: Plan) -> Plan:
@@ -205,3 +220,16 @@ def _clears(frame_pass: Pass) -> bool:
         return all(rendered.load != LOAD for rendered in frame_pass.rendered if rendered.role == "color" and rendered.image != NONE)
     references = [reference for subpass in frame_pass.subpasses for reference in subpass.colors if reference.attachment != NONE]
     return all(frame_pass.attachments[reference.attachment].load != LOAD for reference in references)
+
+
+def _unresolved(plan: Plan, passes: Collection[int]) -> Plan | None:
+    """The plan without the resolves of some passes and of commands, and without scaling down; None where it has none."""
+    changed = list(plan.passes)
+    for number in passes:
+        each = changed[number]
+        rendered = tuple(target._replace(mode=0, resolve_image=NONE) for target in each.rendered)
+        subpasses = tuple(subpass._replace(resolves=(), depth_resolve=(), depth_mode=0, stencil_mode=0) for subpass in each.subpasses)
+        changed[number] = each._replace(rendered=rendered, subpasses=subpasses)
+    steps = tuple(step for step in plan.steps if step.kind != "resolve" and (step.kind != "blit" or step.number not in passes))
+    bare = plan._replace(passes=tuple(changed), steps=steps)
+    return bare if bare != plan else None

@@ -10,7 +10,7 @@ from types import TracebackType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from .points import Technique
-from .shading import NONE, Shading
+from .shading import AS_DESCRIBED, NONE, Shading
 from .technique_frames import frame_of
 from .times import Cost, CostModel, Costs, DeviceClock
 
@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 
     import numpy as np
     from numpy.typing import NDArray
+
+    from .frame_plans import FramePlans
 
 MAX_TRIANGLES = 4_000_000
 """The most triangles of a picture: 144 MB of vertices."""
@@ -43,8 +45,8 @@ class Geometry(NamedTuple):
 class SceneClock:
     """A device's clock for the triangles of a scene, or for the plans of a frame: `with SceneClock(clock, scene, model) as source:`.
 
-    `content` identifies what is drawn. `plans` gives the plans of a technique at a size instead of those of the scene, and `stages` are
-    the shader stages (confirm/parts.py) that draw instead of the built-in ones, of the cost of shading that has the name `own`.
+    `content` identifies what is drawn. `plans` are those of a frame, whose draws of an unknown number of vertices draw the scene, and
+    `stages` the shader stages (confirm/parts.py) that draw instead of the built-in ones, of the cost of shading with the name `own`.
     """
 
     def __init__(
@@ -53,7 +55,7 @@ class SceneClock:
         scene: Any,
         model: CostModel,
         geometry: Geometry | None = None,
-        plans: Callable[[Technique, tuple[int, int]], TechniquePlans] | None = None,
+        plans: FramePlans | None = None,
         stages: tuple[Any, ...] = (),
         own: str = "",
     ) -> None:
@@ -61,7 +63,7 @@ class SceneClock:
         self.stages, self.own = stages, own
         self._vertices = vertices(scene, geometry or Geometry())
         self._plans = plans
-        self.content = sha256(self._vertices + repr((stages, own)).encode()).hexdigest()[:16]
+        self.content = sha256(self._vertices + repr((stages, own, plans.base if plans is not None else None)).encode()).hexdigest()[:16]
         self._folder = ""
 
     def __enter__(self) -> Self:
@@ -82,14 +84,14 @@ class SceneClock:
         plans = {technique: self._supported(technique, size) for technique in techniques}
         # Without shading in any case, as the parts of a time are relative to it.
         none = Shading(NONE)
-        works = [none, *(shading for shading in shadings if shading.name not in (NONE, self.own))]
+        works = [none, *(shading for shading in shadings if shading.name not in (NONE, AS_DESCRIBED, self.own))]
         items: dict[tuple[Technique, str], tuple[Any, Sequence[Shading]]] = {}
         for technique, each in plans.items():
             if each.reason:
                 continue
-            items[technique, _WHOLE] = shaded(each.whole), works
+            items[technique, _WHOLE] = each.whole, works
             if each.bare is not None:
-                items[technique, _BARE] = shaded(each.bare), [none]
+                items[technique, _BARE] = each.bare, [none]
             if self.stages:
                 items[technique, _OWN] = own_shaders(each.whole, self.stages), [none]
         timed = dict(zip(items, self.clock.time(list(items.values())).items, strict=True))
@@ -101,7 +103,7 @@ class SceneClock:
                 if not each.reason:
                     whole, bare = timed[technique, _WHOLE], timed.get((technique, _BARE))
                     own = timed.get((technique, _OWN)) if shading.name == self.own else None
-                    cost = _cost(model, whole, bare, own or whole, 0 if own else _place(works, shading))
+                    cost = _cost(model, whole, bare, own or whole, _place(works, shading))
                 costs[technique, shading.name] = cost
         return costs
 
@@ -109,14 +111,30 @@ class SceneClock:
         """The plans of a technique, with the reason why the device cannot run them, if any."""
         from msaa_lint.experiments.confirm import gate
 
-        plans = (self._plans or self._scene_plans)(technique, size)
-        return plans._replace(reason=plans.reason or next(iter(gate.gate(plans.whole, self.clock.device).values()), ""))
+        if self._plans is not None:
+            return self._frame_plans(self._plans, technique)
+        plans = self._scene_plans(technique, size)
+        return plans._replace(reason=next(iter(gate.gate(plans.whole, self.clock.device).values()), ""))
+
+    def _frame_plans(self, plans: FramePlans, technique: Technique) -> TechniquePlans:
+        """The plans of a frame, without the passes that the device cannot run, unless the technique is about them."""
+        from msaa_lint.experiments.confirm import gate
+
+        found = plans.of(technique)
+        refused = gate.gate(found.plan, self.clock.device) if not found.reason else {}
+        reason = found.reason or next((text for number, text in refused.items() if number in plans.passes), "")
+
+        def drawn(plan: Any) -> Any:
+            passes = (each._replace(refused=refused.get(number, each.refused)) for number, each in enumerate(plan.passes))
+            return plan._replace(passes=tuple(passes), vertices=self._path)
+
+        return TechniquePlans(drawn(found.plan), drawn(found.bare) if found.bare is not None else None, reason)
 
     def _scene_plans(self, technique: Technique, size: tuple[int, int]) -> TechniquePlans:
         from msaa_lint.experiments.confirm import plan
 
         frame = frame_of(technique, *size, hdr=self.model.hdr, depth=self.model.depth)
-        whole = plan.plan(frame)._replace(vertices=self._path)
+        whole = shaded(plan.plan(frame)._replace(vertices=self._path))
         return TechniquePlans(whole, unresolved(whole))
 
 
@@ -124,7 +142,7 @@ _WHOLE, _BARE, _OWN = "whole", "bare", "own"
 
 
 def _place(works: Sequence[Shading], shading: Shading) -> int:
-    return next(number for number, work in enumerate(works) if work.name == shading.name)
+    return next((number for number, work in enumerate(works) if work.name == shading.name), 0)
 
 
 def _cost(model: Cost, whole: Any, bare: Any, timed: Any, place: int) -> Cost:
@@ -153,8 +171,8 @@ def shaded(plan: Any) -> Any:
 
 
 def own_shaders(plan: Any, stages: tuple[Any, ...]) -> Any:
-    """The plan, whose draws use shader stages instead of built-in ones."""
-    return _with_pipelines(plan, lambda pipeline: pipeline._replace(stages=stages, shaded=False))
+    """The plan, whose draws with shading of a cost use shader stages instead."""
+    return _with_pipelines(plan, lambda pipeline: pipeline._replace(stages=stages, shaded=False) if pipeline.shaded else pipeline)
 
 
 def _with_pipelines(plan: Any, change: Callable[[Any], Any]) -> Any:

@@ -62,12 +62,12 @@ def test_cells_are_as_many_as_the_triangles_fill() -> None:
     ]
 
 
-def test_overdraw_and_area_decide_how_large_they_are() -> None:
+def test_overdraw_and_sides_decide_how_large_they_are() -> None:
     draw = "draw: {pipeline: mesh, vertexCount: 1200}"
     (mesh,) = meshed(draw, sizes=Sizes(overdraw=4))
     assert mesh == Mesh(10, 5, 1200)
     # 64 * 32 pixels hold 16 x 8 cells of two triangles of 8 pixels each.
-    (mesh,) = meshed(draw, sizes=Sizes(overdraw=4, area=8))
+    (mesh,) = meshed(draw, sizes=Sizes(overdraw=4, side=32**0.5))
     assert mesh == Mesh(16, 8, 1200)
 
 
@@ -115,9 +115,9 @@ def test_lines_are_left_out_and_unknown_draws_stay() -> None:
     )
 
 
-def test_an_area_says_how_many_an_unknown_draw_has() -> None:
+def test_a_side_says_how_many_an_unknown_draw_has() -> None:
     """Half of the 2 * 16 * 8 triangles that cover the screen three times, for each of two draws."""
-    made = meshed("draw: {pipeline: strip}", "draw: {pipeline: mesh}", sizes=Sizes(overdraw=3, area=8))
+    made = meshed("draw: {pipeline: strip}", "draw: {pipeline: mesh}", sizes=Sizes(overdraw=3, side=32**0.5))
     assert made == [Mesh(16, 8, 3 * 384), Mesh(16, 8, 3 * 384, first=384)]
 
 

@@ -127,8 +127,7 @@ def test_geometry_gets_samples_and_the_rest_stays() -> None:
     studied = plans(FORWARD)
     assert [studied.base.passes[number].name for number in sorted(studied.passes)] == ["scene", "particles"]
     assert "the techniques apply to scene, particles" in studied.notes
-    plan, reason = studied.of(FOUR)
-    assert reason == ""
+    plan = studied.of(FOUR).plan
     assert attached(plan, "scene") == [("hdr 4x", 4), ("depth 4x", 4)]
     assert attached(plan, "particles") == [("hdr 4x", 4), ("depth 4x", 4), ("hdr", 1)]
     assert attached(plan, "shadows") == [("shadow", 1)]
@@ -180,6 +179,25 @@ def test_sample_shading_is_on_the_pipelines_of_the_technique() -> None:
         assert {pipeline.sample_shading for pipeline in named(plain, name).pipelines} == {-1.0}
         # Of the others, the cost of shading is their own.
         assert {pipeline.shaded for pipeline in named(plain, name).pipelines} == {expected == 0.5}
+
+
+def test_a_plan_without_resolves_shows_what_they_take() -> None:
+    """The part of resolving is the difference to the same frame without; with one sample there is none."""
+    studied = plans(FORWARD)
+    assert studied.of(ONE).bare is None
+    bare = studied.of(FOUR).bare
+    assert bare is not None and all(subpass.resolves == () for each in bare.passes for subpass in each.subpasses)
+    larger = studied.of(LARGER).bare
+    assert larger is not None and blits(larger) == []
+    rendering = plans(RENDERING).of(FOUR).bare
+    assert rendering is not None and all(target.resolve_image == NONE for each in rendering.passes for target in each.rendered)
+
+
+def test_a_depth_prepass_has_no_fragment_shader() -> None:
+    text = (ROOT / "examples/phone/forward.msaa.yaml").read_text()
+    pipelines = {pipeline.name: pipeline for pipeline in named(plans(text).of(FOUR).plan, "scene").pipelines}
+    assert (pipelines["prepass"].numerics, pipelines["prepass"].shaded) == (("",), False)
+    assert all(pipelines[name].shaded for name in ("opaque", "leaves", "glass"))
 
 
 def test_a_multisampled_frame_keeps_its_resolves() -> None:
@@ -236,6 +254,14 @@ def messages(session: Session, plan: Plan) -> list[str]:
     assert [(number, each.end, each.error) for number, each in run.passes.items() if each.end or each.error] == []
     found = [*run.messages, *(message for each in run.passes.values() for message in each.messages)]
     return [message["text"] for message in found if "VUID" in message["id"] or "SYNC" in message["id"]]
+
+
+def test_shaders_of_the_frame_are_as_described() -> None:
+    """No cost of shading applies where all that draws has a fragment shader of its own."""
+    (document,) = inputs(Request(paths=[str(ROOT / "examples/lit/rocks.msaa.yaml")])).inputs
+    studied = FramePlans(document.frame, document.file, SIZE)
+    assert studied.as_described and not plans(FORWARD).as_described
+    assert not any(pipeline.shaded for each in studied.of(FOUR).plan.passes for pipeline in each.pipelines)
 
 
 @pytest.mark.parametrize("technique", ON_LAVAPIPE, ids=lambda each: each.name)

@@ -46,7 +46,7 @@ def check(marked: str, code: str, message: str, help: str = "", path: str | None
         (
             "scene: {⟦qqq⟧: 1}",
             "unknown key `qqq` in scene: expected one of edges, depth, color, peak, depthResolveWants, "
-            "toneMapping, alphaTest, textureDetail, overdraw, triangleArea, shading",
+            "toneMapping, alphaTest, textureDetail, overdraw, triangleSize, shading",
             "",
             "scene.qqq",
         ),

@@ -135,7 +135,7 @@ class Scene(Record):
     alphaTest: bool | None = None
     textureDetail: bool | None = None
     overdraw: Annotated[PositiveNumber, "How many triangles of a pass cover a pixel, on average."] | None = None
-    triangleArea: Annotated[PositiveNumber, "The mean area of a triangle, in pixels."] | None = None
+    triangleSize: Annotated[PositiveNumber, "The longest side of a triangle, in pixels, on average."] | None = None
     shading: Annotated[ShadingCost, "What a fragment shader invocation costs: the study's --shading."] | None = None
 
 
