@@ -301,13 +301,14 @@ def _write_records(studied: Sequence[Subject], outcome: Study, force: bool) -> l
 
 
 def _document_study(name: str, frame: Frame, outcome: Study) -> DocumentStudy:
-    """What the record keeps of a description's study: the points under its own cost of shading, else under the default one."""
+    """What the record keeps of a description's study: the points with its own fragment shaders, else those under its own cost of
+    shading, else under the default one."""
     from msaa_lint.experiments.study.record import DocumentStudy
     from msaa_lint.experiments.study.shading import Shading
-    from msaa_lint.linter.study_record import DEFAULT_SHADING, stated_shading
+    from msaa_lint.linter.study_record import AS_DESCRIBED, DEFAULT_SHADING, stated_shading
 
     names = outcome.shading_names(name)
-    deciding = stated_shading(frame) or DEFAULT_SHADING
+    deciding = AS_DESCRIBED if AS_DESCRIBED in names else stated_shading(frame) or DEFAULT_SHADING
     if names != [""] and deciding not in names:
         raise UsageError(f"--record: {name} is judged under {deciding} shading, which was not timed; add {deciding} to --shading")
     shading = next((each for each in outcome.shadings if each.name == deciding), Shading(deciding))

@@ -25,7 +25,10 @@ WITHOUT_SHADING = "msaa-lint/study-record-v1"
 DEFAULT_SHADING = "medium"
 """The cost of shading that rules where a description does not state its own (`scene.shading`)."""
 
-PARTS = ("attachments", "device", "pipelines", "scene", "size")
+AS_DESCRIBED = "as described"
+"""The cost of shading of a frame that is timed with its own fragment shaders."""
+
+PARTS = ("attachments", "device", "pipelines", "scene", "shaders", "size")
 """The parts of a description that the result of a study depends on."""
 
 COUNTS = (1, 2, 4, 8, 16, 32, 64)
@@ -33,6 +36,10 @@ MAX_BYTES = 1 << 18
 MAX_DEPTH = 8
 MAX_NODES = 20_000
 MAX_TEXT = 200
+MAX_MODULES = 64
+"""Shader modules whose content counts; of the others, and of those above the limit of their size, only the names do."""
+
+MAX_MODULE_BYTES = 1 << 22
 
 _PIPELINE = ("multisampleState", "colorBlendState", "depthStencilState")
 _LEFT_OUT = frozenset({"rasterizationSamples", "shading"})
@@ -86,10 +93,12 @@ def studied(frame: "Frame", file: str) -> Studied:
         return Studied(UNUSABLE, str(error))
     except _Outdated:
         return Studied(STALE, f"it was made without a cost of shading; {_AGAIN}")
-    current, stated = digests(frame), stated_shading(frame)
+    current, stated = digests(frame, file), stated_shading(frame)
     same = [entry for entry in entries if entry.inputs == current]
     # Without times, the cost of shading does not matter.
-    found = next((entry for entry in same if entry.shading is None or entry.shading.name == (stated or DEFAULT_SHADING)), None)
+    found = next(
+        (entry for entry in same if entry.shading is None or entry.shading.name in (stated or DEFAULT_SHADING, AS_DESCRIBED)), None
+    )
     if found is not None:
         measured = ", ".join(f"{count}x" for count in sorted(found.counts))
         counts = {count: Measured(found.counts[count].justified, _says(count, found, stated)) for count in sorted(found.counts)}
@@ -118,18 +127,18 @@ def _listed(words: list[str]) -> str:
     return words[0] if len(words) == 1 else f"{', '.join(words[:-1])} and {words[-1]}"
 
 
-def digests(frame: "Frame") -> dict[str, str]:
-    """Digests by part of what a study of a frame depends on.
+def digests(frame: "Frame", file: str) -> dict[str, str]:
+    """Digests by part of what a study of a frame depends on; `file` is the path of its description.
 
     That excludes sample counts, of which a study measures several, the cost of shading, which is compared by its name, names, load and
     store operations, layouts, memory, and images that nothing is rendered to.
     """
     from hashlib import sha256
 
-    return {part: sha256(text.encode("utf-8", "surrogatepass")).hexdigest()[:16] for part, text in inputs(frame).items()}
+    return {part: sha256(text.encode("utf-8", "surrogatepass")).hexdigest()[:16] for part, text in inputs(frame, file).items()}
 
 
-def inputs(frame: "Frame") -> dict[str, str]:
+def inputs(frame: "Frame", file: str) -> dict[str, str]:
     """The text by part of what a study of a frame depends on."""
     description = frame.description
     size = description.frame
@@ -140,6 +149,7 @@ def inputs(frame: "Frame") -> dict[str, str]:
         "pipelines": repr(sorted(set(map(repr, states)))),
         # A scene that states nothing is none.
         "scene": repr(_canonical(description.scene) or None),
+        "shaders": repr(sorted(set(_fragment_shaders(frame, file)))),
         "size": repr((size.width, size.height) if size is not None else None),
     }
 
@@ -156,6 +166,26 @@ def _attachments(frame: "Frame") -> Iterator[object]:
     for render_pass in frame.passes:
         for subpass in render_pass.subpasses:
             yield from ((resolve.aspect, resolve.mode) for resolve in subpass.resolves)
+
+
+def _fragment_shaders(frame: "Frame", file: str) -> Iterator[str]:
+    """The stages of fragment shaders, with the content of their modules."""
+    from hashlib import sha256
+
+    from msaa_lint.core.project import folder_of, project_root
+    from msaa_lint.core.text.files import read
+    from msaa_lint.core.text.source import Unreadable
+
+    folder = folder_of(file)
+    contents: dict[str, str] = {}
+    for stage in (stage for pipeline, _ in frame.pipelines for stage in pipeline.stages if stage.stage == "FRAGMENT"):
+        name = stage.module or ""
+        if name and name not in contents and len(contents) < MAX_MODULES:
+            try:
+                contents[name] = sha256(read(os.path.join(folder, name), MAX_MODULE_BYTES, project_root(folder))).hexdigest()
+            except (OSError, Unreadable, ValueError):
+                contents[name] = ""
+        yield repr((_canonical(stage), contents.get(name)))
 
 
 def _canonical(value: object) -> object:
@@ -257,7 +287,8 @@ def _says(count: int, entry: Entry, stated: str | None) -> str:
     if entry.shading is not None:
         screen = [] if entry.shading.full_screen_ms is None else [f"{entry.shading.full_screen_ms:.3g} ms a full screen"]
         notes = ", ".join([*screen, *(["the default"] if stated is None else [])])
-        where += f" under {entry.shading.name} shading" + (f" ({notes})" if notes else "")
+        cost = f"under {entry.shading.name} shading" if entry.shading.name != AS_DESCRIBED else "with its own fragment shaders"
+        where += f" {cost}" + (f" ({notes})" if notes and entry.shading.name != AS_DESCRIBED else "")
     where += f"; {measured.reason}" if measured.reason else ""
     if base is None or base == count:
         return f"its {entry.error_of} is {measured.error:.3g} {where}"

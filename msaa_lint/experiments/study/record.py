@@ -31,20 +31,21 @@ class DocumentStudy(NamedTuple):
     software: bool = False
 
 
-def text(studies: Sequence[DocumentStudy]) -> str:
-    """The text of a record, with sorted keys so that diffs are minimal. ValueError where no sample count was measured."""
-    record = {"schema": SCHEMA, "studies": [_study(study) for study in studies]}
+def text(studies: Sequence[DocumentStudy], description: str) -> str:
+    """The text of the record of a description at a path, with sorted keys so that diffs are minimal. ValueError where no sample count was
+    measured."""
+    record = {"schema": SCHEMA, "studies": [_study(study, description) for study in studies]}
     return json.dumps(record, indent=2, sort_keys=True, allow_nan=False) + "\n"
 
 
-def _study(study: DocumentStudy) -> dict[str, Any]:
+def _study(study: DocumentStudy, description: str) -> dict[str, Any]:
     points = [point for point in study.points if point.technique.kind == MSAA and study.measure.is_finite(point)]
     if not points:
         raise ValueError("no sample count was measured")
     timed = any(point.time_ms is not None for point in points)
     shading = {"name": _clip(study.shading.name), "full_screen_ms": _figure(study.shading.full_screen_ms)}
     return {
-        "inputs": digests(study.frame),
+        "inputs": digests(study.frame, description),
         "device": _clip(study.device) if timed else "",
         "shading": shading if timed else None,
         "error_of": study.measure.name,
@@ -76,5 +77,5 @@ def write(description: str, studies: Sequence[DocumentStudy], force: bool = Fals
     A file there that msaa-lint did not write is replaced only if `force` is true.
     """
     path = path_of(description)
-    write_file(path, text(studies).encode(), None if force else is_own_output)
+    write_file(path, text(studies, description).encode(), None if force else is_own_output)
     return path

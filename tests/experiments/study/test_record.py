@@ -27,7 +27,7 @@ from msaa_lint.frame.facts.frame import Frame
 from msaa_lint.frame.facts.study import JUSTIFIES, STALE, UNUSABLE, Studied
 from msaa_lint.frame.facts.subjects import subjects
 from msaa_lint.input import readers
-from msaa_lint.linter.study_record import MAX_BYTES, PARTS, digests, path_of, studied
+from msaa_lint.linter.study_record import AS_DESCRIBED, MAX_BYTES, PARTS, digests, path_of, studied
 from tests.command import run
 from tests.experiments.study.fakes import point, timed
 from tests.paths import ROOT
@@ -115,17 +115,23 @@ OTHER = {
     "device": [("frame:", "device: mali-g610\nframe:")],
     "pipelines": [("depthTestEnable: false", "depthTestEnable: true")],
     "attachments": [("R8G8B8A8_UNORM", "R16G16B16A16_SFLOAT")],
+    "shaders": [
+        (
+            "    depthStencilState: {depthTestEnable: false}",
+            "    stages: [{stage: FRAGMENT, module: a.spv, name: main}]\n    depthStencilState: {depthTestEnable: false}",
+        )
+    ],
 }
 
 
 @pytest.mark.parametrize("name", SAME)
 def test_what_a_study_does_not_answer_to_makes_no_record_stale(name: str) -> None:
-    assert digests(frame(changed(*SAME[name]))) == digests(frame())
+    assert digests(frame(changed(*SAME[name])), "frame.msaa.yaml") == digests(frame(), "frame.msaa.yaml")
 
 
 @pytest.mark.parametrize("part", OTHER)
 def test_what_a_study_answers_to_does(part: str) -> None:
-    before, after = digests(frame()), digests(frame(changed(*OTHER[part])))
+    before, after = digests(frame(), "frame.msaa.yaml"), digests(frame(changed(*OTHER[part])), "frame.msaa.yaml")
     assert [name for name in PARTS if before[name] != after[name]] == [part]
     assert set(before) == set(PARTS)
 
@@ -139,18 +145,18 @@ def test_what_a_study_answers_to_does(part: str) -> None:
     ],
 )
 def test_how_colour_is_resolved_and_stored_counts(old: str, new: str) -> None:
-    before, after = digests(frame()), digests(frame(changed((old, new))))
+    before, after = digests(frame(), "frame.msaa.yaml"), digests(frame(changed((old, new))), "frame.msaa.yaml")
     assert [name for name in PARTS if before[name] != after[name]] == ["attachments"]
 
 
 def test_alpha_to_coverage_of_a_multisampled_pipeline_counts() -> None:
     source = changed(("rasterizationSamples: 8", "rasterizationSamples: 8, alphaToCoverageEnable: true"))
-    assert digests(frame(source))["pipelines"] != digests(frame())["pipelines"]
+    assert digests(frame(source), "frame.msaa.yaml")["pipelines"] != digests(frame(), "frame.msaa.yaml")["pipelines"]
 
 
 def test_a_record_is_sorted_small_and_the_same_for_the_same_study() -> None:
-    made = text([study()])
-    assert made == text([study()])
+    made = text([study()], "frame.msaa.yaml")
+    assert made == text([study()], "frame.msaa.yaml")
     assert len(made) < 2000
     data = json.loads(made)
     assert made == json.dumps(data, indent=2, sort_keys=True) + "\n"
@@ -165,7 +171,7 @@ def test_a_record_is_sorted_small_and_the_same_for_the_same_study() -> None:
 
 def test_a_study_without_counts_is_no_record() -> None:
     with pytest.raises(ValueError, match="no sample count was measured"):
-        text([study()._replace(points=[])])
+        text([study()._replace(points=[])], "frame.msaa.yaml")
 
 
 @pytest.fixture
@@ -259,6 +265,20 @@ def test_the_default_cost_is_the_same_whether_stated_or_not(beside: Path) -> Non
     assert of(beside, changed(("scene: {color: LDR, edges: true}", "scene: {color: LDR, edges: true, shading: heavy}"))).state == STALE
 
 
+def test_a_record_made_with_a_frame_s_own_shaders_expires_when_they_change(tmp_path: Path) -> None:
+    path, source = tmp_path / "frame.msaa.yaml", changed(*OTHER["shaders"])
+    (tmp_path / "a.spv").write_bytes(b"one")
+    write(str(path), [study(source)._replace(shading=Shading(AS_DESCRIBED))])
+    words = "it leaves 50 % of 4x's error for 1.9 times its time at 1920x1080 on a device with its own fragment shaders"
+    assert image_study(path, source) == (JUSTIFIES, words)
+    (tmp_path / "a.spv").write_bytes(b"two")
+    assert of(path, source) == Studied(STALE, "shaders changed since; run `msaa-lint study --record` again")
+    (tmp_path / "a.spv").unlink()
+    assert of(path, source).state == STALE
+    os.mkfifo(tmp_path / "a.spv")
+    assert of(path, source).state == STALE, "and what is not a file is not read"
+
+
 def test_a_record_without_a_cost_is_stale(beside: Path) -> None:
     Path(path_of(str(beside))).write_bytes(edited(put("schema", "msaa-lint/study-record-v1")))
     assert of(beside) == Studied(STALE, "it was made without a cost of shading; run `msaa-lint study --record` again")
@@ -309,7 +329,7 @@ def broken(beside: Path, data: bytes) -> str:
 
 
 def edited(edit: Any) -> bytes:
-    data = json.loads(text([study()]))
+    data = json.loads(text([study()], "frame.msaa.yaml"))
     edit(data)
     return json.dumps(data).encode()
 
@@ -347,7 +367,7 @@ COUNT = ("studies", 0, "counts", "8")
         (put("studies", 0, "shading", "full_screen_ms", -1), "expected a number of at least 0"),
         (put("studies", 0, "error_of", None), "expected a string of at most 200 characters"),
         (put("studies", 0, "inputs", "scene", 5), "expected a string of at most 200 characters"),
-        (put("studies", 0, "inputs", {}), "missing attachments, device, pipelines, scene, size"),
+        (put("studies", 0, "inputs", {}), "missing attachments, device, pipelines, scene, shaders, size"),
         (put("studies", 0, "counts", {}), "`counts` must be an object with at least one sample count"),
         (put("studies", 0, "counts", "3", {}), "`3` is not a sample count"),
         (put("studies", 0, "counts", "8x" * 50, {}), "`8x8x8x8x8x8x8x8x8x8…` is not a sample count"),
@@ -389,7 +409,7 @@ def test_a_hostile_record_is_said_to_be(beside: Path, data: bytes, words: str) -
 @examples(1.5)
 @given(st.data())
 def test_no_record_makes_a_crash(data: st.DataObject) -> None:
-    whole = text([study()]).encode()
+    whole = text([study()], "frame.msaa.yaml").encode()
     start = data.draw(st.integers(0, len(whole)))
     end = data.draw(st.integers(start, min(start + 40, len(whole))))
     with tempfile.TemporaryDirectory() as folder:
@@ -492,5 +512,5 @@ def test_a_folder_s_records_are_no_inputs(beside: Path) -> None:
 
 def test_counts_that_the_kinds_leave_out_are_not_recorded() -> None:
     only = [each for each in study().points if each.technique.kind == MSAA][:3]
-    (own,) = json.loads(text([study()._replace(points=only)]))["studies"]
+    (own,) = json.loads(text([study()._replace(points=only)], "frame.msaa.yaml"))["studies"]
     assert sorted(own["counts"], key=int) == ["1", "2", "4"]
