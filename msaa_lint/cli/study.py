@@ -101,6 +101,8 @@ def parse_options(arguments: Arguments) -> StudyOptions:
             require_figures(f"--{option}")
     if "budget" in arguments and "device" not in arguments:
         raise UsageError("--budget needs times: name the GPU that measures them with `--device NAME`")
+    if "budget" in arguments and Technique(MSAA, 1) not in chosen:
+        raise UsageError("--budget is added to the time of one sample: add 1 to --samples, and msaa to --techniques")
     if arguments.get("ssim") and find_spec("skimage") is None:
         raise UsageError(needs_extra("--ssim", "ssim"))
     return StudyOptions(

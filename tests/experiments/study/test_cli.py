@@ -116,6 +116,13 @@ def test_help_names_every_option(tmp_path: Path) -> None:
             for text in ("0", "fast", "-1ms", "1001ms", "1s", "nan", "1e3")
         ),
         (["edge-fan", "--budget", "1ms"], "--budget needs times: name the GPU that measures them with `--device NAME`"),
+        *(
+            (
+                ["edge-fan", "--device", "llvmpipe", "--budget", "1ms", *words],
+                "--budget is added to the time of one sample: add 1 to --samples, and msaa to --techniques",
+            )
+            for words in (["--samples", "2,4"], ["--techniques", "ssaa"])
+        ),
         (["edge-fan", "--bits", "5"], "unknown value `5` of `--bits`: expected one of 4, 8"),
     ],
 )
