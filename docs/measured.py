@@ -21,13 +21,14 @@ from msaa_lint.experiments.confirm.child import Limits
 from msaa_lint.experiments.confirm.session import Session, environment
 from msaa_lint.experiments.confirm.vulkan_errors import Unusable
 from msaa_lint.experiments.study import coverage, locations, snap
-from msaa_lint.experiments.study.measure import difference, errors, truth
+from msaa_lint.experiments.study.measure import truth
 from msaa_lint.experiments.study.outcome import SceneSummary, Study
 from msaa_lint.experiments.study.pareto import mark_best
 from msaa_lint.experiments.study.points import SSAA, Point, Technique, techniques
 from msaa_lint.experiments.study.scene_timing import clip
 from msaa_lint.experiments.study.scenes import scene
 from msaa_lint.experiments.study.scenes.scene import Scene
+from msaa_lint.experiments.study.sums import difference, errors
 from msaa_lint.experiments.study.times import DeviceClock
 from tests.experiments.study.device import covered, viewport
 from tests.experiments.study.spans import masks

@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from msaa_lint.experiments.study.effects import store_half
-from msaa_lint.experiments.study.measure import total
 from msaa_lint.experiments.study.resolve import LUMA, average, to_srgb, to_unorm, tone_map, weighted
+from msaa_lint.experiments.study.sums import total
 
 from .row import Row
 

@@ -30,23 +30,33 @@ class Rows(NamedTuple):
     right: NDArray[np.int32]
 
 
-def rows(triangles: NDArray[np.int64], width: int, height: int, locations: NDArray[np.int64], subpixels: int = SUBPIXELS) -> Rows:
+def rows(
+    triangles: NDArray[np.int64],
+    width: int,
+    height: int,
+    locations: NDArray[np.int64],
+    subpixels: int = SUBPIXELS,
+    limits: NDArray[np.int64] | None = None,
+) -> Rows:
     """The spans that triangles (T, 3, 2) cover in a picture of `width` x `height` pixels with samples at `locations` (N, 2) of each pixel.
 
     Corners and locations are integers in units of 1/subpixels pixel. A sample on an edge follows the top-left rule: it is covered on a
-    left edge and on a horizontal top edge, and not on others, whatever the winding. Triangles without area cover nothing. The result is
+    left edge and on a horizontal top edge, and not on others, whatever the winding. Triangles without area cover nothing.
+    `limits` (T, 2), where given, are the first row and the end of the rows in which each triangle is drawn. The result is
     exact for corners up to 2^60 steps from the origin, in int64 where all terms fit it and in Python's integers otherwise. ValueError for
     corners farther away or not integers, and for locations outside the pixel.
     """
     corners, sample_places = _checked(triangles, locations, subpixels)
     x, y = corners[..., 0], corners[..., 1]
+    if limits is None:
+        limits = np.broadcast_to((0, height), (len(corners), 2))
     inside = (x.max(axis=1) > 0) & (x.min(axis=1) < subpixels * width) & (y.max(axis=1) > 0) & (y.min(axis=1) < subpixels * height)
     fits_int64 = _fits(corners, subpixels, width, height)
     parts: list[Rows] = []
     for selected, arithmetic in ((fits_int64, np.int64), (~fits_int64, object)):
         indices = np.flatnonzero(inside & selected)
         if len(indices):
-            parts += _spans(corners[indices], indices, sample_places, width, height, subpixels, arithmetic)
+            parts += _spans(corners[indices], indices, sample_places, width, limits[indices], subpixels, arithmetic)
     if len(parts) == 1:
         return parts[0]
     if not parts:
@@ -57,7 +67,13 @@ def rows(triangles: NDArray[np.int64], width: int, height: int, locations: NDArr
 
 
 def _spans(
-    corners: NDArray[np.int64], indices: NDArray[np.int64], places: NDArray[np.int64], width: int, height: int, subpixels: int, number: type
+    corners: NDArray[np.int64],
+    indices: NDArray[np.int64],
+    places: NDArray[np.int64],
+    width: int,
+    limits: NDArray[np.int64],
+    subpixels: int,
+    number: type,
 ) -> list[Rows]:
     """The spans of triangles, in chunks, in arithmetic of type `number`: int64, or Python's integers as objects.
 
@@ -68,8 +84,9 @@ def _spans(
     triangles = np.arange(len(corners))[:, None]
     x, y = corners[triangles, order, 0], corners[triangles, order, 1]
     # A row has samples at or below a height if its lowest sample does, and samples above it if its highest does.
-    first = _clipped(-((int(places[:, 1].max()) - y[:, :2]) // subpixels), height)
-    count = _clipped(-((int(places[:, 1].min()) - y[:, 1:]) // subpixels), height) - first
+    first_row, end_row = limits[:, :1], limits[:, 1:]
+    first = np.clip(-((int(places[:, 1].max()) - y[:, :2]) // subpixels), first_row, end_row)
+    count = np.clip(-((int(places[:, 1].min()) - y[:, 1:]) // subpixels), first_row, end_row) - first
     triangle, half = np.nonzero((count > 0) & (y[:, :2] < y[:, 1:]))
     first, count = first[triangle, half], count[triangle, half]
 

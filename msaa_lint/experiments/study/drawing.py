@@ -17,8 +17,8 @@ class Drawing(NamedTuple):
     """The constants of a draw.
 
     `locations` (N, 2) are the sample locations in pixels of the rendered picture. `groups` holds a bit mask per shader invocation: the
-    samples that the invocation shades; there is a single group when each pixel is shaded once. `planes` (T, 3) give each triangle's depth
-    as a*x + b*y + c.
+    samples that the invocation shades; there is a single group when each pixel is shaded once. `planes` (S, 3) give the depth of a
+    triangle, where it is drawn, as a*x + b*y + c.
     """
 
     samples: int
@@ -29,7 +29,7 @@ class Drawing(NamedTuple):
 
 
 class Band:
-    """The samples of some rows of the picture, indexed by sample (N), then by pixel (P). Arrays that no effect needs are None."""
+    """The samples of parts of the picture, indexed by sample (N), then by pixel (P). Arrays that no effect needs are None."""
 
     __slots__ = ("color", "depth", "stencil", "written")
 
@@ -41,12 +41,17 @@ class Band:
 
 
 class Batch:
-    """F fragments of distinct pixels. `mask` is a bit mask of the samples still to be drawn; `color` holds one color per sample group."""
+    """F fragments of distinct pixels. `mask` is a bit mask of the samples still to be drawn; `color` holds one color per sample group.
 
-    __slots__ = ("color", "mask", "pixel", "triangle", "x", "y")
+    `pixel` indexes the band's samples, `x` and `y` are the place in the rendered picture, `triangle` is the scene's number of the triangle,
+    and `plane` that of its depth plane.
+    """
+
+    __slots__ = ("color", "mask", "pixel", "plane", "triangle", "x", "y")
 
     def __init__(self, triangle: NDArray[np.int32], pixel: Indices, x: NDArray[np.int32], y: NDArray[np.int32], mask: Bits) -> None:
         self.triangle = triangle
+        self.plane = triangle
         self.pixel = pixel
         self.x = x
         self.y = y

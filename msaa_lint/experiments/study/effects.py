@@ -114,7 +114,9 @@ def depth_test(batch: Batch, band: Band, drawing: Drawing) -> None:
     """
     assert band.depth is not None and drawing.planes is not None
     compare = COMPARE[str(drawing.settings.get("depth-test", "LESS"))]
-    slope_x, slope_y, base = drawing.planes[batch.triangle].T
+    plane_of = batch.plane
+    # Most batches are of one triangle.
+    slope_x, slope_y, base = drawing.planes[plane_of[0] if (plane_of == plane_of[0]).all() else plane_of].T
     corner = slope_x * batch.x + slope_y * batch.y + base
     mask = np.zeros_like(batch.mask)
     for sample, (x, y) in enumerate(drawing.locations):
@@ -134,10 +136,10 @@ def clear_depth(comparison: object) -> float:
 def blend(source: Floats, behind: Floats) -> Floats:
     """Colors (F, 4) over those behind, in linear light: color by SRC_ALPHA and ONE_MINUS_SRC_ALPHA, alpha by ONE, ONE_MINUS_SRC_ALPHA."""
     alpha = source[:, 3:4]
-    mixed = behind * (np.float32(1) - alpha)
-    mixed[:, :3] += source[:, :3] * alpha
-    mixed[:, 3:4] += alpha
-    return np.asarray(mixed, np.float32)
+    part = source * alpha
+    part[:, 3:4] = alpha
+    part += behind * (np.float32(1) - alpha)
+    return np.asarray(part, np.float32)
 
 
 def store_half(color: Floats) -> Floats:

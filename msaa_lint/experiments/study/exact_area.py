@@ -31,11 +31,15 @@ def areas(polygon_px: Floats, width: int, height: int) -> Floats:
     corners = np.asarray(polygon_px, dtype=np.float64)
     if corners.ndim != 2 or corners.shape[1] != 2:
         raise ValueError(f"expected a polygon (V, 2), found {corners.shape}")
-    return _within(corners, np.roll(corners, -1, axis=0), np.full(len(corners), _turn(corners[None])[0]), width, height)
+    turns = np.full(len(corners), _turn(corners[None])[0])
+    return _within(corners, np.roll(corners, -1, axis=0), turns, (0, 0, width, height), np.broadcast_to((0, height), (len(corners), 2)))
 
 
-def areas_of(triangles_px: Floats, width: int, height: int) -> Floats:
-    """The total area of disjoint triangles (T, 3, 2) within every pixel: (height, width). Overlaps count twice.
+def areas_of(
+    triangles_px: Floats, width: int, height: int, origin: tuple[int, int] = (0, 0), rows: NDArray[np.int64] | None = None
+) -> Floats:
+    """The total area of disjoint triangles (T, 3, 2) within every pixel of a window whose left column and top row are `origin`:
+    (height, width). Overlaps count twice. `rows` (T, 2) are the first row and the end of the rows in which each triangle counts.
 
     An edge that two triangles share is not an edge of their union: pixels that only such edges cross are exactly 1. As accurate as areas().
     """
@@ -43,7 +47,9 @@ def areas_of(triangles_px: Floats, width: int, height: int) -> Floats:
     if corners.ndim != 3 or corners.shape[1:] != (3, 2):
         raise ValueError(f"expected triangles (T, 3, 2), found {corners.shape}")
     begins, ends = corners.reshape(-1, 2), np.roll(corners, -1, axis=1).reshape(-1, 2)
-    return _within(begins, ends, np.repeat(_turn(corners), 3), width, height)
+    left, top = origin
+    limits = np.broadcast_to((top, top + height), (len(corners), 2)) if rows is None else rows
+    return _within(begins, ends, np.repeat(_turn(corners), 3), (left, top, width, height), np.repeat(limits, 3, axis=0))
 
 
 def _turn(polygons: Floats) -> Floats:
@@ -57,61 +63,69 @@ def _turn(polygons: Floats) -> Floats:
 
 
 class _Edges(NamedTuple):
-    """Edges that go down from (x0, y0) to (x1, y1), (E,) each; the area to the right of an edge counts with `sign`, 1 or -1."""
+    """Edges that go down from (x0, y0) to (x1, y1), (E,) each; the area to the right of an edge counts with `sign`, 1 or -1, from row
+    `first` up to but not including row `end`."""
 
     x0: Floats
     y0: Floats
     x1: Floats
     y1: Floats
+    first: Floats
+    end: Floats
     sign: Floats
 
 
-def _within(begins: Floats, ends: Floats, turns: Floats, width: int, height: int) -> Floats:
-    """The sum in every pixel of the areas to the right of edges, signed by the winding of the polygons that they belong to."""
+def _within(begins: Floats, ends: Floats, turns: Floats, window: tuple[int, int, int, int], rows: NDArray[np.int64]) -> Floats:
+    """The sum in every pixel of a window (left, top, width, height) of the areas to the right of edges, signed by the winding of the
+    polygons that they belong to."""
+    first_column, first_row, width, height = window
     picture = np.zeros((height, width))
-    edges = _merged(begins, ends, turns)
+    edges = _merged(begins, ends, turns, rows)
     if not len(edges.sign):
         return picture
-    top, bottom = (min(max(int(limit), 0), height) for limit in (np.floor(edges.y0.min()), np.ceil(edges.y1.max())))
-    left = min(max(int(np.floor(min(edges.x0.min(), edges.x1.min()))), 0), width)
-    right = min(max(int(np.ceil(max(edges.x0.max(), edges.x1.max()))), 0), width)
+    top, bottom = (min(max(int(limit), first_row), first_row + height) for limit in (np.floor(edges.y0.min()), np.ceil(edges.y1.max())))
+    left, right = (
+        min(max(int(limit), first_column), first_column + width)
+        for limit in (np.floor(min(edges.x0.min(), edges.x1.min())), np.ceil(max(edges.x0.max(), edges.x1.max())))
+    )
     if top >= bottom or left >= right:
         return picture
-    window = picture[top:bottom, left:right]
+    covered = picture[top - first_row : bottom - first_row, left - first_column : right - first_column]
     whole, partly = _summed(edges, top, bottom, left, right)
     for band in (slice(row, row + BAND) for row in range(0, bottom - top, BAND)):
         row_sums = np.cumsum(whole[band], axis=1)[:, :-1]
         row_sums += partly[band]
         nearest = np.rint(row_sums)
-        window[band] = np.where(np.abs(row_sums - nearest) < ACCURACY, nearest + 0.0, row_sums)
+        covered[band] = np.where(np.abs(row_sums - nearest) < ACCURACY, nearest + 0.0, row_sums)
     return picture
 
 
-def _merged(begins: Floats, ends: Floats, turns: Floats) -> _Edges:
+def _merged(begins: Floats, ends: Floats, turns: Floats, rows: NDArray[np.int64]) -> _Edges:
     """The edges, each pair of corners once with its total sign. Edges whose signs cancel out are omitted."""
     down = ends[:, 1] > begins[:, 1]
     upper, lower = np.where(down[:, None], begins, ends), np.where(down[:, None], ends, begins)
     # A polygon that is clockwise on the screen has its area left of an edge that goes down.
     sign = np.where(down, -turns, turns)
-    corners = np.concatenate((upper, lower), axis=1) + 0.0
+    corners = np.concatenate((upper, lower, rows), axis=1) + 0.0
     counted = (corners[:, 1] < corners[:, 3]) & (sign != 0)
     corners, sign = corners[counted], sign[counted]
     if not len(sign):
-        return _Edges(sign, sign, sign, sign, sign)
+        return _Edges(sign, sign, sign, sign, sign, sign, sign)
     order = np.lexsort(corners.T)
     corners, sign = corners[order], sign[order]
     starts = np.flatnonzero(np.concatenate(([True], (corners[1:] != corners[:-1]).any(axis=1))))
     total = np.add.reduceat(sign, starts)
-    x0, y0, x1, y1 = corners[starts[total != 0]].T
-    return _Edges(x0, y0, x1, y1, total[total != 0])
+    x0, y0, x1, y1, first, end = corners[starts[total != 0]].T
+    return _Edges(x0, y0, x1, y1, first, end, total[total != 0])
 
 
 def _summed(edges: _Edges, top: int, bottom: int, left: int, right: int) -> tuple[Floats, Floats]:
     """The areas to the right of edges in rows `top` to `bottom` and columns `left` to `right`: those that count from a column on, and those
     that count in one column alone."""
     rows, columns = bottom - top, right - left
-    first = np.clip(np.floor(edges.y0), top, bottom).astype(np.int64)
-    count = np.maximum(np.clip(np.ceil(edges.y1), top, bottom).astype(np.int64) - first, 0)
+    highest, lowest = np.clip(edges.first, top, bottom), np.clip(edges.end, top, bottom)
+    first = np.clip(np.floor(edges.y0), highest, lowest).astype(np.int64)
+    count = np.maximum(np.clip(np.ceil(edges.y1), highest, lowest).astype(np.int64) - first, 0)
     partly, whole = np.zeros(rows * columns), np.zeros((rows, columns + 1))
     # The pieces of edges within one row each.
     edge = np.repeat(np.arange(len(count)), count)

@@ -1,128 +1,142 @@
-"""The error of a picture against the exact one. Sums are in double precision: blocks by NumPy's pairwise sum, their totals by math.fsum."""
+"""The error of a picture against the exact one, band by band, so that memory does not grow with the picture."""
 
 from __future__ import annotations
 
-import math
-from collections import deque
+import time
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .locations import SUBPIXELS
-from .points import MSAA, Point, Technique
-from .resolve import to_srgb
-from .scenes.area import partly_covered
-from .scenes.scene import Scene
-from .simulate import simulate, snapped_triangles
-
-Floats = NDArray[np.float64]
-
-BLOCK = 1 << 16
-"""Values that NumPy sums at a time."""
+from . import displayed, shade
+from .flicker import flicker
+from .points import MSAA, SAMPLE_SHADING, Point, Technique
+from .scenes.scene import Part, Scene
+from .scenes.view import Truth, snapped
+from .simulate import Simulation, Simulator
+from .sums import ErrorSum, Sum, difference
 
 ONE = Technique(MSAA, 1)
 
 
-class Truth(NamedTuple):
-    """The exact picture (H, W, 4) in linear color, and the pixels (H, W) that an edge crosses."""
-
-    image: Floats
-    edge_pixels: NDArray[np.bool_]
-
-
-class Errors(NamedTuple):
-    """The root mean square, greatest magnitude and mean (measured minus exact) of differences, and their number."""
-
-    rmse: float
-    greatest: float
-    bias: float
-    values: int
+def truth(scene: Scene, technique: Technique = ONE, bits: int = 8, part: Part | None = None) -> Truth:
+    """The exact picture of the triangles as the technique snaps them, so that only the error of sampling remains; of the whole scene or
+    of a part."""
+    whole = part or Part(0, 0, scene.width, scene.height)
+    image, edge_pixels = scene.exact(snapped(scene, [whole], technique.grid, bits).view())
+    return Truth(image[0], edge_pixels[0])
 
 
-def total(values: NDArray[np.floating]) -> float:
-    """The sum, in double precision. Infinities of both signs, and NaN, give NaN."""
-    # NumPy sums pairwise along the fastest axis alone, so sum a single row.
-    row = np.ascontiguousarray(values).reshape(-1)
-    with np.errstate(invalid="ignore", over="ignore"):
-        sums = [float(np.sum(row[start : start + BLOCK], dtype=np.float64)) for start in range(0, len(row), BLOCK)]
-        try:
-            return math.fsum(sums)
-        except (ValueError, OverflowError):
-            return float(np.sum(sums))
+class _Measured(NamedTuple):
+    """A point, and how many fragments have each sample mask."""
+
+    point: Point
+    masks: NDArray[np.int64]
 
 
-def difference(measured: NDArray[np.floating], exact: NDArray[np.floating]) -> Floats:
-    """Measured minus exact, in double precision; 0 where they are equal, including infinities."""
-    with np.errstate(invalid="ignore"):
-        return np.where(measured == exact, 0.0, measured.astype(np.float64) - exact.astype(np.float64))
+_LAST: list[tuple[Scene, tuple[object, ...], _Measured]] = []
 
 
-def errors(differences: Floats) -> Errors:
-    """Differences summarized; zeros where there are none."""
-    count = differences.size
-    if not count:
-        return Errors(0.0, 0.0, 0.0, 0)
-    return Errors(
-        math.sqrt(total(differences * differences) / count), float(np.max(np.abs(differences))), total(differences) / count, count
-    )
-
-
-def psnr(measured: NDArray[np.floating], exact: NDArray[np.floating]) -> float:
-    """The peak signal-to-noise ratio in dB with a peak of 1.0, display white; infinite where nothing differs."""
-    differences = difference(measured, exact)
-    square = total(differences * differences) / differences.size
-    return math.inf if square == 0 else -10 * math.log10(square) if math.isfinite(square) else -square
-
-
-def ssim_of(measured: NDArray[np.floating], exact: NDArray[np.floating]) -> float:
-    """The structural similarity (Wang and others 2004) of pictures (H, W, 3) with values in [0, 1], by scikit-image with its Gaussian
-    window. ModuleNotFoundError where scikit-image is not installed."""
-    from skimage.metrics import structural_similarity
-
-    return float(
-        structural_similarity(  # type: ignore[no-untyped-call]
-            measured, exact, channel_axis=-1, data_range=1.0, gaussian_weights=True, sigma=1.5, use_sample_covariance=False
-        )
-    )
-
-
-def truth(scene: Scene, technique: Technique = ONE, bits: int = 8) -> Truth:
-    """The exact picture of the triangles as the technique snaps them, so that only the error of sampling remains. The last few are
-    cached."""
-    for cached_scene, grid, cached_bits, cached in _CACHE:
-        if cached_scene is scene and (grid, cached_bits) == (technique.grid, bits):
-            return cached
-    triangles = snapped_triangles(scene, technique, bits) / (SUBPIXELS * technique.grid)
-    image = scene.exact(triangles)
-    exact = Truth(image, scene.edge_pixels(triangles) if scene.edge_pixels is not None else partly_covered(image[..., 3]))
-    _CACHE.append((scene, technique.grid, bits, exact))
-    return exact
-
-
-_CACHE: deque[tuple[Scene, int, int, Truth]] = deque(maxlen=4)
-
-
-def point(scene: Scene, technique: Technique, bits: int = 8, ssim: bool = False) -> Point:
+def point(scene: Scene, technique: Technique, bits: int = 8, ssim: bool = False, flip: bool = False) -> Point:
     """A point without time, bytes, power and memory. Errors are of sampling alone."""
-    simulation, exact = simulate(scene, technique, bits), truth(scene, technique, bits)
-    colors = difference(simulation.image[..., :3], exact.image[..., :3])
-    differences = difference(simulation.coverage, exact.image[..., 3]) if simulation.coverage is not None else colors
-    edges = errors(differences[exact.edge_pixels])
-    displayed, displayed_exact = to_srgb(simulation.image[..., :3]), to_srgb(exact.image[..., :3])
-    return Point(
+    rendered = same_picture(scene, technique)
+    key = (rendered, bits, ssim, flip)
+    for cached_scene, cached_key, cached in _LAST:
+        if cached_scene is scene and cached_key == key:
+            measured = cached
+            break
+    else:
+        measured = _measure(scene, rendered, bits, ssim, flip)
+        _LAST[:] = [(scene, key, measured)]
+    return measured.point._replace(technique=technique, expected_invocations=invocations(measured.masks, technique))
+
+
+def same_picture(scene: Scene, technique: Technique) -> Technique:
+    """The technique to simulate: without a shader, sample shading gives the picture of multisampling."""
+    return Technique(MSAA, technique.samples) if technique.kind == SAMPLE_SHADING and scene.shade is None else technique
+
+
+def invocations(masks: NDArray[np.int64], technique: Technique) -> int:
+    """The fragment shader invocations of as many fragments of each sample mask: one for each group of samples with a covered sample."""
+    samples = len(masks).bit_length() - 1
+    numbers = np.arange(len(masks))
+    groups = shade.groups(samples, technique.shaded if technique.kind == SAMPLE_SHADING else 1)
+    return sum(int(masks[(numbers & bits) != 0].sum()) for bits in groups)
+
+
+class _Sums:
+    """The sums that the errors of a point are made of."""
+
+    def __init__(self, scene: Scene, keep: bool) -> None:
+        self.scene = scene
+        self.edges, self.all, self.light, self.shown = ErrorSum(), ErrorSum(), Sum(), Sum()
+        self.edge_pixels = 0
+        self.kept: list[tuple[displayed.Floats, displayed.Floats]] | None = [] if keep else None
+
+    def add(self, simulation: Simulation, exact: Truth) -> None:
+        """Adds a band; the displayed pictures are kept if they are needed as a whole."""
+        image, edge_pixels = exact
+        light = simulation.image[..., :3]
+        if simulation.coverage is not None:
+            differences = difference(simulation.coverage, image[..., 3])
+        else:
+            differences = difference(light, image[..., :3])
+        self.edges.add(differences[edge_pixels])
+        self.all.add(differences)
+        self.edge_pixels += int(np.count_nonzero(edge_pixels))
+        rounded = difference(light, image[..., :3].astype(np.float32))
+        self.light.add(rounded * rounded)
+        shown = self._shown(simulation.image, image)
+        self.shown.add(shown * shown)
+
+    def _shown(self, measured: displayed.Floats, exact: NDArray[np.float64]) -> NDArray[np.float64]:
+        """The difference of what the display shows."""
+        if self.kept is not None:
+            codes = displayed.display_codes(self.scene, measured), displayed.display_codes(self.scene, exact)
+            self.kept.append((codes[0][0], codes[1][0]))
+            return difference(*codes)
+        differences = np.zeros((*measured.shape[:-1], 3))
+        # Most pixels of a scene of coverage are inside or outside of shapes, and are not encoded.
+        differ = (measured != exact).any(axis=-1)
+        codes = displayed.display_codes(self.scene, measured[differ]), displayed.display_codes(self.scene, exact[differ])
+        differences[differ] = difference(*codes)
+        return differences
+
+    def pictures(self) -> tuple[displayed.Floats, displayed.Floats]:
+        """What the display shows of the measured and of the exact picture (H, W, 3)."""
+        measured, exact = zip(*(self.kept or []), strict=True)
+        return np.concatenate(measured), np.concatenate(exact)
+
+
+def _measure(scene: Scene, technique: Technique, bits: int, ssim: bool, flip: bool) -> _Measured:
+    simulator, sums = Simulator(scene, technique, bits), _Sums(scene, ssim or flip)
+    masks: NDArray[np.int64] = np.zeros(1 << simulator.samples, np.int64)
+    seconds = 0.0
+    for band in simulator.bands():
+        start = time.perf_counter()
+        triangles = simulator.snapped([band])
+        simulation = simulator.render([band], triangles)
+        seconds += time.perf_counter() - start
+        masks += simulation.masks
+        sums.add(simulation, scene.exact(triangles.view()))
+    edges = sums.edges.errors()
+    point = Point(
         scene=scene.name,
         technique=technique,
         width=scene.width,
         height=scene.height,
         rmse=edges.rmse,
-        rmse_all=errors(differences).rmse,
+        rmse_all=sums.all.errors().rmse,
         max_error=edges.greatest,
         bias=edges.bias,
-        psnr_db=psnr(simulation.image[..., :3], exact.image[..., :3].astype(np.float32)),
-        psnr_display_db=psnr(displayed, displayed_exact),
-        edge_pixels=int(np.count_nonzero(exact.edge_pixels)),
-        effects=simulation.effects,
-        ssim=ssim_of(displayed, displayed_exact) if ssim else None,
-        simulated_ms=simulation.milliseconds,
+        psnr_db=sums.light.psnr(),
+        psnr_display_db=sums.shown.psnr(),
+        edge_pixels=sums.edge_pixels,
+        effects=simulator.effect_names,
+        ssim=displayed.ssim(*sums.pictures()) if ssim else None,
+        flip=displayed.flip(*sums.pictures()) if flip else None,
+        flicker=flicker(scene, technique, bits),
+        simulated_ms=1000 * seconds,
+        stages=simulator.times.table(),
     )
+    return _Measured(point, masks)

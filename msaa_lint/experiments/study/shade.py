@@ -30,15 +30,20 @@ def positions(locations: Floats, sample_groups: tuple[int, ...]) -> Floats:
     return np.array([locations[[n for n in range(len(locations)) if bits >> n & 1]].mean(axis=0) for bits in sample_groups])
 
 
-def shade(scene: Scene, batch: Batch, at: Floats, grid: int, colors: NDArray[np.float32]) -> NDArray[np.float32]:
+def shade(
+    scene: Scene, batch: Batch, at: Floats, grid: int, colors: NDArray[np.float32], moved: Floats | None = None
+) -> NDArray[np.float32]:
     """The colors (F, G, 4) of a batch.
 
     `colors` are those of the triangles, used where the scene has no shader; `at` is positions(); the picture is rendered `grid` times as
-    wide and as high as the scene.
+    wide and as high as the scene, which has moved by `moved` (F, 2) pixels at each fragment.
     """
     if scene.shade is None:
-        return colors[batch.triangle][:, None]
+        return np.take(colors, batch.triangle, axis=0)[:, None]
     shaded = np.empty((len(batch.triangle), len(at), 4), np.float32)
     for number, (x, y) in enumerate(at):
-        shaded[:, number] = scene.shade(batch.triangle, (batch.x + x) / grid, (batch.y + y) / grid)
+        column, row = (batch.x + x) / grid, (batch.y + y) / grid
+        if moved is not None:
+            column, row = column - moved[:, 0], row - moved[:, 1]
+        shaded[:, number] = scene.shade(batch.triangle, column, row)
     return shaded

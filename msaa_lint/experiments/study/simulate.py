@@ -1,139 +1,169 @@
 """A scene rendered with a technique: coverage, the effects that the scene needs, and the resolve. Nothing else is computed or allocated.
 
-The picture is rendered in bands of rows so that memory besides the picture does not grow with its height. The fragments of a band go
-through the stages in batches of distinct pixels, in the order of the triangles.
+What is rendered are parts of the picture: bands of rows, so that memory does not grow with the picture, or windows anywhere, with the scene
+moved by fractions of a pixel. Parts of one size are rendered together, one below the other. The fragments go through the stages in batches
+of distinct pixels, in the order of the triangles.
 """
 
 from __future__ import annotations
 
-import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
+from itertools import pairwise
 from typing import NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from . import coverage, effects, fragments, locations, resolve, snap
+from . import coverage, effects, fragments, locations, resolve
 from .drawing import Band, Batch, Drawing, Floats, group_of, has_sample
-from .effects import Effect
 from .locations import SUBPIXELS
 from .points import SAMPLE_SHADING, SSAA, Technique
-from .scenes.scene import Scene
+from .scenes.scene import Part, Scene
 from .scenes.shapes import depth_planes
+from .scenes.view import Snapped, offsets, snapped
 from .shade import groups, positions, shade
+from .stage_times import StageTimes
 
 T = TypeVar("T", bound=np.generic)
 
 BAND_SAMPLES = 1 << 19
 """Approximate number of samples in a band: 8 MiB of color."""
 
+BAND_ROWS = 16
+"""The height of a band is a multiple of this where more rows fit: exact pictures are made of tiles of as many rows."""
+
+
+BATCH = 1 << 15
+"""Fragments that go through the stages at a time, at most."""
+
+LARGE_TRIANGLE = 256
+"""Average number of fragments from which triangles are worth looking at one by one."""
+
 
 class Simulation(NamedTuple):
-    """A resolved picture (H, W, 4) in linear color. `coverage` (H, W) is the share of samples that were drawn to, None for scenes without
-    coverage; `depth` (H, W) is resolved depth for scenes that need it. `effects` are the stages that ran; `milliseconds` is the time of the
-    simulation, which says nothing about a GPU."""
+    """Resolved parts of a picture (P, H, W, 4), or one whole picture (H, W, 4), in linear color. `coverage` (..., H, W) is the share of
+    samples that were drawn to, None for scenes without coverage; `depth` (..., H, W) is resolved depth for scenes that need it. `masks`
+    counts the fragments, before any test, by their sample masks. `effects` are the stages that ran."""
 
     image: Floats
     coverage: NDArray[np.float64] | None
     effects: tuple[str, ...]
     depth: Floats | None
-    milliseconds: float
+    masks: NDArray[np.int64]
 
 
-def snapped_triangles(scene: Scene, technique: Technique, bits: int = 8) -> NDArray[np.int64]:
-    """The scene's triangles (T, 3, 2) in subpixels of the picture that the technique renders, which is larger for SSAA."""
-    return snap.snapped(scene.triangles * technique.grid, bits)
+def simulate(scene: Scene, technique: Technique, bits: int = 8, part: Part | None = None) -> Simulation:
+    """The scene rendered with the technique, or a part of it, with corners snapped to 2^-bits pixels."""
+    simulator = Simulator(scene, technique, bits)
+    parts = [simulator.render([band]) for band in (simulator.bands() if part is None else [part])]
+    image, covered, depth = (
+        None if parts[0][column] is None else np.concatenate([np.asarray(each[column])[0] for each in parts]) for column in (0, 1, 3)
+    )
+    assert image is not None
+    return Simulation(image, covered, simulator.effect_names, depth, np.sum([each.masks for each in parts], axis=0))
 
 
-def simulate(scene: Scene, technique: Technique, bits: int = 8) -> Simulation:
-    """The scene rendered with the technique, with corners snapped to 2^-bits pixels."""
-    start = time.perf_counter()
-    renderer = _Renderer(scene, technique, bits)
-    height, width = scene.height, scene.width
-    image = np.empty((height, width, 4), np.float32)
-    covered = np.empty((height, width)) if scene.coverage_matter else None
-    depth = np.empty((height, width), np.float32) if renderer.has("depth-resolve") else None
-    for top, bottom, rows in renderer.bands():
-        band = renderer.band(bottom - top)
-        renderer.draw(band, rows, top * renderer.grid)
-        image[top:bottom] = renderer.color(band).reshape(-1, width, 4)
-        if covered is not None:
-            covered[top:bottom] = renderer.coverage(band).reshape(-1, width)
-        if depth is not None:
-            depth[top:bottom] = renderer.depth(band).reshape(-1, width)
-    return Simulation(image, covered, renderer.effect_names, depth, 1000 * (time.perf_counter() - start))
+class Simulator:
+    """Renders parts of the picture of a scene and a technique. `times` accumulates what the stages take."""
 
-
-class _Renderer:
-    """Everything that does not change from band to band of a scene and a technique."""
-
-    def __init__(self, scene: Scene, technique: Technique, bits: int) -> None:
-        self.scene = scene
+    def __init__(self, scene: Scene, technique: Technique, bits: int = 8) -> None:
+        self.scene, self.bits = scene, bits
         self.grid = technique.grid if technique.kind == SSAA else 1
         self.samples = 1 if technique.kind == SSAA else technique.samples
-        self.width = scene.width * self.grid
-        triangles = snapped_triangles(scene, technique, bits)
-        subpixel_locations = locations.standard(self.samples)
-        self.rows = coverage.rows(triangles, self.width, scene.height * self.grid, subpixel_locations)
+        self.sample_locations = locations.standard(self.samples)
         # Without a shader, every invocation gives the triangle's color.
         sample_shading = technique.kind == SAMPLE_SHADING and scene.shade is not None
         self.effects = effects.ordered((*scene.effects, effects.SAMPLE_SHADING) if sample_shading else scene.effects)
         self.effect_names = tuple(effect.name for effect in self.effects)
-        planes = depth_planes(triangles / SUBPIXELS, scene.depths) if self.has("depth-test") and scene.depths is not None else None
-        sample_groups = groups(self.samples, technique.shaded if sample_shading else 1)
-        pixel_locations = subpixel_locations.astype(np.float64) / SUBPIXELS
-        self.drawing = Drawing(self.samples, pixel_locations, sample_groups, scene.settings, planes)
-        self.shading_positions = positions(pixel_locations, sample_groups)
+        self.times = StageTimes(self.effect_names)
+        self.sample_groups = groups(self.samples, technique.shaded if sample_shading else 1)
+        self.pixel_locations = self.sample_locations.astype(np.float64) / SUBPIXELS
+        self.shading_positions = positions(self.pixel_locations, self.sample_groups)
         self.colors = scene.colors.astype(np.float32)
-        self.fragment_stages = [effect.fragment for effect in self.effects if effect.fragment is not None]
-        self.blend = next((effect.blend for effect in self.effects if effect.blend is not None), None)
+        self.fragment_stages = [(effect.name, effect.fragment) for effect in self.effects if effect.fragment is not None]
+        self.blend = next(((effect.name, effect.blend) for effect in self.effects if effect.blend is not None), None)
         self.store = self._store()
 
     def has(self, name: str) -> bool:
         """Whether the scene needs an effect."""
         return name in self.effect_names
 
-    def _store(self) -> Callable[[Floats], Floats] | None:
-        storing: list[Effect] = [effect for effect in self.effects if effect.store is not None]
+    def _store(self) -> tuple[str, Callable[[Floats], Floats]] | None:
+        storing: list[tuple[str, Callable[[Floats], Floats]]] = [
+            (effect.name, effect.store) for effect in self.effects if effect.store is not None
+        ]
         if len(storing) > 1:
-            raise ValueError(f"{' and '.join(effect.name for effect in storing)} exclude each other: a sample is stored in one format")
-        return storing[0].store if storing else None
+            raise ValueError(f"{' and '.join(name for name, _ in storing)} exclude each other: a sample is stored in one format")
+        return storing[0] if storing else None
 
-    def bands(self) -> Iterator[tuple[int, int, coverage.Rows]]:
-        """The first row and the end of each band of the resolved picture, and its covered rows."""
-        height = self.scene.height
-        step = max(BAND_SAMPLES // (self.width * self.grid * self.samples), 1)
-        number = self.rows.row // (step * self.grid)
-        order = np.argsort(number, kind="stable")
-        limits = np.searchsorted(number[order], np.arange(-(-height // step) + 1))
-        for place, top in enumerate(range(0, height, step)):
-            which = order[limits[place] : limits[place + 1]]
-            yield top, min(top + step, height), coverage.Rows(*(column[which] for column in self.rows))
+    def bands(self) -> Iterator[Part]:
+        """The picture in bands of rows."""
+        width, height = self.scene.width, self.scene.height
+        step = max(BAND_SAMPLES // (width * self.grid * self.grid * self.samples), 1)
+        if step > BAND_ROWS:
+            step -= step % BAND_ROWS
+        for top in range(0, height, step):
+            yield Part(0, top, width, min(step, height - top))
 
-    def band(self, rows: int) -> Band:
-        """The cleared samples of `rows` rows of the resolved picture."""
-        pixels = rows * self.grid * self.width
+    def snapped(self, parts: Sequence[Part]) -> Snapped:
+        """The triangles near parts of one size as the technique renders them."""
+        return snapped(self.scene, parts, self.grid, self.bits)
+
+    def render(self, parts: Sequence[Part], triangles: Snapped | None = None) -> Simulation:
+        """Parts of one size; `triangles` are snapped(parts)."""
+        if triangles is None:
+            triangles = self.snapped(parts)
+        size = len(parts), parts[0].height, parts[0].width
+        band, masks = self.band(size[0] * size[1] * size[2] * self.grid * self.grid), np.zeros(1 << self.samples, np.int64)
+        self._draw(band, triangles, masks)
+        image = self._color(band, size[2]).reshape(*size, 4)
+        covered = None if band.written is None else self._coverage(band.written, size[2]).reshape(size)
+        depth = self._depth(band, size[2]).reshape(size) if self.has("depth-resolve") else None
+        return Simulation(image, covered, self.effect_names, depth, masks)
+
+    def band(self, pixels: int) -> Band:
+        """Cleared samples."""
         color = np.empty((self.samples, pixels, 4), np.float32)
         background = np.asarray(self.scene.background, np.float32)
-        color[:] = background if self.store is None else self.store(background)
+        color[:] = background if self.store is None else self.store[1](background)
         depth = stencil = None
         if self.has("depth-test"):
-            clear = effects.clear_depth(self.drawing.settings.get("depth-test", "LESS"))
+            clear = effects.clear_depth(self.scene.settings.get("depth-test", "LESS"))
             depth = np.full((self.samples, pixels), clear, np.float32)
         if self.has("stencil"):
             stencil = np.zeros((self.samples, pixels), np.uint8)
         written = np.zeros(pixels, np.uint16) if self.scene.coverage_matter else None
         return Band(color, depth, stencil, written)
 
-    def draw(self, band: Band, rows: coverage.Rows, top: int) -> None:
-        """Draws the covered rows into a band whose first rendered row is `top`."""
+    def _draw(self, band: Band, triangles: Snapped, masks: NDArray[np.int64]) -> None:
+        """Draws triangles into the samples of their parts, which are one below the other, and counts the fragments by their masks."""
+        grid, parts = self.grid, triangles.parts
+        first = parts[0]
+        width, height = first.width * grid, first.height * grid
+        scene_to_stack = (offsets(parts) - (first.left, first.top)) * grid
+        corners = triangles.corners + scene_to_stack[triangles.part][:, None] * SUBPIXELS
+        rows_of = triangles.part[:, None] * height + (0, height)
+        rows = coverage.rows(corners, width, height * len(parts), self.sample_locations, limits=rows_of)
         drawn = fragments.fragments(rows, self.samples)
-        pixel = (drawn.y - top).astype(np.intp) * self.width + drawn.x
+        masks += np.bincount(drawn.mask, minlength=len(masks))
+        planes = None
+        if self.has("depth-test") and self.scene.depths is not None:
+            planes = depth_planes(triangles.corners / SUBPIXELS, self.scene.depths[triangles.triangle])
+        drawing = Drawing(self.samples, self.pixel_locations, self.sample_groups, self.scene.settings, planes)
+        motion = np.array([(part.dx, part.dy) for part in parts])
+        pixel = drawn.y.astype(np.intp) * width + drawn.x
+        number_of, in_scene = triangles.triangle.astype(np.int32), -scene_to_stack.astype(np.int32)
         for which in _batches(pixel, drawn.triangle):
-            batch = Batch(drawn.triangle[which], pixel[which], drawn.x[which], drawn.y[which], drawn.mask[which])
-            batch.color = shade(self.scene, batch, self.shading_positions, self.grid, self.colors)
-            for stage in self.fragment_stages:
-                stage(batch, band, self.drawing)
+            number = drawn.triangle[which]
+            shift = in_scene[0] if len(parts) == 1 else in_scene[triangles.part[number]].T
+            batch = Batch(number_of[number], pixel[which], drawn.x[which] + shift[0], drawn.y[which] + shift[1], drawn.mask[which])
+            batch.plane = number
+            moved = motion[triangles.part[number]] if motion.any() else None
+            with self.times.stage(effects.SAMPLE_SHADING):
+                batch.color = shade(self.scene, batch, self.shading_positions, grid, self.colors, moved)
+            for name, stage in self.fragment_stages:
+                with self.times.stage(name):
+                    stage(batch, band, drawing)
             self._write(batch, band)
 
     def _write(self, batch: Batch, band: Band) -> None:
@@ -145,48 +175,57 @@ class _Renderer:
             # Most fragments are inside shapes and have every sample: whole batches are then moved without indexing.
             drawn = slice(None) if mask.all() else mask
             pixels, plane = batch.pixel[drawn], _pack(band.color[sample])
-            texels = color[drawn, group_of(sample, self.drawing.groups) if per_group else 0]
+            texels = color[drawn, group_of(sample, self.sample_groups) if per_group else 0]
             if self.blend is not None:
-                texels = _pack(self.blend(_unpack(texels), _unpack(plane[pixels])))
+                with self.times.stage(self.blend[0]):
+                    texels = _pack(self.blend[1](_unpack(texels), _unpack(plane[pixels])))
             if self.store is not None:
-                texels = _pack(self.store(_unpack(texels)))
+                with self.times.stage(self.store[0]):
+                    texels = _pack(self.store[1](_unpack(texels)))
             plane[pixels] = texels
 
-    def color(self, band: Band) -> Floats:
-        """The resolved color of a band (P, 4), after any tone mapping."""
-        samples = self._per_pixel(band.color)
-        tone_mapping = self.scene.settings.get("tone-mapping", "after-resolve") if self.has("tone-mapping") else ""
+    def _color(self, band: Band, width: int) -> Floats:
+        """The resolved color of samples (P, 4), after any tone mapping."""
+        samples = self._per_pixel(band.color, width)
+        tone_mapping = str(self.scene.settings.get("tone-mapping", "after-resolve")) if self.has("tone-mapping") else ""
         encoded = self.has("srgb") and self.scene.settings.get("srgb") == "encoded"
         if tone_mapping == "before-resolve":
-            samples = resolve.tone_map(samples)
+            with self.times.stage("tone-mapping"):
+                samples = resolve.tone_map(samples)
         if encoded:
-            samples = resolve.encode(samples)
+            with self.times.stage("srgb"):
+                samples = resolve.encode(samples)
         color = resolve.weighted(samples) if tone_mapping == "weighted" else resolve.average(samples)
         if encoded:
-            color = resolve.decode(color)
+            with self.times.stage("srgb"):
+                color = resolve.decode(color)
         if self.store is not None:
-            color = self.store(color)
-        return resolve.tone_map(color) if tone_mapping in ("after-resolve", "weighted") else color
+            with self.times.stage(self.store[0]):
+                color = self.store[1](color)
+        if tone_mapping not in ("after-resolve", "weighted"):
+            return color
+        with self.times.stage("tone-mapping"):
+            return resolve.tone_map(color)
 
-    def coverage(self, band: Band) -> NDArray[np.float64]:
+    def _coverage(self, written: NDArray[np.uint16], width: int) -> NDArray[np.float64]:
         """The share of each pixel's samples that were drawn to (P,)."""
-        assert band.written is not None
-        counts = self._per_pixel(np.bitwise_count(band.written)[None, :, None])
+        counts = self._per_pixel(np.bitwise_count(written)[None, :, None], width)
         shares: NDArray[np.float64] = counts.sum(axis=0, dtype=np.int64)[..., 0] / (self.samples * self.grid * self.grid)
         return shares
 
-    def depth(self, band: Band) -> Floats:
-        """The resolved depth of a band (P,)."""
+    def _depth(self, band: Band, width: int) -> Floats:
+        """Resolved depth (P,)."""
         assert band.depth is not None
         mode = str(self.scene.settings.get("depth-resolve", "SAMPLE_ZERO"))
-        return resolve.resolve_depth(self._per_pixel(band.depth[..., None])[..., 0], mode)
+        with self.times.stage("depth-resolve"):
+            return resolve.resolve_depth(self._per_pixel(band.depth[..., None], width)[..., 0], mode)
 
-    def _per_pixel(self, samples: NDArray[T]) -> NDArray[T]:
+    def _per_pixel(self, samples: NDArray[T], width: int) -> NDArray[T]:
         """Rendered samples (N, P, C) as samples of the resolved picture: for SSAA the pixels of a block, row by row."""
         if self.grid == 1:
             return samples
         grid, channels = self.grid, samples.shape[-1]
-        blocks = samples.reshape(-1, grid, self.scene.width, grid, channels).transpose(1, 3, 0, 2, 4)
+        blocks = samples.reshape(-1, grid, width, grid, channels).transpose(1, 3, 0, 2, 4)
         return np.ascontiguousarray(blocks).reshape(grid * grid, -1, channels)
 
 
@@ -202,23 +241,38 @@ def _unpack(texels: NDArray[np.complex128]) -> Floats:
 
 
 def _batches(pixel: NDArray[np.intp], triangle: NDArray[np.int32]) -> Iterator[slice | NDArray[np.intp]]:
-    """Fragments in batches of distinct pixels: the first fragment of every pixel, then the second, and so on."""
+    """Fragments, ordered by triangle, in batches of distinct pixels that fit the cache; fragments of one pixel stay in order."""
     count = len(pixel)
     if not count:
         return
-    if triangle[0] == triangle[-1]:
-        yield slice(None)
+    starts = np.flatnonzero(np.concatenate(([True], triangle[1:] != triangle[:-1])))
+    if len(starts) * LARGE_TRIANGLE < count:
+        for start, end in _runs(pixel, np.append(starts, count)):
+            yield from (slice(first, min(first + BATCH, end)) for first in range(start, end, BATCH))
         return
     order = np.argsort(pixel, kind="stable")
     ordered_pixels = pixel[order]
     starts = np.flatnonzero(np.concatenate(([True], ordered_pixels[1:] != ordered_pixels[:-1])))
-    sizes = np.diff(np.append(starts, count))
     if len(starts) == count:
-        yield slice(None)
+        yield from (slice(start, start + BATCH) for start in range(0, count, BATCH))
         return
-    rank = np.arange(count) - np.repeat(starts, sizes)
+    # The first fragment of every pixel, then the second, and so on.
+    rank = np.arange(count) - np.repeat(starts, np.diff(np.append(starts, count)))
     by_rank = order[np.argsort(rank, kind="stable")]
-    start = 0
+    begin = 0
     for size in np.bincount(rank):
-        yield by_rank[start : start + size]
-        start += size
+        yield from (by_rank[start : min(start + BATCH, begin + size)] for start in range(begin, begin + size, BATCH))
+        begin += size
+
+
+def _runs(pixel: NDArray[np.intp], limits: NDArray[np.intp]) -> Iterator[tuple[int, int]]:
+    """The begins and ends of the longest runs of triangles, whose fragments begin and end at `limits`, that do not overlap."""
+    run_of = np.zeros(int(pixel.max()) + 1, np.int32)
+    number, begin = 1, 0
+    for start, end in pairwise(limits.tolist()):
+        pixels = pixel[start:end]
+        if (run_of[pixels] == number).any():
+            yield begin, start
+            number, begin = number + 1, start
+        run_of[pixels] = number
+    yield begin, int(limits[-1])

@@ -79,13 +79,13 @@ def test_what_a_scene_does_not_call_for_is_not_called(name: str, monkeypatch: py
 def test_what_a_scene_does_not_call_for_is_not_allocated(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     seen: list[Band] = []
     made = scenes.scene(name, 48, 48)
-    inner = simulate._Renderer.band
+    inner = simulate.Simulator.band
 
-    def band(renderer: simulate._Renderer, rows: int) -> Band:
-        seen.append(inner(renderer, rows))
+    def band(simulator: simulate.Simulator, pixels: int) -> Band:
+        seen.append(inner(simulator, pixels))
         return seen[-1]
 
-    monkeypatch.setattr(simulate._Renderer, "band", band)
+    monkeypatch.setattr(simulate.Simulator, "band", band)
     found = simulate.simulate(made, FOUR)
     assert found.effects == tuple(each.name for each in effects.ordered(made.effects))
     for each in seen:

@@ -9,9 +9,8 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from numpy.typing import NDArray
 
-from msaa_lint.experiments.study import measure, shade, simulate
+from msaa_lint.experiments.study import measure, shade, simulate, sums
 from msaa_lint.experiments.study.points import COUNTS, MSAA, SAMPLE_SHADING, SSAA, Technique
 from msaa_lint.experiments.study.scenes import area, scene, shapes
 from msaa_lint.experiments.study.scenes.scene import WHITE, Scene
@@ -24,7 +23,7 @@ def drawn(polygons: Sequence[Sequence[shapes.Point]], width: int, height: int, *
     """White polygons that do not overlap, on black."""
     made = shapes.triangles(polygons)
     colors = shapes.uniform_colors(len(made), WHITE)
-    exact = area.disjoint(colors, width, height)
+    exact = area.disjoint(colors)
     return Scene(width, height, made, colors, exact, name="polygons")._replace(**changed)  # type: ignore[arg-type]
 
 
@@ -97,51 +96,35 @@ def test_errors_are_of_the_snapped_corners(bits: int) -> None:
 
 @given(st.lists(st.integers(-(2**20), 2**20), max_size=200))
 def test_sums_of_whole_numbers_are_exact(numbers: list[int]) -> None:
-    assert measure.total(np.array(numbers, np.float32)) == sum(numbers)
+    assert sums.total(np.array(numbers, np.float32)) == sum(numbers)
 
 
 def test_sums_do_not_stop_where_single_precision_does() -> None:
     ones = np.ones((3, (2**24 + 5) // 3 + 1), np.float32)
     assert float(np.cumsum(ones.ravel(), dtype=np.float32)[-1]) == 2**24
-    assert measure.total(ones) == ones.size
+    assert sums.total(ones) == ones.size
 
 
 @pytest.mark.parametrize("shape", [(1_000_000, 3), (3, 1_000_000), (3_000_000,)])
 def test_sums_do_not_depend_on_the_shape(shape: tuple[int, ...]) -> None:
     values = np.resize(np.array([0.1, 1e6, 3e-7, 2.5]), 3_000_000)
-    assert measure.total(values.reshape(shape)) == measure.total(values)
-    assert measure.total(values) == pytest.approx(math.fsum(values), rel=1e-12)
+    assert sums.total(values.reshape(shape)) == sums.total(values)
+    assert sums.total(values) == pytest.approx(math.fsum(values), rel=1e-12)
 
 
 def test_infinity_and_nan_are_neither_hidden_nor_made() -> None:
     measured, exact = np.array([math.inf, 1.0, -math.inf]), np.array([math.inf, 0.5, -math.inf])
-    assert measure.difference(measured, exact).tolist() == [0.0, 0.5, 0.0]
-    assert measure.errors(measure.difference(np.array([math.inf]), np.array([1.0]))).rmse == math.inf
-    assert math.isnan(measure.errors(measure.difference(np.array([math.nan]), np.array([1.0]))).rmse)
-    assert measure.psnr(np.array([math.inf]), np.array([1.0])) == -math.inf
-    assert math.isnan(measure.psnr(np.array([math.nan]), np.array([1.0])))
-    assert math.isnan(measure.total(np.array([math.inf, -math.inf])))
+    assert sums.difference(measured, exact).tolist() == [0.0, 0.5, 0.0]
+    assert sums.errors(sums.difference(np.array([math.inf]), np.array([1.0]))).rmse == math.inf
+    assert math.isnan(sums.errors(sums.difference(np.array([math.nan]), np.array([1.0]))).rmse)
+    assert sums.psnr(np.array([math.inf]), np.array([1.0])) == -math.inf
+    assert math.isnan(sums.psnr(np.array([math.nan]), np.array([1.0])))
+    assert math.isnan(sums.total(np.array([math.inf, -math.inf])))
 
 
 def test_differences_are_made_in_double_precision() -> None:
     third = np.array([1 / 3], np.float32)
-    assert measure.difference(third, np.array([1 / 3]))[0] == float(third[0]) - 1 / 3
-
-
-def test_truths_are_remembered_by_scene_grid_and_bits() -> None:
-    calls = []
-    base = drawn([shapes.rectangle(0, 0, 32, 8.3)], 32, 32)
-
-    def exact(triangles: NDArray[np.float64]) -> NDArray[np.float64]:
-        calls.append(float(triangles.max()))
-        return base.exact(triangles)
-
-    made = base._replace(exact=exact)
-    for _ in range(2):
-        measure.truth(made)
-        measure.truth(made, bits=4)
-        measure.truth(made, Technique(SSAA, 4, grid=2))
-    assert len(calls) == 3
+    assert sums.difference(third, np.array([1 / 3]))[0] == float(third[0]) - 1 / 3
 
 
 @pytest.mark.parametrize(("samples", "invocations"), [(4, 1), (4, 2), (8, 3), (16, 16), (2, 2)])

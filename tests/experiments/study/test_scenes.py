@@ -14,11 +14,11 @@ from hypothesis import strategies as st
 from msaa_lint.experiments.study import coverage, locations, measure, scenes, snap
 from msaa_lint.experiments.study.effects import BY_NAME
 from msaa_lint.experiments.study.points import MSAA, SAMPLE_SHADING, SSAA, Technique
-from msaa_lint.experiments.study.scenes import depth, detail, edges, visible
+from msaa_lint.experiments.study.scenes import depth, detail, edges, view, visible
 from msaa_lint.experiments.study.scenes import mesh as own
 from msaa_lint.experiments.study.scenes.description import from_description
 from msaa_lint.experiments.study.scenes.mesh import from_mesh
-from msaa_lint.experiments.study.scenes.scene import Scene
+from msaa_lint.experiments.study.scenes.scene import Part, Scene
 from msaa_lint.experiments.study.simulate import simulate
 from tests.experiments.confirm.frames import frame
 from tests.experiments.study import spans
@@ -31,6 +31,11 @@ SAMPLED = [name for name in scenes.NAMES if name not in ("hdr-emitter", "hdr-emi
 """Scenes whose picture many samples give. The others are there to show what does not."""
 
 
+def exact_picture(made: Scene) -> np.ndarray:
+    """The exact picture of the triangles as they are, not snapped."""
+    return made.exact(view.whole(made)).image[0]
+
+
 @pytest.mark.parametrize("name", scenes.NAMES)
 def test_a_scene_says_what_it_is_and_why_it_calls_for_what(name: str) -> None:
     made = scenes.scene(name, 96, 64)
@@ -40,7 +45,7 @@ def test_a_scene_says_what_it_is_and_why_it_calls_for_what(name: str) -> None:
     assert made.triangles.shape == (len(made.colors), 3, 2) and np.isfinite(made.triangles).all()
     assert (made.depths is not None) == ("depth-test" in made.effects)
     assert set(made.settings) <= set(made.effects)
-    exact = made.exact(made.triangles)
+    exact = exact_picture(made)
     assert exact.shape == (64, 96, 4) and exact.min() >= 0 and exact[..., 3].max() <= 1 + 1e-12
     truth = measure.truth(made)
     assert truth.edge_pixels.shape == (64, 96) and truth.edge_pixels.any()
@@ -172,12 +177,12 @@ def test_detail_beyond_pixels_is_averaged_exactly() -> None:
     made = detail.zone_plate(40, 36)
     assert made.shade is not None
     places = (np.arange(60) + 0.5) / 60
-    exact = made.exact(made.triangles)
+    exact = exact_picture(made)
     for x, y in ((0, 0), (19, 17), (39, 35), (3, 30)):
         across, down = (each.ravel() for each in np.meshgrid(x + places, y + places))
         mean = made.shade(np.zeros(3600, np.int32), across, down).mean(axis=0)
         assert exact[y, x] == pytest.approx(mean, abs=2e-4)
-    mapped = detail.zone_plate(40, 36, lambda color: color * 0.5).exact(made.triangles)
+    mapped = exact_picture(detail.zone_plate(40, 36, lambda color: color * 0.5))
     assert mapped == pytest.approx(exact * 0.5, abs=1e-9)
 
 
@@ -186,9 +191,10 @@ def squares(depths: tuple[list[float], list[float]], look: visible.Visibility) -
     corners = [[[0, 0], [4, 0], [4, 4]], [[0, 0], [4, 4], [0, 4]], [[2, 0], [6, 0], [6, 4]], [[2, 0], [6, 4], [2, 4]]]
     colors = np.array([[1, 0, 0, 0.5]] * 2 + [[0, 1, 0, 0.5]] * 2)
     given = np.array([[a, b, c] for own in depths for a, b, c in ([own[0], own[1], own[2]], [own[0], own[2], own[3]])])
-    exact, crossed = visible.overlapping(colors, given if look.depth else None, 8, 4, look)
-    triangles = np.array(corners, np.float64)
-    return exact(triangles), crossed(triangles)
+    exact = visible.overlapping(colors, given if look.depth else None, 8, 4, look)
+    made = Scene(8, 4, np.array(corners, np.float64), colors, exact)
+    picture, crossed = exact(view.whole(made))
+    return picture[0], crossed[0]
 
 
 def test_what_is_drawn_last_is_seen_without_depth() -> None:
@@ -229,8 +235,10 @@ def test_pieces_of_any_triangles_fill_the_picture_once(corners: list[tuple[int, 
     draws = np.random.default_rng(seed)
     colors = np.concatenate([draws.random((len(triangles), 3)), np.ones((len(triangles), 1))], axis=1)
     depths = draws.random((len(triangles), 3))
-    found = visible.tiles(triangles, colors, depths, (20, 18), visible.Visibility(depth=True))
-    assert sum(abs(visible.signed_area(piece.polygon)) for _, _, pieces in found for piece in pieces) == pytest.approx(20 * 18, abs=1e-6)
+    numbers = np.arange(len(triangles))
+    whole = view.View([Part(0, 0, 20, 18)], numbers, np.zeros_like(numbers), triangles)
+    found = visible.tiles(whole, colors, depths, (20, 18), visible.Visibility(depth=True))
+    assert sum(abs(visible.signed_area(piece.polygon)) for tile in found for piece in tile.regions) == pytest.approx(20 * 18, abs=1e-6)
 
 
 OBJ = "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 0 1 0\nf 1 2 3 4\n"
@@ -251,7 +259,7 @@ def test_a_flat_mesh_is_white_and_fills_the_picture_upright(tmp_path: Path, name
     text = OBJ if "obj" in name.lower() else PLY.format(colors="", vertices="0 0 0\n2 0 0\n2 1 0\n0 1 0\n")
     made = from_mesh(written(tmp_path, name, text), 66, 64)
     assert (made.name, made.effects, made.coverage_matter, made.depths) == (name, (), True, None)
-    exact = made.exact(made.triangles)[..., 3]
+    exact = exact_picture(made)[..., 3]
     assert exact.sum() == pytest.approx(64 * 32)
     assert exact[16:48, 1:65] == pytest.approx(1)
     assert measure.point(made, Technique(MSAA, 4)).rmse == 0
@@ -259,7 +267,7 @@ def test_a_flat_mesh_is_white_and_fills_the_picture_upright(tmp_path: Path, name
 
 def test_up_in_the_file_is_up_in_the_picture(tmp_path: Path) -> None:
     made = from_mesh(written(tmp_path, "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), 64, 64)
-    exact = made.exact(made.triangles)[..., 3]
+    exact = exact_picture(made)[..., 3]
     assert exact[5, 2] == exact[60, 50] == 1 and exact[5, 50] == 0
 
 
@@ -357,7 +365,7 @@ def test_the_comparisons_of_small_triangles_grow_with_their_number(tmp_path: Pat
     monkeypatch.undo()
     monkeypatch.setattr(visible, "MAX_IN_CELL", 300)
     whole = from_mesh(path, 32, 32)
-    assert quartered.exact(quartered.triangles) == pytest.approx(whole.exact(whole.triangles), abs=1e-9)
+    assert exact_picture(quartered) == pytest.approx(exact_picture(whole), abs=1e-9)
 
 
 def test_a_mesh_opens_no_other_file(tmp_path: Path) -> None:
@@ -484,9 +492,9 @@ def test_a_description_needs_room_for_all_that_it_calls_for() -> None:
 def test_brightness_is_the_peak_that_is_stated() -> None:
     made = from_description(frame("scene: {color: HDR, peak: 16, toneMapping: NONE}\n"), 64, 64)
     assert made.colors.max() == 16
-    assert made.exact(made.triangles)[..., 0].max() == pytest.approx(16)
+    assert exact_picture(made)[..., 0].max() == pytest.approx(16)
     shown = from_description(frame("scene: {color: HDR, peak: 16}\n"), 64, 64)
-    assert shown.exact(shown.triangles)[..., 0].max() == pytest.approx(16 / 17)
+    assert exact_picture(shown)[..., 0].max() == pytest.approx(16 / 17)
     assert math.isclose(from_description(frame("scene: {peak: 16}\n"), 64, 64).colors.max(), 1.0)
 
 

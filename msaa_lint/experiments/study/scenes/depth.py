@@ -40,10 +40,10 @@ def _intersecting(width: int, height: int, depths: tuple[float, float], greater:
     depths_stored = nearness_values if greater else 1 - nearness_values
     comparison = "GREATER" if greater else "LESS"
     # The exact picture has the intersection itself, before any rounding of depth: it uses the nearness.
-    pictures = visible.overlapping(corner_colors, nearness_values, width, height, visible.Visibility(depth=True, reversed=True), display)
+    exact = visible.overlapping(corner_colors, nearness_values, width, height, visible.Visibility(depth=True, reversed=True), display)
     why = {"depth-test": f"surfaces intersect; {'reversed' if greater else 'standard'} depth, {comparison}"}
     settings = {"depth-test": comparison}
-    return Scene(width, height, triangles, corner_colors, *pictures, False, depths_stored, ("depth-test",), why, settings)
+    return Scene(width, height, triangles, corner_colors, exact, False, depths_stored, ("depth-test",), why, settings)
 
 
 def intersecting(width: int, height: int, display: Display | None = None) -> Scene:
@@ -75,16 +75,15 @@ def silhouette(width: int, height: int) -> Scene:
     depths[:2] = 0.75
     colors = shapes.uniform_colors(len(triangles), WHITE)
     colors[:2] = BLACK
-    exact = area.disjoint(colors[2:], width, height)
+    exact = area.disjoint(colors, covered=False)
     why = {
         "depth-test": "the disc is in front of the wall",
         "depth-resolve": "a later pass reads one depth per pixel and needs that of a surface: SAMPLE_ZERO",
     }
-    edge_pixels = area.edges_between(colors[2:], width, height)
+    settings = {"depth-test": "LESS", "depth-resolve": "SAMPLE_ZERO"}
     return Scene(
-        width, height, triangles, colors, lambda triangles: exact(triangles[2:]), lambda triangles: edge_pixels(triangles[2:]), False,
-        depths, tuple(why), why, {"depth-test": "LESS", "depth-resolve": "SAMPLE_ZERO"},
-    )  # fmt: skip
+        width, height, triangles, colors, lambda view: exact(view.only(view.triangle >= 2)), False, depths, tuple(why), why, settings
+    )
 
 
 def portal(width: int, height: int) -> Scene:
@@ -98,8 +97,8 @@ def portal(width: int, height: int) -> Scene:
     triangles = np.concatenate([marks, shapes.triangles([shapes.rectangle(0, 0, width, height)])])
     colors = shapes.uniform_colors(len(triangles), WHITE)
     count = len(marks)
-    exact = area.disjoint(colors[:count], width, height)
+    exact = area.disjoint(colors)
     why = {"stencil": "the wall is drawn only on the samples that a window marked"}
     settings = {"stencil": (0, count, len(triangles))}
-    scene = Scene(width, height, triangles, colors, lambda triangles: exact(triangles[:count]))
+    scene = Scene(width, height, triangles, colors, lambda view: exact(view.only(view.triangle < count)))
     return scene._replace(effects=("stencil",), why=why, settings=settings)

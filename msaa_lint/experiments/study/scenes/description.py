@@ -20,6 +20,7 @@ from msaa_lint.frame.facts.frame import Frame
 from . import area, depth, detail, edges, light
 from .scene import MIN_SIZE, Scene
 from .side_by_side import side_by_side
+from .view import Truth, View
 
 SMALL = 256.0
 """Triangles of at most so many pixels are shown as a mesh of them: their inner edges are everywhere."""
@@ -244,9 +245,9 @@ def _with_peak(scene: Scene, peak: float, display: light.Display | None) -> Scen
     color = np.array([peak, peak, peak, 1.0])
     displayed = color if display is None else display(color)
 
-    def exact(triangles: light.Floats) -> light.Floats:
-        picture: light.Floats = scene.exact(triangles)[..., 3:] * displayed
-        return picture
+    def exact(view: View) -> Truth:
+        truth = scene.exact(view)
+        return Truth(truth.image[..., 3:] * displayed, area.partly_covered(truth.image[..., 3] * displayed[3]))
 
     return scene._replace(colors=scene.colors * color, exact=exact)
 
@@ -255,4 +256,4 @@ def _colored(scene: Scene, peak: float, display: light.Display | None) -> Scene:
     """A scene of disjoint triangles that fill the picture, with `peak` times the brightness."""
     colors = scene.colors * np.array([peak, peak, peak, 1.0])
     displayed = colors if display is None else display(colors)
-    return scene._replace(colors=colors, exact=area.disjoint(displayed, scene.width, scene.height))
+    return scene._replace(colors=colors, exact=area.disjoint(displayed, covered=False))

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
-from msaa_lint.experiments.study.exact_area import areas_of
-
 from . import shapes
+from .area import partly_covered
 from .light import Display
 from .scene import WHITE, Scene
+from .view import Truth, View, areas_in
 
 Floats = NDArray[np.float64]
 
@@ -28,38 +29,58 @@ def zone_plate(width: int, height: int, display: Display | None = None) -> Scene
 
     def shade(triangle: NDArray[np.int32], x: Floats, y: Floats) -> Floats:
         value = 0.5 + 0.5 * np.cos(k * ((x - x0) ** 2 + (y - y0) ** 2))
-        return np.stack([value, value, value, np.ones_like(value)], axis=-1)
+        color = np.ones((*value.shape, 4))
+        color[..., :3] = value[..., None]
+        return color
 
-    def displayed(triangles: Floats) -> Floats:
-        nodes, weights = np.polynomial.legendre.leggauss(12)
-        picture = np.zeros((height, width, 4))
-        rows, columns = np.arange(height)[:, None], np.arange(width)[None, :]
-        for offset_y, weight_y in zip((nodes + 1) / 2, weights / 2, strict=True):
-            for offset_x, weight_x in zip((nodes + 1) / 2, weights / 2, strict=True):
-                assert display is not None
-                picture += weight_y * weight_x * display(shade(np.empty(0, np.int32), columns + offset_x, rows + offset_y))
-        return picture
-
-    def exact(triangles: Floats) -> Floats:
+    def exact(view: View) -> Truth:
+        across, wave_x = _wave(k, [(part.left, part.dx) for part in view.parts], view.parts[0].width, width)
+        down, wave_y = _wave(k, [(part.top, part.dy) for part in view.parts], view.parts[0].height, height)
+        area = down[:, :, None] * across[:, None, :]
         # cos(k (x^2 + y^2)) is the real part of the product of a function of x and one of y, and so is its integral over a pixel.
-        waves = np.outer(_wave(k, y0, height), _wave(k, x0, width))
-        picture = np.ones((height, width, 4))
-        picture[..., :3] = (0.5 + 0.5 * waves.real)[..., None]
-        return picture
+        waves = wave_y[:, :, None] * wave_x[:, None, :]
+        picture = np.empty((*area.shape, 4))
+        picture[..., :3] = (0.5 * area + 0.5 * waves.real)[..., None]
+        picture[..., 3] = area
+        return Truth(picture, area > 0)
 
-    def edge_pixels(triangles: Floats) -> NDArray[np.bool_]:
-        return np.ones((height, width), bool)
+    def displayed(view: View) -> Truth:
+        nodes, weights = np.polynomial.legendre.leggauss(12)
+        pictures = []
+        for left, top, columns, rows, dx, dy in view.parts:
+            (x, widths), (y, heights) = _clipped(left - dx, columns, width), _clipped(top - dy, rows, height)
+            picture = np.zeros((rows, columns, 4))
+            for offset_y, weight_y in zip((nodes + 1) / 2, weights / 2, strict=True):
+                for offset_x, weight_x in zip((nodes + 1) / 2, weights / 2, strict=True):
+                    assert display is not None
+                    points = x + widths * offset_x, (y + heights * offset_y)[:, None]
+                    picture += weight_y * weight_x * display(shade(np.empty(0, np.int32), *points))
+            pictures.append(picture * (heights[:, None] * widths)[..., None])
+        image = np.stack(pictures)
+        return Truth(image, image[..., 3] > 0)
 
     colors = shapes.uniform_colors(len(triangles), WHITE)
-    return Scene(width, height, triangles, colors, exact if display is None else displayed, edge_pixels, False, shade=shade)
+    return Scene(width, height, triangles, colors, exact if display is None else displayed, False, shade=shade)
 
 
-def _wave(k: float, center: float, count: int) -> NDArray[np.complex128]:
-    """The integral of exp(i k (t - center)^2) over each of `count` pixels, by Gauss-Legendre quadrature of 24 points: the phase makes fewer
-    than 4 turns within a pixel, so that the result is accurate to double precision."""
+def _clipped(start: float, count: int, end: int) -> tuple[Floats, Floats]:
+    """The begin and the length of the part of each of `count` pixels from `start` on that lies between 0 and `end`."""
+    edges = np.clip(start + np.arange(count + 1), 0, end)
+    return edges[:-1], np.diff(edges)
+
+
+def _wave(k: float, starts: Sequence[tuple[int, float]], count: int, end: int) -> tuple[Floats, NDArray[np.complex128]]:
+    """Of `count` pixels from each start on (a column, and how far the picture has moved): the length that lies between 0 and `end`, and the
+    integral of exp(i k (t - end / 2)^2) over it, each (P, count).
+
+    By Gauss-Legendre quadrature of 24 points: the phase makes fewer than 4 turns within a pixel, so that the result is accurate to double
+    precision.
+    """
     nodes, weights = np.polynomial.legendre.leggauss(24)
-    points = np.arange(count)[:, None] + (nodes + 1) / 2
-    return np.asarray(np.exp(1j * k * (points - center) ** 2) @ (weights / 2))
+    clipped = [_clipped(start - moved, count, end) for start, moved in starts]
+    begins, lengths = (np.stack(column) for column in zip(*clipped, strict=True))
+    points = begins[..., None] + lengths[..., None] * ((nodes + 1) / 2)
+    return lengths, lengths * (np.exp(1j * k * (points - end / 2) ** 2) @ (weights / 2))
 
 
 LEAF = (0.0, 35.0, 68.0, 180.0, 292.0, 325.0)
@@ -92,21 +113,29 @@ def _foliage(width: int, height: int, effect: str, why: str, settings: dict[str,
         cards.append(shapes.rectangle(left - 1.0, top - 1.0, right + 1.0, bottom + 1.0))
     card_triangles = shapes.triangles(cards)
     corners = np.array(leaves)
-    sides = np.roll(corners, -1, axis=1) - corners
-    lengths = np.hypot(sides[..., 0], sides[..., 1])
+    directions = np.roll(corners, -1, axis=1) - corners
+    # The sides of leaves: x and y of the direction and of the corner, and the length, each by side and leaf.
+    sides = np.ascontiguousarray(np.concatenate([directions, corners, np.hypot(*directions.T).T[..., None]], axis=-1).T)
 
     def shade(triangle: NDArray[np.int32], x: Floats, y: Floats) -> Floats:
         leaf = triangle // 2
         inside = np.full(len(leaf), np.inf)
-        for side in range(corners.shape[1]):
-            (dx, dy), (px, py) = sides[leaf, side].T, corners[leaf, side].T
-            inside = np.minimum(inside, (dx * (y - py) - dy * (x - px)) / lengths[leaf, side])
-        alpha = np.clip(inside + 0.5, 0, 1)
-        one = np.ones_like(alpha)
-        return np.stack([one, one, one, alpha], axis=-1)
+        for side in sides.swapaxes(0, 1):
+            dx, dy, px, py, length = np.take(side, leaf, axis=1)
+            inside = np.minimum(inside, (dx * (y - py) - dy * (x - px)) / length)
+        color = np.ones((len(leaf), 4))
+        color[:, 3] = np.clip(inside + 0.5, 0, 1)
+        return color
 
-    def exact(triangles: Floats) -> Floats:
-        return np.repeat(areas_of(shapes.triangles(leaves), width, height)[..., None], 4, axis=2)
+    leaf_triangles = shapes.triangles(leaves).reshape(len(leaves), -1, 3, 2)
+
+    def exact(view: View) -> Truth:
+        # Both triangles of a card, or one of them, are near a part.
+        part, leaf = np.unique(np.stack((view.part, view.triangle // 2)), axis=1)
+        motion = np.array([(each.dx, each.dy) for each in view.parts])
+        corners = leaf_triangles[leaf] + motion[part][:, None, None]
+        area = areas_in(view.parts, np.repeat(part, corners.shape[1]), corners.reshape(-1, 3, 2))
+        return Truth(np.repeat(area[..., None], 4, axis=-1), partly_covered(area))
 
     colors = shapes.uniform_colors(len(card_triangles), WHITE)
     scene = Scene(width, height, card_triangles, colors, exact, shade=shade)

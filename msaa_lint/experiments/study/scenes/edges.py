@@ -16,8 +16,7 @@ def _white(polygons: list[list[shapes.Point]], width: int, height: int) -> Scene
     """White shapes that do not overlap, on black: a scene of coverage alone."""
     white_triangles = shapes.triangles(polygons)
     colors = shapes.uniform_colors(len(white_triangles), WHITE)
-    exact = area.disjoint(colors, width, height)
-    return Scene(width, height, white_triangles, colors, exact)
+    return Scene(width, height, white_triangles, colors, area.disjoint(colors))
 
 
 def edge_fan(width: int, height: int) -> Scene:
@@ -105,6 +104,5 @@ def mesh(width: int, height: int, side: float = 12) -> Scene:
                 number = 4 * half + 2 * (row % 2) + column % 2
                 colors.append([shapes.spread(number, 0.2), shapes.spread(number * 5, 0.7), shapes.spread(number * 11, 0.4), 1.0])
     mesh_triangles, mesh_colors = shapes.triangles(squares), np.array(colors)
-    exact = area.disjoint(mesh_colors, width, height)
-    edge_pixels = area.edges_between(mesh_colors, width, height)
-    return Scene(width, height, mesh_triangles, mesh_colors, exact, edge_pixels, coverage_matter=False)
+    exact = area.disjoint(mesh_colors, covered=False)
+    return Scene(width, height, mesh_triangles, mesh_colors, exact, coverage_matter=False)

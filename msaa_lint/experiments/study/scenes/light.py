@@ -49,10 +49,8 @@ def _emitter(width: int, height: int, place: str) -> Scene:
             "weighted": "samples are averaged with weights of 1 / (1 + luma), then mapped",
         }[place],
     }
-    displayed_colors = display(colors)
-    exact = area.disjoint(displayed_colors, width, height)
-    edge_pixels = area.edges_between(displayed_colors, width, height)
-    return Scene(width, height, triangles, colors, exact, edge_pixels, False, None, tuple(why), why, {"tone-mapping": place})
+    exact = area.disjoint(display(colors), covered=False)
+    return Scene(width, height, triangles, colors, exact, False, None, tuple(why), why, {"tone-mapping": place})
 
 
 def emitter(width: int, height: int) -> Scene:
@@ -84,6 +82,6 @@ def glass(width: int, height: int, display: Display | None = None) -> Scene:
         alpha = 0.25 + 0.5 * shapes.spread(number, 0.8)
         tints += [(shapes.spread(number, 0.9), shapes.spread(number, 0.2), shapes.spread(number, 0.6), alpha)] * 3
     triangles, colors = shapes.triangles(panes), np.array(tints)
-    pictures = visible.overlapping(colors, None, width, height, visible.Visibility(blended=True), display)
+    exact = visible.overlapping(colors, None, width, height, visible.Visibility(blended=True), display)
     why = {"blending": "the panes are transparent"}
-    return Scene(width, height, triangles, colors, *pictures, False, None, ("blending",), why)
+    return Scene(width, height, triangles, colors, exact, False, None, ("blending",), why)

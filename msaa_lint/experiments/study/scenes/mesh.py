@@ -23,6 +23,7 @@ from msaa_lint.experiments.study.snap import snapped
 
 from . import area, shapes, visible
 from .scene import WHITE, Scene, check_size
+from .view import whole
 
 Floats = NDArray[np.float64]
 
@@ -63,13 +64,13 @@ def from_mesh(path: str, width: int, height: int) -> Scene:
     name, description = os.path.basename(path), f"{len(triangles)} triangles from a file"
     if flat and mesh_colors is None and areas_of(triangles, width, height).max() <= 1 + area.TOLERANCE:
         colors = shapes.uniform_colors(len(triangles), WHITE)
-        return Scene(width, height, triangles, colors, area.disjoint(colors, width, height), name=name, description=description)
+        return Scene(width, height, triangles, colors, area.disjoint(colors), name=name, description=description)
     colors = mesh_colors if mesh_colors is not None else _grays(corners)
     depths = 0.01 + 0.98 * (high[2] - corners[..., 2]) / size[2] if not flat else None
-    pictures = visible.overlapping(colors, depths, width, height, visible.Visibility(depth=not flat))
+    exact = visible.overlapping(colors, depths, width, height, visible.Visibility(depth=not flat))
+    scene = Scene(width, height, triangles, colors, exact, False, depths, name=name, description=description)
     # The picture that the points are compared with is computed now, so that its limit is an error of the mesh, not of each point.
-    pictures[0](snapped(triangles) / SUBPIXELS)
-    scene = Scene(width, height, triangles, colors, *pictures, False, depths, name=name, description=description)
+    exact(whole(scene, snapped(triangles) / SUBPIXELS))
     if flat:
         return scene
     why = {"depth-test": "the mesh has triangles at different depths"}

@@ -13,11 +13,10 @@ if TYPE_CHECKING:
     Shade = Callable[[NDArray[np.int32], Floats, Floats], Floats]
     """Triangle indices, x and y in pixels (F,) to linear RGBA (F, 4)."""
 
-    Exact = Callable[[Floats], Floats]
-    """Snapped triangles (T, 3, 2) in pixels to the exact picture (H, W, 4) in linear color."""
+    from .view import Truth, View
 
-    EdgePixels = Callable[[Floats], NDArray[np.bool_]]
-    """Snapped triangles (T, 3, 2) in pixels to the pixels (H, W) that an edge crosses."""
+    Exact = Callable[[View], Truth]
+    """Snapped triangles near some parts of the picture to the exact picture of these parts."""
 
 RGBA = tuple[float, float, float, float]
 BLACK: RGBA = (0.0, 0.0, 0.0, 0.0)
@@ -27,14 +26,26 @@ MIN_SIZE = 32
 """Minimum width and height of a picture, in pixels."""
 
 
+class Part(NamedTuple):
+    """A window of a picture: its left column, its top row, its width and its height in pixels, where the scene has moved by (dx, dy)
+    pixels. What belongs to the screen (sample locations, dithering) has not moved."""
+
+    left: int
+    top: int
+    width: int
+    height: int
+    dx: float = 0.0
+    dy: float = 0.0
+
+
 class Scene(NamedTuple):
     """A picture to render. Coordinates are pixels, x to the right and y down; colors are linear, 1.0 is display white.
 
     `depths` are those of the triangles' corners, in [0, 1]; None without depth. `effects` names the stages that the scene needs
     (study/effects.py), `why` gives the reason for each, and `settings` the choices. `shade` gives the color at a point; None where each
-    triangle has a single color. `exact` gives the picture without sampling error, as an infinite number of samples would, after any tone
-    mapping. With `coverage_matter` its alpha is the exact coverage and errors are of coverage, otherwise of color. `edge_pixels` gives the
-    pixels that an edge crosses, by default those with a coverage between 0 and 1.
+    triangle has a single color. `exact` gives parts of the picture without sampling error, as an infinite number of samples would, after
+    any tone mapping, and the pixels that an edge crosses. With `coverage_matter` its alpha is the exact coverage and errors are of
+    coverage, otherwise of color.
     """
 
     width: int
@@ -42,7 +53,6 @@ class Scene(NamedTuple):
     triangles: Floats
     colors: Floats
     exact: Exact
-    edge_pixels: EdgePixels | None = None
     coverage_matter: bool = True
     depths: Floats | None = None
     effects: tuple[str, ...] = ()

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from .area import partly_covered
 from .scene import Scene
+from .view import Truth, View
 
 Floats = NDArray[np.float64]
 
@@ -34,20 +34,15 @@ def side_by_side(parts: Sequence[Scene], width: int, height: int) -> Scene:
         greater = str(settings.get("depth-test", "LESS")).startswith("GREATER")
         depths = np.concatenate([_depths_in_order(part, greater) if part.depths is None else part.depths for part in parts])
 
-    def split(whole: Floats) -> list[tuple[Scene, Floats]]:
-        return [(part, whole[firsts[n] : firsts[n + 1]] - (lefts[n], 0)) for n, part in enumerate(parts)]
-
-    def exact(whole: Floats) -> Floats:
-        picture = np.zeros((height, width, 4))
-        for (part, triangles), left in zip(split(whole), lefts, strict=False):
-            picture[:, left : left + part.width] = part.exact(triangles)
-        return picture
-
-    def edge_pixels(whole: Floats) -> NDArray[np.bool_]:
-        edges = np.zeros((height, width), bool)
-        for (part, triangles), left in zip(split(whole), lefts, strict=False):
-            edges[:, left : left + part.width] = _edge_pixels(part, triangles)
-        return edges
+    def exact(view: View) -> Truth:
+        window = view.parts[0]
+        size = (len(view.parts), window.height, window.width)
+        truth = Truth(np.zeros((*size, 4)), np.zeros(size, bool))
+        for number, part in enumerate(parts):
+            own = (view.triangle >= firsts[number]) & (view.triangle < firsts[number + 1])
+            if own.any():
+                _add(truth, part, view.only(own), firsts[number], int(lefts[number]))
+        return truth
 
     def shade(triangle: NDArray[np.int32], x: Floats, y: Floats) -> Floats:
         shaded = colors[triangle]
@@ -59,7 +54,7 @@ def side_by_side(parts: Sequence[Scene], width: int, height: int) -> Scene:
 
     shader = shade if any(part.shade is not None for part in parts) else None
     coverage = all(part.coverage_matter for part in parts)
-    return Scene(width, height, triangles, colors, exact, edge_pixels, coverage, depths, effects, why, settings, shader)
+    return Scene(width, height, triangles, colors, exact, coverage, depths, effects, why, settings, shader)
 
 
 def _depths_in_order(part: Scene, greater: bool) -> Floats:
@@ -68,5 +63,10 @@ def _depths_in_order(part: Scene, greater: bool) -> Floats:
     return np.repeat((nearer if greater else 1 - nearer)[:, None], 3, axis=1)
 
 
-def _edge_pixels(part: Scene, triangles: Floats) -> NDArray[np.bool_]:
-    return part.edge_pixels(triangles) if part.edge_pixels is not None else partly_covered(part.exact(triangles)[..., 3])
+def _add(truth: Truth, scene: Scene, view: View, first: int, left: int) -> None:
+    """Adds one of the scenes to the exact picture of some parts; its first triangle is `first`, and it begins at column `left`. What of it
+    moves beyond its columns is added to what is there."""
+    parts = [part._replace(left=part.left - left) for part in view.parts]
+    exact = scene.exact(View(parts, view.triangle - first, view.part, view.corners - (left, 0)))
+    truth.image[...] += exact.image
+    truth.edge_pixels[...] |= exact.edge_pixels

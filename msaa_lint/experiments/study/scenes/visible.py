@@ -7,7 +7,7 @@ inside it and the rest. Inside, a depth test divides the part once more along th
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -16,8 +16,9 @@ from numpy.typing import NDArray
 from msaa_lint.experiments.study.exact_area import areas_of
 
 from .area import TOLERANCE
-from .scene import BLACK
+from .scene import BLACK, Part
 from .shapes import Point, depth_planes, fan, rectangle
+from .view import Truth, View
 
 Floats = NDArray[np.float64]
 Polygon = list[Point]
@@ -180,25 +181,35 @@ def _halves(start: int, end: int) -> list[tuple[int, int]]:
     return [(start, middle), (middle, end)] if start < middle else [(start, end)]
 
 
-def tiles(
-    triangles: Floats, colors: Floats, depths: Floats | None, size: tuple[int, int], visibility: Visibility
-) -> Iterator[tuple[int, int, list[Region]]]:
-    """The tiles of a picture of `size` (width, height): the left, top and regions of each. ValueError where the overlaps take more than
-    MAX_STEPS comparisons, and those for each triangle and tile."""
-    width, height = size
-    planes = depth_planes(triangles, depths) if depths is not None else np.zeros((len(triangles), 3))
-    edges = [_edges(triangle) for triangle in triangles]
-    surfaces = [Region([], _color(color), (float(a), float(b), float(c))) for color, (a, b, c) in zip(colors, planes, strict=True)]
-    tile_count = -(-width // TILE) * -(-height // TILE)
-    steps = MAX_STEPS + STEPS_PER_TRIANGLE * len(triangles) + STEPS_PER_TILE * tile_count
-    drawing = _Drawing(triangles.min(axis=1), triangles.max(axis=1), edges, surfaces, visibility, [steps])
+class Tile(NamedTuple):
+    """A tile of a part of the picture: its place in the part, and its regions."""
+
+    part: int
+    left: int
+    top: int
+    regions: list[Region]
+
+
+def tiles(view: View, colors: Floats, depths: Floats | None, size: tuple[int, int], visibility: Visibility) -> Iterator[Tile]:
+    """The tiles of the parts of a picture of `size` (width, height). ValueError where the overlaps in them take more than MAX_STEPS
+    comparisons, and those for each triangle and tile of the whole picture."""
+    near = view.triangle
+    planes = depth_planes(view.corners, depths[near]) if depths is not None else np.zeros((len(near), 3))
+    edges = [_edges(triangle) for triangle in view.corners]
+    surfaces = [Region([], _color(color), (float(a), float(b), float(c))) for color, (a, b, c) in zip(colors[near], planes, strict=True)]
+    tile_count = -(-size[0] // TILE) * -(-size[1] // TILE)
+    steps = MAX_STEPS + STEPS_PER_TRIANGLE * len(colors) + STEPS_PER_TILE * tile_count
+    drawing = _Drawing(view.corners.min(axis=1), view.corners.max(axis=1), edges, surfaces, visibility, [steps])
     with_area = np.array([number for number, lines in enumerate(edges) if lines], np.intp)
-    for top in range(0, height, TILE):
-        bottom = min(top + TILE, height)
-        in_row = drawing.overlapping(0, top, width, bottom, with_area)
-        for left in range(0, width, TILE):
-            right = min(left + TILE, width)
-            yield left, top, drawing.regions(left, top, right, bottom, drawing.overlapping(left, top, right, bottom, in_row))
+    limits = np.searchsorted(view.part[with_area], np.arange(len(view.parts) + 1))
+    for number, (left, top, width, height, _, _) in enumerate(view.parts):
+        in_part = with_area[limits[number] : limits[number + 1]]
+        for y0 in range(top, top + height, TILE):
+            y1 = min(y0 + TILE, top + height)
+            in_row = drawing.overlapping(left, y0, left + width, y1, in_part)
+            for x0 in range(left, left + width, TILE):
+                x1 = min(x0 + TILE, left + width)
+                yield Tile(number, x0 - left, y0 - top, drawing.regions(x0, y0, x1, y1, drawing.overlapping(x0, y0, x1, y1, in_row)))
 
 
 def _color(color: Floats) -> Color:
@@ -207,23 +218,23 @@ def _color(color: Floats) -> Color:
 
 
 class _ColorArea(NamedTuple):
-    """What one color fills of a tile, as triangles."""
+    """What one color fills of a tile, as triangles in pixels of the picture."""
 
-    left: int
-    top: int
+    tile: Tile
     color: Color
     triangles: list[list[Point]]
 
 
-def _areas(parts: list[_ColorArea]) -> Floats:
-    """The areas of parts within the pixels of their tiles (P, TILE, TILE), computed side by side in one picture."""
+def _areas(areas: list[_ColorArea], parts: Sequence[Part]) -> Floats:
+    """The areas within the pixels of their tiles (A, TILE, TILE), computed side by side in one picture."""
     corners = []
-    for number, part in enumerate(parts):
+    for number, (tile, _, triangles) in enumerate(areas):
         row, column = divmod(number, BATCH_TILES)
-        corners.append(np.array(part.triangles) + np.array((TILE * column - part.left, TILE * row - part.top)))
-    rows = -(-len(parts) // BATCH_TILES)
-    areas = areas_of(np.concatenate(corners), TILE * BATCH_TILES, TILE * rows)
-    return areas.reshape(rows, TILE, BATCH_TILES, TILE).swapaxes(1, 2).reshape(-1, TILE, TILE)
+        part = parts[tile.part]
+        corners.append(np.array(triangles) + np.array((TILE * column - part.left - tile.left, TILE * row - part.top - tile.top)))
+    rows = -(-len(areas) // BATCH_TILES)
+    picture = areas_of(np.concatenate(corners), TILE * BATCH_TILES, TILE * rows)
+    return picture.reshape(rows, TILE, BATCH_TILES, TILE).swapaxes(1, 2).reshape(-1, TILE, TILE)
 
 
 def overlapping(
@@ -233,40 +244,36 @@ def overlapping(
     height: int,
     visibility: Visibility,
     display: Callable[[Floats], Floats] | None = None,
-) -> tuple[Callable[[Floats], Floats], Callable[[Floats], NDArray[np.bool_]]]:
-    """Two functions of triangles (T, 3, 2): to their exact picture (H, W, 4), and to the pixels that an edge or an intersection crosses,
-    which no single color fills. `display` maps the color of a region to the displayed one."""
+) -> Callable[[View], Truth]:
+    """A function of triangles to their exact picture, and the pixels that an edge or an intersection crosses, which no single color fills.
+    `display` maps the color of a region to the displayed one."""
 
     def displayed(color: Color) -> Floats:
         return np.array(color) if display is None else display(np.array(color))
 
-    def render(triangles: Floats) -> tuple[Floats, NDArray[np.bool_]]:
-        picture, whole = np.zeros((height, width, 4)), np.zeros((height, width), bool)
-        parts: list[_ColorArea] = []
-        for left, top, regions in tiles(triangles, colors, depths, (width, height), visibility):
+    def render(view: View) -> Truth:
+        first = view.parts[0]
+        size = (len(view.parts), first.height, first.width)
+        picture, whole = np.zeros((*size, 4)), np.zeros(size, bool)
+        areas: list[_ColorArea] = []
+        for tile in tiles(view, colors, depths, (width, height), visibility):
             by_color: dict[Color, list[list[Point]]] = {}
-            for region in regions:
+            for region in tile.regions:
                 by_color.setdefault(region.color, []).extend(fan(region.polygon))
             if len(by_color) == 1:
-                picture[top : top + TILE, left : left + TILE] = displayed(regions[0].color)
-                whole[top : top + TILE, left : left + TILE] = True
+                pixels = tile.part, slice(tile.top, tile.top + TILE), slice(tile.left, tile.left + TILE)
+                picture[pixels] = displayed(tile.regions[0].color)
+                whole[pixels] = True
             else:
-                parts += [_ColorArea(left, top, color, shapes) for color, shapes in by_color.items()]
-        for start in range(0, len(parts), BATCH_TILES * BATCH_TILES):
-            batch = parts[start : start + BATCH_TILES * BATCH_TILES]
-            for part, area in zip(batch, _areas(batch), strict=False):
-                pixels = slice(part.top, min(part.top + TILE, height)), slice(part.left, min(part.left + TILE, width))
-                area = area[: pixels[0].stop - part.top, : pixels[1].stop - part.left]
-                picture[pixels] += area[..., None] * displayed(part.color)
+                areas += [_ColorArea(tile, color, shapes) for color, shapes in by_color.items()]
+        for start in range(0, len(areas), BATCH_TILES * BATCH_TILES):
+            batch = areas[start : start + BATCH_TILES * BATCH_TILES]
+            for (tile, color, _), area in zip(batch, _areas(batch, view.parts), strict=False):
+                bottom, right = min(tile.top + TILE, first.height), min(tile.left + TILE, first.width)
+                pixels = tile.part, slice(tile.top, bottom), slice(tile.left, right)
+                area = area[: bottom - tile.top, : right - tile.left]
+                picture[pixels] += area[..., None] * displayed(color)
                 whole[pixels] |= area > 1 - TOLERANCE
-        return picture, ~whole
+        return Truth(picture, ~whole)
 
-    cache: list[tuple[bytes, tuple[Floats, NDArray[np.bool_]]]] = []
-
-    def rendered(triangles: Floats) -> tuple[Floats, NDArray[np.bool_]]:
-        key = triangles.tobytes()
-        if not cache or cache[0][0] != key:
-            cache[:] = [(key, render(triangles))]
-        return cache[0][1]
-
-    return lambda triangles: rendered(triangles)[0], lambda triangles: rendered(triangles)[1]
+    return render

@@ -1,0 +1,108 @@
+"""Parts of a scene's picture: the triangles near them, and the exact picture there."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from msaa_lint.experiments.study import snap
+from msaa_lint.experiments.study.exact_area import areas_of
+from msaa_lint.experiments.study.locations import SUBPIXELS
+
+from .scene import Part, Scene
+
+Floats = NDArray[np.float64]
+
+
+class View(NamedTuple):
+    """The triangles near some parts of a picture; the parts are all of one size.
+
+    `triangle` (S,) are the scene's numbers of the triangles, in order within each part, `part` (S,) the parts that they are near, and
+    `corners` (S, 3, 2) their snapped corners in pixels of the picture, moved as the scene is in that part.
+    """
+
+    parts: Sequence[Part]
+    triangle: NDArray[np.intp]
+    part: NDArray[np.intp]
+    corners: Floats
+
+    def only(self, which: NDArray[np.bool_]) -> View:
+        """The same parts with some of the triangles."""
+        return self._replace(triangle=self.triangle[which], part=self.part[which], corners=self.corners[which])
+
+    def areas(self) -> Floats:
+        """The total area of the triangles, which do not overlap, within every pixel of the parts: (P, H, W)."""
+        return areas_in(self.parts, self.part, self.corners)
+
+
+class Truth(NamedTuple):
+    """The exact picture (..., H, W, 4) in linear color, and the pixels (..., H, W) that an edge crosses."""
+
+    image: Floats
+    edge_pixels: NDArray[np.bool_]
+
+
+class Snapped(NamedTuple):
+    """The triangles near some parts as a technique renders them: as in View, with corners (S, 3, 2) in subpixels of the rendered picture,
+    which is `grid` times as wide and as high as the scene's."""
+
+    parts: Sequence[Part]
+    triangle: NDArray[np.intp]
+    part: NDArray[np.intp]
+    corners: NDArray[np.int64]
+    grid: int
+
+    def view(self) -> View:
+        """The same triangles in pixels of the scene's picture."""
+        return View(self.parts, self.triangle, self.part, self.corners / (SUBPIXELS * self.grid))
+
+
+def snapped(scene: Scene, parts: Sequence[Part], grid: int = 1, bits: int = 8) -> Snapped:
+    """The triangles near parts of one size, snapped to 2^-bits pixels of a picture rendered `grid` times as wide and as high. A moved
+    scene is snapped after it has moved, as on a device."""
+    low, high = scene.triangles.min(axis=1, initial=np.inf), scene.triangles.max(axis=1, initial=-np.inf)
+    motion = np.array([(part.dx, part.dy) for part in parts])
+    # Snapping moves corners by at most half a pixel.
+    margin = 1 + float(np.abs(motion).max())
+    near: dict[tuple[int, int], NDArray[np.intp]] = {}
+    for left, top, width, height, _, _ in parts:
+        if (left, top) not in near:
+            begin, end = (left - margin, top - margin), (left + width + margin, top + height + margin)
+            near[left, top] = np.flatnonzero(((low < end) & (high > begin)).all(axis=1))
+    lists = [near[part.left, part.top] for part in parts]
+    triangle = np.concatenate(lists)
+    number = np.repeat(np.arange(len(parts)), [len(each) for each in lists])
+    corners = scene.triangles[triangle]
+    if motion.any():
+        corners = corners + motion[number][:, None]
+    return Snapped(parts, triangle, number, snap.snapped(corners * grid, bits), grid)
+
+
+def whole(scene: Scene, triangles: Floats | None = None) -> View:
+    """All triangles, at other corners if given, and the whole picture as the only part."""
+    corners = scene.triangles if triangles is None else triangles
+    numbers = np.arange(len(corners))
+    return View([Part(0, 0, scene.width, scene.height)], numbers, np.zeros_like(numbers), corners)
+
+
+def offsets(parts: Sequence[Part]) -> NDArray[np.int64]:
+    """How far each part is moved, in pixels (P, 2), to stand below the one before it, where the first one stays where it is."""
+    first = parts[0]
+    return np.array([(first.left - part.left, first.top + number * first.height - part.top) for number, part in enumerate(parts)])
+
+
+def areas_in(parts: Sequence[Part], part: NDArray[np.intp], corners: Floats) -> Floats:
+    """The total area of disjoint triangles (S, 3, 2), each near a part (S,), within every pixel of the parts: (P, H, W)."""
+    first = parts[0]
+    top = first.top + part * first.height
+    areas = areas_of(
+        corners + offsets(parts)[part][:, None],
+        first.width,
+        first.height * len(parts),
+        (first.left, first.top),
+        np.stack((top, top + first.height), axis=1),
+    )
+    return areas.reshape(len(parts), first.height, first.width)
