@@ -9,11 +9,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from msaa_lint.experiments.study import locations
+from msaa_lint.experiments.study import locations, snap
 from msaa_lint.experiments.study.points import MSAA, Technique
-from msaa_lint.experiments.study.scenes import shapes
+from msaa_lint.experiments.study.scenes import area, shapes
 from msaa_lint.experiments.study.scenes.scene import BLACK, WHITE, Scene
-from msaa_lint.experiments.study.simulate import Simulation, simulate, snapped_triangles
+from msaa_lint.experiments.study.simulate import Simulation, simulate
 from tests.experiments.study.rational import covers, edge
 
 SIDE = 32
@@ -55,7 +55,7 @@ def scene(reversed_depth: bool, mode: str) -> Scene:
     colors[:2] = BLACK
     settings = {"depth-test": "GREATER" if reversed_depth else "LESS", "depth-resolve": mode}
     return Scene(
-        SIDE, SIDE, triangles, colors, lambda corners: np.zeros((SIDE, SIDE, 4)), None, False, depths if reversed_depth else 1 - depths,
+        SIDE, SIDE, triangles, colors, area.disjoint(colors), False, depths if reversed_depth else 1 - depths,
         ("depth-test", "depth-resolve"), {}, settings,
     )  # fmt: skip
 
@@ -67,7 +67,7 @@ def rendered(silhouette: Scene, samples: int) -> Simulation:
 def edge_samples(silhouette: Scene, samples: int) -> list[Sample]:
     """The samples of the pixels that the outline crosses, pixel by pixel, in their order."""
     assert silhouette.depths is not None
-    triangles = snapped_triangles(silhouette, Technique(MSAA, samples))
+    triangles = snap.snapped(silhouette.triangles)
     corners = [[(int(x), int(y)) for x, y in triangle] for triangle in triangles]
     planes = shapes.depth_planes(triangles / 256, silhouette.depths).astype(np.float32)
     depths = [[Fraction(float(depth)) for depth in corner] for corner in silhouette.depths]

@@ -15,7 +15,7 @@ import numpy as np
 
 from msaa_lint.experiments.study import effects
 from msaa_lint.experiments.study.points import MSAA, SAMPLE_SHADING, Technique
-from msaa_lint.experiments.study.scenes import shapes
+from msaa_lint.experiments.study.scenes import area, shapes
 from msaa_lint.experiments.study.scenes.scene import Scene
 from msaa_lint.experiments.study.simulate import simulate
 
@@ -34,7 +34,7 @@ def picture(width: int, height: int) -> Scene:
         return np.stack([value, value, value, 0.25 + value / 2], axis=-1)
 
     colors = shapes.uniform_colors(4, (1.0, 0.5, 0.25, 0.75))
-    return Scene(width, height, made, colors, lambda each: np.zeros((height, width, 4)), None, False, depths, shade=shade)
+    return Scene(width, height, made, colors, area.disjoint(colors), False, depths, shade=shade)
 
 
 EFFECTS: dict[str, tuple[tuple[str, ...], dict[str, object], Technique]] = {

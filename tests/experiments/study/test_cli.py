@@ -184,7 +184,7 @@ def test_a_person_reads_a_table_with_its_sources(tmp_path: Path) -> None:
     assert lines[0] == "edge-fan"
     assert "64x48, vertices snapped to 8 bits; no times: --device NAME measures them" in lines
     assert any(line.startswith("bytes, power, and memory: the cost model") for line in lines)
-    assert any(re.fullmatch(r"  1x to 4x: error -[67]\d %", line) for line in lines)
+    assert any(re.fullmatch(r"  1x to 4x: error -[67]\d %, flicker -\d\d %", line) for line in lines)
     assert lines[-1] == "5 points of 1 scene"
     assert not any("to 1x" in line for line in lines), "no time is known, and none is shown"
 

@@ -31,6 +31,12 @@ SAMPLED = [name for name in scenes.NAMES if name not in ("hdr-emitter", "hdr-emi
 """Scenes whose picture many samples give. The others are there to show what does not."""
 
 
+@pytest.fixture(autouse=True)
+def without_flicker(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The flicker of very many samples takes long, and is not looked at here."""
+    monkeypatch.setattr(measure, "flicker", lambda *_: 0.0)
+
+
 def exact_picture(made: Scene) -> np.ndarray:
     """The exact picture of the triangles as they are, not snapped."""
     return made.exact(view.whole(made)).image[0]
