@@ -31,7 +31,7 @@ def flip(measured: Floats, exact: Floats) -> float:
     # Its own mean is a sum in single precision.
     pictures = (np.clip(np.nan_to_num(codes, nan=0.0), 0, 1) for codes in (exact, measured))
     error_map, _, _ = flip_evaluator.evaluate(*pictures, "LDR", applyMagma=False, computeMeanError=False)
-    return total(error_map) / error_map.size
+    return total(error_map) / float(error_map.size)
 
 
 def ssim(measured: Floats, exact: Floats) -> float:
