@@ -134,7 +134,7 @@ def _timing(study: Study, size: str) -> Iterator[str]:
         budget = "" if study.budget_ms is None else f", and nothing is recommended within {study.budget_ms:.4g} ms"
         yield f"{display(study.device)} is a software driver: its times say nothing about a GPU, and advice does not use them{budget}"
     if any(point.low_ms is not None for point in study.points):
-        yield "± half the width of the 95 % interval of the median"
+        yield "± distance from the median to the farther bound of its 95 % interval"
     yield f"{TIE} the same time, within noise, as the next shorter one"
     for shading in study.shadings:
         if shading.operations or shading.fetches or shading.full_screen_ms:
