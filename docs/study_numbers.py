@@ -14,6 +14,7 @@ from docs.study_cases.alpha_cases import alpha_to_coverage
 from docs.study_cases.area_cases import exact_areas
 from docs.study_cases.coverage_cases import coverages, phases
 from docs.study_cases.depth_cases import depths
+from docs.study_cases.picture_cases import flickering, flips
 from docs.study_cases.resolve_cases import averages, lights, sums, weighted_resolves
 from docs.study_cases.row import Row
 from docs.study_cases.time_cases import intervals
@@ -30,6 +31,8 @@ GROUPS: tuple[Callable[[], Iterator[Row]], ...] = (
     weighted_resolves,
     depths,
     sums,
+    flickering,
+    flips,
     intervals,
 )
 

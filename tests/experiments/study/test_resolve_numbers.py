@@ -15,9 +15,12 @@ from numpy.typing import NDArray
 
 from docs import study_numbers
 from docs.study_cases.alpha_cases import THRESHOLDS, exact_count
+from docs.study_cases.picture_cases import TECHNIQUES, half_plane
 from docs.study_cases.resolve_cases import exact_weighted
 from docs.study_cases.row import Row
 from msaa_lint.experiments.study.effects import alpha_coverage, store_half, store_srgb
+from msaa_lint.experiments.study.flicker import flicker
+from msaa_lint.experiments.study.points import Technique
 from msaa_lint.experiments.study.resolve import (
     DEPTH_MODES,
     average,
@@ -257,6 +260,14 @@ def test_the_mean_of_a_dithered_block_has_no_bias(samples: int) -> None:
     every, each = np.repeat(steps.astype(np.float32), 16), np.tile(THRESHOLDS, len(steps))
     counts = np.bitwise_count(alpha_coverage(every, each, samples)).reshape(-1, 16).sum(axis=1)
     assert counts.tolist() == list(range(1, 16 * samples))
+
+
+@pytest.mark.parametrize("technique", TECHNIQUES, ids=[technique.name for technique in TECHNIQUES])
+def test_flicker_is_the_same_wherever_the_edge_is_and_along_both_axes(technique: Technique) -> None:
+    due = flicker(half_plane(), technique)
+    for place in (33.0, 33 + 1 / 64, 33.5, 34 - 1 / 64):
+        for upright in (False, True):
+            assert flicker(half_plane(place, upright), technique) == pytest.approx(due, rel=1e-14)
 
 
 ROWS = study_numbers.rows()
