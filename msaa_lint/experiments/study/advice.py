@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from .measures import ERROR, Measure
 from .pareto import as_fast
-from .points import MSAA, SAMPLE_SHADING, SSAA, Point
+from .points import MSAA, SAMPLE_SHADING, SSAA, Point, Technique
 from .recommendation import Worth
 from .shading import Shading
 from .steps import MAX_ADDED, MAX_REMAINING, is_enough, percent
@@ -31,96 +31,121 @@ class Advice(NamedTuple):
 
 
 def advice(points: Sequence[Point], measure: Measure = ERROR) -> Iterator[Advice]:
-    """What the errors of one scene say, whatever the time: `points` are those under one cost of shading. `steps` reports the
-    steps from count to count."""
-    finite = [point for point in points if ERROR.is_finite(point)]
-    counts = sorted((point for point in finite if point.technique.kind == MSAA), key=lambda point: point.technique)
-    sentences = (*_counts(finite, counts), *_shading(finite, counts), *_supersampling(finite, counts), *_worth(counts, measure))
-    return (Advice(finite[0].scene, text, reason) for text, reason in sentences)
+    """What the errors of one scene say, whatever the time: `points` are those under one cost of shading, and `measure` is the error that
+    counts. `steps` reports the steps from count to count."""
+    compared = [_Compared(point, measure.of(point) or 0.0) for point in points if ERROR.is_finite(point) and measure.is_finite(point)]
+    counts = sorted((one for one in compared if one.technique.kind == MSAA), key=lambda one: one.technique)
+    sentences = (
+        *_counts(compared, counts, measure),
+        *_shading(compared, counts, measure),
+        *_supersampling(compared, counts, measure),
+        *_worth(counts, measure),
+    )
+    return (Advice(compared[0].point.scene, text, reason) for text, reason in sentences)
 
 
-def _why_no_count(points: Sequence[Point], best: Point) -> str:
+class _Compared(NamedTuple):
+    """A point and its error."""
+
+    point: Point
+    error: float
+
+    @property
+    def technique(self) -> Technique:
+        return self.point.technique
+
+    @property
+    def name(self) -> str:
+        return self.point.technique.name
+
+
+def _why_no_count(points: Sequence[_Compared], best: _Compared) -> str:
     """Why more samples do not help, judging by which techniques help and which effects ran."""
-    if any(point.rmse < MAX_SAME * best.rmse for point in points if point.technique.shaded > 1):
+    if any(one.error < MAX_SAME * best.error for one in points if one.technique.shaded > 1):
         return "the error lies inside triangles, which multisampling shades once per pixel"
-    if "tone-mapping" in best.effects:
+    if "tone-mapping" in best.point.effects:
         return "bright samples outweigh all others when light is averaged before tone mapping"
-    if "depth-test" in best.effects:
+    if "depth-test" in best.point.effects:
         return "more samples do not make depth more precise"
     return "no measured technique helps"
 
 
-def _counts(points: Sequence[Point], counts: Sequence[Point]) -> Iterator[tuple[str, str]]:
+def _counts(points: Sequence[_Compared], counts: Sequence[_Compared], measure: Measure) -> Iterator[tuple[str, str]]:
     """What the counts of samples have in common, and where 16 samples are worse than they could be."""
-    if len(counts) > 1 and counts[0].rmse == counts[-1].rmse == 0:
-        yield f"{counts[0].technique.name} is exact here", "no detail of this picture lies between samples"
+    if len(counts) > 1 and counts[0].error == counts[-1].error == 0:
+        yield f"{counts[0].name} is exact here", "no detail of this picture lies between samples"
         return
-    multisampled = [point for point in counts if point.technique.samples > 1]
-    if len(counts) > 2 and counts[0].rmse > 0 and min(point.rmse for point in multisampled) > MAX_SAME * counts[0].rmse:
-        best = min(multisampled, key=lambda point: (ERROR.rounded(point), point.technique))
-        share = _percent(best.rmse, counts[0].rmse)
-        text = f"no sample count helps here: the best, {best.technique.name}, leaves {share} of {counts[0].technique.name}'s error"
+    multisampled = [one for one in counts if one.technique.samples > 1]
+    if len(counts) > 2 and counts[0].error > 0 and min(one.error for one in multisampled) > MAX_SAME * counts[0].error:
+        best = min(multisampled, key=lambda one: (measure.rounded(one.point), one.technique))
+        share = _percent(best.error, counts[0].error)
+        text = f"no sample count helps here: the best, {best.name}, leaves {share} of {counts[0].name}'s {measure.name}"
         yield text, _why_no_count(points, best)
         return
     for before, after in pairwise(counts):
-        off_center = abs(after.bias) > max(MIN_OFF_CENTER, 1.5 * abs(before.bias))
-        if after.technique.samples == 16 and off_center and after.rmse > MAX_SAME * before.rmse:
-            reason = f"the mean of its sample locations is off the pixel center, a bias of {after.bias:+.4f}"
-            yield f"{after.technique.name} is no better than {before.technique.name} here", reason
+        off_center = abs(after.point.bias) > max(MIN_OFF_CENTER, 1.5 * abs(before.point.bias))
+        if after.technique.samples == 16 and off_center and after.error > MAX_SAME * before.error:
+            reason = f"the mean of its sample locations is off the pixel center, a bias of {after.point.bias:+.4f}"
+            yield f"{after.name} is no better than {before.name} here", reason
 
 
-def _shading(points: Sequence[Point], counts: Sequence[Point]) -> Iterator[tuple[str, str]]:
+def _against(one: _Compared, other: _Compared, measure: Measure) -> str:
+    return f"{'RMSE' if measure == ERROR else measure.name} {one.error:.4f} against {other.error:.4f}"
+
+
+def _shading(points: Sequence[_Compared], counts: Sequence[_Compared], measure: Measure) -> Iterator[tuple[str, str]]:
     """Sample shading against the same count without it: either the best gain, or that there is none."""
-    plain = {point.technique.samples: point for point in counts}
-    shaded = [point for point in points if point.technique.kind == SAMPLE_SHADING and point.technique.samples in plain]
-    improved = [point for point in shaded if point.rmse <= MAX_SAME * plain[point.technique.samples].rmse]
-    if improved and min(point.rmse for point in shaded) < min(point.rmse for point in plain.values()):
-        best = min(improved, key=lambda point: (point.rmse, point.technique))
-        name, base = f"{best.technique.samples}x", plain[best.technique.samples]
-        reason = f"RMSE {best.rmse:.4f} against {base.rmse:.4f}: the error lies inside triangles, which multisampling shades once per pixel"
-        more = plain.get(2 * best.technique.samples)
+    plain = {one.technique.samples: one for one in counts}
+    shaded = [one for one in points if one.technique.kind == SAMPLE_SHADING and one.technique.samples in plain]
+    improved = [one for one in shaded if one.error <= MAX_SAME * plain[one.technique.samples].error]
+    if improved and min(one.error for one in shaded) < min(one.error for one in plain.values()):
+        best = min(improved, key=lambda one: (one.error, one.technique))
+        base, more = plain[best.technique.samples], plain.get(2 * best.technique.samples)
+        reason = f"{_against(best, base, measure)}: the error lies inside triangles, which multisampling shades once per pixel"
         if more is not None:
-            reason += f"; {more.technique.name} without it leaves {_percent(more.rmse, base.rmse)}"
-        yield f"shading {best.technique.shaded} samples at {name} leaves {_percent(best.rmse, base.rmse)} of its error", reason
+            reason += f"; {more.name} without it leaves {_percent(more.error, base.error)}"
+        share = _percent(best.error, base.error)
+        yield f"shading {best.technique.shaded} samples at {base.name} leaves {share} of its {measure.name}", reason
     elif shaded:
         yield "sample shading gains nothing here", "edges are the same with more shader invocations per pixel"
 
 
-def _supersampling(points: Sequence[Point], counts: Sequence[Point]) -> Iterator[tuple[str, str]]:
+def _supersampling(points: Sequence[_Compared], counts: Sequence[_Compared], measure: Measure) -> Iterator[tuple[str, str]]:
     """SSAA grids against multisampling with the same number of samples; 3x3 is compared with 8."""
-    worse: list[tuple[Point, Point]] = []
-    better: list[tuple[Point, Point]] = []
-    for point in points:
-        samples = point.technique.samples
+    worse: list[tuple[_Compared, _Compared]] = []
+    better: list[tuple[_Compared, _Compared]] = []
+    for one in points:
+        samples = one.technique.samples
         references = [count for count in counts if max(1, samples / 2) < count.technique.samples <= samples]
-        if point.technique.kind != SSAA or not references or references[-1].rmse == 0:
+        if one.technique.kind != SSAA or not references or references[-1].error == 0:
             continue
-        remaining = point.rmse / references[-1].rmse
+        remaining = one.error / references[-1].error
         if remaining > 1 / MAX_SAME:
-            worse.append((point, references[-1]))
+            worse.append((one, references[-1]))
         elif remaining < MAX_SAME:
-            better.append((point, references[-1]))
+            better.append((one, references[-1]))
     for pairs in (worse, better):
         if pairs:
-            reason = ", ".join(f"RMSE {one.rmse:.4f} against {other.rmse:.4f}" for one, other in pairs)
-            if pairs is worse and "alpha-to-coverage" in pairs[0][0].effects:
+            reason = ", ".join(_against(one, other, measure) for one, other in pairs)
+            if pairs is worse and "alpha-to-coverage" in pairs[0][0].point.effects:
                 reason += "; with one sample alpha is all or nothing"
-            elif pairs is worse:
+            elif pairs is worse and measure == ERROR:
                 reason += "; the samples of a grid share rows and columns, so it distinguishes fewer edge positions"
-            texts = [f"{one.technique.name} {one.rmse / other.rmse:.2g} times {other.technique.name}'s" for one, other in pairs]
-            yield f"SSAA has {'more' if pairs is worse else 'less'} error than MSAA with as many samples: {', '.join(texts)}", reason
+            texts = [f"{one.name} {one.error / other.error:.2g} times {other.name}'s" for one, other in pairs]
+            more = "more" if pairs is worse else "less"
+            yield f"SSAA has {more} {measure.name} than MSAA with as many samples: {', '.join(texts)}", reason
 
 
-def _worth(counts: Sequence[Point], measure: Measure) -> Iterator[tuple[str, str]]:
+def _worth(counts: Sequence[_Compared], measure: Measure) -> Iterator[tuple[str, str]]:
     """Up to which count steps remove enough of the error."""
     last = None
     for before, after in pairwise(counts):
-        if not is_enough(measure, before, after):
+        if not is_enough(measure, before.point, after.point):
             break
         last = after
     if last is not None:
         removed = f"at least {percent(1 - MAX_REMAINING)[1:]} of the {measure.name}"
-        yield f"each step up to {last.technique.name} removes {removed}", "whether that is worth its time depends on the cost of shading"
+        yield f"each step up to {last.name} removes {removed}", "whether that is worth its time depends on the cost of shading"
 
 
 def worth_advice(scene: str, found: Worth, shadings: Sequence[Shading]) -> Advice:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from msaa_lint.experiments.study.advice import Ruling, advice, ruling
-from msaa_lint.experiments.study.measures import ERROR, FLICKER, Measure
+from msaa_lint.experiments.study.measures import ERROR, FLICKER, FLIP, Measure
 from msaa_lint.experiments.study.pareto import mark_best
 from msaa_lint.experiments.study.points import MSAA, SAMPLE_SHADING, SSAA, Point, Technique, techniques
 from msaa_lint.experiments.study.steps import MAX_REMAINING
@@ -95,6 +95,17 @@ def test_grids_are_held_against_as_many_samples() -> None:
         "SSAA has less error than MSAA with as many samples: SSAA 2x2 0.42 times 4x's, SSAA 3x3 0.83 times 8x's, "
         "SSAA 4x4 0.83 times 16x's (RMSE 0.0300 against 0.0722, RMSE 0.0300 against 0.0361, RMSE 0.0300 against 0.0363)"
     ) in says([*plain, *better])
+
+
+def test_sentences_are_of_the_error_that_counts() -> None:
+    """HDR: more samples have more error in light, and less on the display."""
+    counts = [point(each, rmse=0.2 + each.samples / 20, flip=0.4 / each.samples) for each in techniques((MSAA,), (1, 2, 4))]
+    grid = point(Technique(SSAA, 4, grid=2), flip=0.05)
+    assert says([*counts, grid])[0].startswith("no sample count helps here")
+    assert says([*counts, grid], FLIP) == [
+        "SSAA has less FLIP than MSAA with as many samples: SSAA 2x2 0.5 times 4x's (FLIP 0.0500 against 0.1000)",
+        f"each step up to 4x removes at least 25 % of the FLIP {WORTH}",
+    ]
 
 
 def test_what_is_no_number_is_no_ones_advice() -> None:
