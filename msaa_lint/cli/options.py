@@ -289,6 +289,7 @@ COMMANDS = {
                 Option("techniques", "text", "Techniques to compare.", "NAME,...", default="msaa,sample-shading,ssaa", values="techniques"),
                 Option("size", "text", "Size in pixels.", "WxH", default="the description's, else 1920x1080"),
                 Option("bits", "choice", "Sub-pixel precision of vertices, in bits.", "BITS", choices=("4", "8"), default="8"),
+                Option("flip", "flag", "Also measure FLIP, the difference that a viewer notices (extra `flip`)."),
                 Option("ssim", "flag", "Also measure structural similarity (extra `ssim`)."),
                 _PROFILE._replace(help="Device whose traffic to estimate for captures and inputs that name none."),
             ),

@@ -61,6 +61,7 @@ class StudyOptions(NamedTuple):
     size: tuple[int, int] | None
     bits: int
     ssim: bool
+    flip: bool
     jobs: int
     backend: str | None
     budget_ms: float | None
@@ -105,12 +106,15 @@ def parse_options(arguments: Arguments) -> StudyOptions:
         raise UsageError("--budget is added to the time of one sample: add 1 to --samples, and msaa to --techniques")
     if arguments.get("ssim") and find_spec("skimage") is None:
         raise UsageError(needs_extra("--ssim", "ssim"))
+    if arguments.get("flip") and find_spec("flip_evaluator") is None:
+        raise UsageError(needs_extra("--flip", "flip"))
     return StudyOptions(
         parse_outputs(arguments.get("output", ()), TEXT_FORMATS, "json=study.json") or [Target("full", None)],
         chosen,
         parse_size(arguments["size"], MAX_RENDER_SIDE) if "size" in arguments else None,
         int(arguments.get("bits", 8)),
         bool(arguments.get("ssim")),
+        bool(arguments.get("flip")),
         arguments.get("jobs") or (-1 if arguments.get("backend") in ("dask", "ray") else _cores()),
         arguments.get("backend"),
         parse_budget(arguments["budget"]) if "budget" in arguments else None,
@@ -158,7 +162,11 @@ def _study(arguments: Arguments, options: StudyOptions) -> int:
         warn(f"the times of {costs.device} had not settled after 3 s: something else may be using the device")
     studied = [subject for subject in studied if subject.input.name in costs.subjects]
     untimed = _warn_of_failures(costs, errors)
-    tasks = [Task(subject.input, technique, *size, options.bits, options.ssim) for subject in studied for technique in options.techniques]
+    tasks = [
+        Task(subject.input, technique, *size, options.bits, options.ssim, options.flip, subject.picture.shade is not None)
+        for subject in studied
+        for technique in options.techniques
+    ]
     with _progress(len(tasks), arguments) as progress:
         results = list(sweep(tasks, jobs=options.jobs, backend=options.backend, checkpoint=checkpoint, progress=progress))
     points: list[Point] = []

@@ -125,6 +125,7 @@ def _key(task: Task) -> dict[str, Any]:
         "size": [task.width, task.height],
         "bits": task.bits,
         "ssim": task.ssim,
+        "flip": task.flip,
     }
 
 

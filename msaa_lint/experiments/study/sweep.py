@@ -56,7 +56,7 @@ def measure_point(task: Task) -> Point:
     """A point as simulated: without times and the cost model's amounts."""
     from . import measure
 
-    point: Point = measure.point(picture(task.input, task.width, task.height), task.technique, task.bits, task.ssim)
+    point: Point = measure.point(picture(task.input, task.width, task.height), task.technique, task.bits, task.ssim, task.flip)
     return point._replace(scene=task.input.name)
 
 
@@ -151,13 +151,15 @@ def _results(tasks: Sequence[Task], jobs: int, backend: str | None, measure: Mea
     if not tasks:
         return
     if jobs == 1 and backend is None:
-        for number, task in enumerate(tasks):
-            yield number, _attempt(measure, task)
+        for group in _groups(dict(enumerate(tasks))):
+            for number, task in group.items():
+                yield number, _attempt(measure, task)
         return
     unfinished = dict(enumerate(tasks))
     with _cluster(backend):
         try:
-            for number, result in _parallel(unfinished, jobs, backend, measure):
+            groups = sorted(_groups(unfinished), key=_work, reverse=True)
+            for number, result in _parallel(groups, jobs, backend, measure):
                 del unfinished[number]
                 yield number, result
             return
@@ -167,16 +169,32 @@ def _results(tasks: Sequence[Task], jobs: int, backend: str | None, measure: Mea
         # A worker died, and nothing tells which point killed it. Continue one by one to find out.
         for number, task in tuple(unfinished.items()):
             try:
-                yield from _parallel({number: task}, 2 if jobs == 1 else jobs, backend, measure)
+                yield from _parallel([{number: task}], 2 if jobs == 1 else jobs, backend, measure)
             except Exception as error:
                 yield number, f"the process that simulated it died: {_text(error)}"
 
 
-def _parallel(tasks: Mapping[int, Task], jobs: int, backend: str | None, measure: Measure) -> Iterator[tuple[int, Point | str]]:
+Group = dict[int, Task]
+"""Tasks by number that need one picture, which a worker simulates once."""
+
+
+def _groups(tasks: Mapping[int, Task]) -> list[Group]:
+    groups: dict[Task, Group] = {}
+    for number, task in tasks.items():
+        groups.setdefault(task.picture, {})[number] = task
+    return list(groups.values())
+
+
+def _work(group: Group) -> int:
+    """About how long a picture takes: what takes longest begins first, so that all workers end together."""
+    return max(task.technique.samples + task.technique.shaded * task.shader for task in group.values())
+
+
+def _parallel(groups: Sequence[Group], jobs: int, backend: str | None, measure: Measure) -> Iterator[tuple[int, Point | str]]:
     import joblib
 
     owner = os.getpid()
-    calls = [joblib.delayed(_attempt_in_worker)(owner, number, measure, task) for number, task in tasks.items()]
+    calls = [joblib.delayed(_attempt_in_worker)(owner, measure, group) for group in groups]
     starting: Callable[[], contextlib.AbstractContextManager[None]] = _interrupts_held
     with joblib.parallel_config(backend=backend or "loky", n_jobs=jobs):
         try:
@@ -188,7 +206,8 @@ def _parallel(tasks: Mapping[int, Task], jobs: int, backend: str | None, measure
     for start in range(0, len(calls), step):
         with starting():
             results = parallel(calls[start : start + step])
-        yield from results
+        for result in results:
+            yield from result
 
 
 @contextlib.contextmanager
@@ -204,14 +223,14 @@ def _interrupts_held() -> Iterator[None]:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
-def _attempt_in_worker(owner: int, number: int, measure: Measure, task: Task) -> tuple[int, Point | str]:
+def _attempt_in_worker(owner: int, measure: Measure, group: Group) -> list[tuple[int, Point | str]]:
     if os.getpid() != owner:
         if os.getppid() == owner:
             end_with_parent(owner)
         # Interrupts are for the parent process, which ends this one.
         with contextlib.suppress(ValueError):
             signal.signal(signal.SIGINT, signal.SIG_IGN)
-    return number, _attempt(measure, task)
+    return [(number, _attempt(measure, task)) for number, task in group.items()]
 
 
 def _attempt(measure: Measure, task: Task) -> Point | str:

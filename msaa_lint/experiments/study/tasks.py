@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from .points import Technique
+from .points import MSAA, SAMPLE_SHADING, Technique
 
 
 class StudyInput(NamedTuple):
@@ -17,7 +17,8 @@ class StudyInput(NamedTuple):
 
 
 class Task(NamedTuple):
-    """A point to simulate."""
+    """A point to simulate. `shader` says whether the scene has one: without it, sample shading gives the picture of multisampling, and
+    one simulation gives the points of both."""
 
     input: StudyInput
     technique: Technique
@@ -25,6 +26,16 @@ class Task(NamedTuple):
     height: int
     bits: int = 8
     ssim: bool = False
+    flip: bool = False
+    shader: bool = True
+
+    @property
+    def picture(self) -> "Task":
+        """The task of the picture that this one needs, which others may share."""
+        technique = self.technique
+        if self.shader or technique.kind != SAMPLE_SHADING:
+            return self
+        return self._replace(technique=Technique(MSAA, technique.samples))
 
 
 class FailedPoint(NamedTuple):

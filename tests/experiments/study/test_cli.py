@@ -316,10 +316,10 @@ def test_a_point_that_fails_is_told_and_ends_with_2(
 ) -> None:
     whole = measure.point
 
-    def point(scene: Scene, technique: Technique, bits: int = 8, ssim: bool = False) -> Point:
+    def point(scene: Scene, technique: Technique, bits: int = 8, *more: bool) -> Point:
         if technique.samples == 4:
             raise MemoryError("no \x1b[31m room")
-        return whole(scene, technique, bits, ssim)
+        return whole(scene, technique, bits, *more)
 
     monkeypatch.setattr(measure, "point", point)
     monkeypatch.chdir(tmp_path)
@@ -356,14 +356,24 @@ def test_what_is_not_installed_is_said(tmp_path: Path, missing: str, arguments: 
     assert words in done.stderr
 
 
-def test_only_ssim_needs_scikit_image(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
-    monkeypatch.setitem(sys.modules, "skimage", None)
+@pytest.mark.parametrize(("option", "package"), [("ssim", "skimage"), ("flip", "flip_evaluator")])
+def test_only_its_option_needs_a_package(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], option: str, package: str
+) -> None:
+    monkeypatch.setitem(sys.modules, package, None)
     given = {"paths": ["edge-fan"], "jobs": 1, "size": "64x48", "samples": "4", "techniques": MSAA}
     assert command.study(given) == 0
     capsys.readouterr()
-    assert command.study({**given, "ssim": True}) == 2
-    wanted = f"msaa-lint: {needs_extra('--ssim', 'ssim')}\n"
+    assert command.study({**given, option: True}) == 2
+    wanted = f"msaa-lint: {needs_extra(f'--{option}', option)}\n"
     assert capsys.readouterr() == ("", wanted)
+
+
+def test_flip_is_measured_where_it_is_asked_for(tmp_path: Path) -> None:
+    points = json.loads(
+        run(tmp_path, "hdr-emitter-before", *SMALL, "--techniques", "msaa", "--samples", "1,16", "--flip", "--output", "json").stdout
+    )["points"]
+    assert 0 < points[1]["flip"] < points[0]["flip"] < 1 and points[0]["ssim"] is None
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="process groups are POSIX")

@@ -10,10 +10,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from msaa_lint.experiments.study import measure, shade, simulate, sums
+from msaa_lint.experiments.study import displayed, locations, measure, shade, simulate, sums
 from msaa_lint.experiments.study.points import COUNTS, MSAA, SAMPLE_SHADING, SSAA, Technique
 from msaa_lint.experiments.study.scenes import area, scene, shapes
 from msaa_lint.experiments.study.scenes.scene import WHITE, Scene
+from msaa_lint.experiments.study.scenes.view import Truth, View
 
 LENGTH = 2048
 """Pixels in which an edge moves by one pixel: it is everywhere within a pixel, evenly."""
@@ -145,3 +146,45 @@ def test_the_simulation_does_not_depend_on_bands(monkeypatch: pytest.MonkeyPatch
                 patched.setattr(simulate, "BAND_SAMPLES", 1000)
                 parts = simulate.simulate(made, technique)
             assert np.array_equal(whole.image, parts.image)
+
+
+def test_light_that_a_scene_does_not_map_is_shown_mapped() -> None:
+    """A quarter of a pixel of light 3 times display white, which Reinhard's curve maps to 3/7, and one sample that sees none of it."""
+    bar = drawn([shapes.rectangle(0, 0, 32, 0.25)], 32, 32)
+    exact = bar.exact
+
+    def bright(view: View) -> Truth:
+        image, edges = exact(view)
+        return Truth(image * (3, 3, 3, 1), edges)
+
+    made = bar._replace(colors=bar.colors * (3, 3, 3, 1), exact=bright, coverage_matter=False)
+    code = {light: 1.055 * light ** (1 / 2.4) - 0.055 for light in (0.75, 0.75 / 1.75)}
+    for effects, light in (((), 0.75), (("hdr",), 0.75 / 1.75)):
+        found = measure.point(made._replace(effects=effects), Technique(MSAA, 1))
+        assert found.psnr_display_db == pytest.approx(-10 * math.log10(code[light] ** 2 / 32), rel=1e-6)
+
+
+def test_flip_is_0_where_nothing_differs_and_falls_with_more_samples() -> None:
+    made = scene("siemens-star", 96, 96)
+    one, sixteen = (measure.point(made, Technique(MSAA, count), flip=True).flip for count in (1, 16))
+    assert one is not None and sixteen is not None and 0 < sixteen < one < 1
+    black, white = np.zeros((8, 8, 3), np.float32), np.ones((8, 8, 3), np.float32)
+    assert displayed.flip(black, black) == 0 and displayed.flip(white, black) > 0.9
+    assert displayed.flip(np.full_like(black, np.nan), black) == 0
+
+
+def test_invocations_are_counted_by_groups_of_covered_samples() -> None:
+    """A rectangle of 8 x 8 pixels, and half a pixel more at its right: samples in the left half of 8 pixels."""
+    made = drawn([shapes.rectangle(4, 4, 12.5, 12)], 32, 32)
+    halves = [int(x) < 128 for x, _ in locations.standard(4)]
+    for technique, per_pixel, at_the_edge in (
+        (Technique(MSAA, 4), 1, 1),
+        (Technique(SAMPLE_SHADING, 4, 1.0), 4, sum(halves)),
+        (Technique(SAMPLE_SHADING, 4, 0.5), 2, any(halves[:2]) + any(halves[2:])),
+        (Technique(SSAA, 4, grid=2), 4, 2),
+    ):
+        # Both triangles shade the pixels of the diagonal in which they cover samples.
+        counted = measure.point(made, technique).expected_invocations
+        assert counted is not None and 64 * per_pixel + 8 * at_the_edge <= counted <= 80 * per_pixel + 10 * at_the_edge
+    single = drawn([[(4, 4), (12, 4), (4, 12)]], 32, 32)
+    assert measure.point(single, Technique(MSAA, 1)).expected_invocations == 36 - 8

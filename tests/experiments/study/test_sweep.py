@@ -108,6 +108,7 @@ def test_failures_are_not_kept(tmp_path: Path) -> None:
         {"height": 49},
         {"bits": 4},
         {"ssim": True},
+        {"flip": True},
         {"technique": Technique(MSAA, 8)},
         {"input": StudyInput("scene", "b")},
         {"input": StudyInput("description", "a", text="images: {}")},
@@ -264,3 +265,11 @@ def test_a_backend_without_a_stream_of_results_gives_every_point() -> None:
     """joblib's multiprocessing, and with it Ray's, gives lists alone."""
     results = list(sweep(tasks("a", techniques=ALL), jobs=2, backend="multiprocessing", measure=measure))
     assert in_order(results, "a", own=ALL) == [point(technique, "a") for technique in ALL]
+
+
+@pytest.mark.parametrize(("shader", "pictures"), [(True, 4), (False, 3)])
+def test_points_of_one_picture_are_simulated_together(shader: bool, pictures: int) -> None:
+    """One sample, four, and eight; without a shader half of four samples shaded is four."""
+    wanted = [task._replace(shader=shader) for task in tasks("a", techniques=FEW)]
+    assert len({task.picture for task in wanted}) == pictures
+    assert in_order(list(sweep(wanted, measure=measure)), "a", own=FEW) == [point(technique, "a") for technique in FEW]
