@@ -50,6 +50,7 @@ MAX_BUDGET_MS = 1000.0
 
 if TYPE_CHECKING:
     from msaa_lint.experiments.study.record import DocumentStudy
+    from msaa_lint.experiments.study.time_model import TimeModel
     from msaa_lint.frame.facts.frame import Frame
 
 
@@ -236,7 +237,18 @@ def _outcome(
         wrong=errors,
         software=costs.software,
         shadings=costs.shadings,
+        models=_models(costs),
     )
+
+
+def _models(costs: AllCosts) -> list[TimeModel]:
+    """The models of the measured times; none of a software driver, whose times no model of a GPU fits."""
+    from msaa_lint.experiments.study.time_model import model_of
+
+    if not costs.device or costs.software:
+        return []
+    models = (model_of(name, subject.costs, subject.shadings) for name, subject in costs.subjects.items())
+    return [model for model in models if model is not None]
 
 
 def _scene(subject: Subject, points: Sequence[Point]) -> SceneSummary:

@@ -116,7 +116,7 @@ def subject_costs(
                     continue
                 plans = _frame_plans(subject, request, size)
                 recorded = bool(arguments.get("record"))
-                shadings = _shadings(subject, request, calibration, size, recorded)
+                shadings = _shadings(subject, request, calibration, stages, size, recorded)
                 if plans is not None and plans.as_described and not request.shader and not recorded:
                     shadings = [Shading(AS_DESCRIBED)]
                 with _source(subject, request, clock, model, stages, plans) as source:
@@ -126,15 +126,19 @@ def subject_costs(
         return AllCosts(found, clock.name, clock.software, clock.unstable)
 
 
-def _shadings(subject: Subject, request: TimingRequest, calibration: Any, size: tuple[int, int], record: bool) -> list[Shading]:
+def _shadings(
+    subject: Subject, request: TimingRequest, calibration: Any, stages: tuple[Any, ...], size: tuple[int, int], record: bool
+) -> list[Shading]:
     """The costs of shading of a subject, the cheapest first: those asked for, its own, and that of one's own shader. Its record needs its
     own, else the default one."""
     stated = stated_shading(subject.frame) if subject.frame is not None else None
     own = stated or (DEFAULT_SHADING if record and subject.frame is not None else None)
     names = list(dict.fromkeys([*request.shadings, *([own] if own else [])]))
-    shadings: list[Shading] = calibration.shadings(names, size) if names else []
+    shadings: list[Shading] = calibration.shadings(names, size)
     shadings.sort(key=lambda shading: shading.full_screen_ms or 0.0)
-    return [*shadings, *([Shading(os.path.basename(request.shader))] if request.shader else [])]
+    if stages:
+        shadings.append(calibration.measured(os.path.basename(request.shader), stages, size))
+    return shadings
 
 
 def _frame_plans(subject: Subject, request: TimingRequest, size: tuple[int, int]) -> Any:

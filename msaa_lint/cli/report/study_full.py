@@ -140,8 +140,8 @@ def _timing(study: Study, size: str) -> Iterator[str]:
         if shading.operations or shading.fetches or shading.full_screen_ms:
             yield f"{display(shading.name)}: {_work(shading)} per invocation{_full_screen(shading, study)}"
     for model in study.models:
-        residual, noise = 100 * model.residual, 100 * model.noise
-        yield f"model of the times of {display(model.scene)}: off by at most {residual:.1f} %, of which {noise:.1f} % may be noise"
+        residual, rms, noise = 100 * model.residual, 100 * model.rms, 100 * model.noise
+        yield f"model of the times of {display(model.scene)}: off by {rms:.1f} % (at most {residual:.1f} %); noise is up to {noise:.1f} %"
 
 
 def _work(shading: Shading) -> str:

@@ -12,7 +12,7 @@ from msaa_lint.experiments.study.points import Point, Technique
 from msaa_lint.experiments.study.recommendation import Recommendation
 from msaa_lint.experiments.study.shading import Shading
 from msaa_lint.experiments.study.steps import AddedTime, Step
-from msaa_lint.experiments.study.time_model import TimeModel
+from msaa_lint.experiments.study.time_model import TERMS, TimeModel
 
 from . import Options, Write
 from .data import Json, head, text, write_object
@@ -73,12 +73,18 @@ def _shading(shading: Shading) -> Json:
 
 
 def _model(model: TimeModel) -> Json:
-    """The coefficients of a scene's times: `base_ms` plus `invocations` times the cost of a million, in nanoseconds, times 1e-12."""
-    coefficients = [
-        {**_technique(technique), "base_ms": _number(base), "invocations": _number(model.invocations[technique])}
-        for technique, base in model.base_ms.items()
-    ]
-    return {"scene": text(model.scene), "residual": _number(model.residual), "noise": _number(model.noise), "techniques": coefficients}
+    """The coefficients of a scene's times, and what they are multiplied by for each technique."""
+    return {
+        "scene": text(model.scene),
+        "residual": _number(model.residual),
+        "rms_residual": _number(model.rms),
+        "noise": _number(model.noise),
+        "coefficients": {name: _number(value) for name, value in zip(TERMS, model.coefficients, strict=True)},
+        "techniques": [
+            {**_technique(technique), **{name: _number(value) for name, value in terms._asdict().items()}}
+            for technique, terms in model.terms.items()
+        ],
+    }
 
 
 def _technique(technique: Technique) -> Json:

@@ -11,7 +11,7 @@ from statistics import median
 from typing import Any
 
 from .points import MSAA, Technique
-from .scene_timing import shaded
+from .scene_timing import own_shaders, shaded
 from .shading import NONE, Shading, calibrated, target
 from .technique_frames import frame_of
 from .times import DeviceClock
@@ -50,6 +50,15 @@ class Calibration:
         if missing:
             self._calibrated |= {(name, size): found for name, found in zip(missing, self._calibrate(missing, size), strict=True)}
         return [self._calibrated[name, size] for name in names]
+
+    def measured(self, name: str, stages: tuple[Any, ...], size: tuple[int, int]) -> Shading:
+        """The cost of a fragment shader with these stages (confirm/parts.py), as measured on a full screen."""
+        with _full_screen(self.clock, size) as plan:
+            run = self.clock.time([(plan, [Shading(NONE)]), (own_shaders(plan, stages), [Shading(NONE)])], ROUNDS)
+        if any(item.reason for item in run.items):
+            return Shading(name)
+        none, own = (median(item.times[0]) for item in run.items)
+        return calibrated(Shading(name), own - none, size)
 
     def _calibrate(self, names: Sequence[str], size: tuple[int, int]) -> list[Shading]:
         targets = [target(name, size) for name in names]

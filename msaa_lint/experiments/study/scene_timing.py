@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import os
 import shutil
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from hashlib import sha256
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from .points import Technique
+from .points import MSAA, SAMPLE_SHADING, Technique
 from .shading import AS_DESCRIBED, NONE, Shading
 from .technique_frames import frame_of
+from .time_model import Terms
 from .times import Cost, CostModel, Costs, DeviceClock
 
 if TYPE_CHECKING:
@@ -61,7 +62,8 @@ class SceneClock:
     ) -> None:
         self.clock, self.model, self.name = clock, model, clock.name
         self.stages, self.own = stages, own
-        self._vertices = vertices(scene, geometry or Geometry())
+        self._triangles, self._overdraw = drawn_triangles(scene, geometry or Geometry()), (geometry or Geometry()).overdraw
+        self._vertices = clip(self._triangles, scene.width, scene.height).tobytes() * self._overdraw
         self._plans = plans
         self.content = sha256(self._vertices + repr((stages, own, plans.base if plans is not None else None)).encode()).hexdigest()[:16]
         self._folder = ""
@@ -96,8 +98,15 @@ class SceneClock:
                 items[technique, _OWN] = own_shaders(each.whole, self.stages), [none]
         timed = dict(zip(items, self.clock.time(list(items.values())).items, strict=True))
         costs: dict[tuple[Technique, str], Cost] = {}
+        counts = {
+            technique: timed[technique, _BARE if each.bare is not None else _WHOLE].invocations
+            for technique, each in plans.items()
+            if not each.reason
+        }
         for technique, each in plans.items():
             model = self.model.of(technique, *size)
+            if not each.reason:
+                model = self._with_terms(model, technique, each.whole, size, counts)
             for shading in shadings:
                 cost = model._replace(reason=each.reason)
                 if not each.reason:
@@ -106,6 +115,23 @@ class SceneClock:
                     cost = _cost(model, whole, bare, own or whole, _place(works, shading))
                 costs[technique, shading.name] = cost
         return costs
+
+    def _with_terms(
+        self, cost: Cost, technique: Technique, plan: Any, size: tuple[int, int], counts: Mapping[Technique, int | None]
+    ) -> Cost:
+        """The cost with what its time depends on. What frames draw is not known by pixel: theirs are the invocations of the device."""
+        written, resolved = plan_gigabytes(plan)
+        if self._plans is None:
+            from .invocations import count
+
+            found = count(self._triangles, size, technique)
+            terms = Terms(written, resolved, *(self._overdraw * number / 1e6 for number in found))
+            return cost._replace(expected_invocations=self._overdraw * found.total, terms=tuple(terms))
+        one, whole = counts.get(Technique(MSAA, technique.samples)), counts[technique]
+        if whole is None:
+            return cost
+        fragments = whole if technique.kind != SAMPLE_SHADING or one is None else min(one, whole)
+        return cost._replace(terms=tuple(Terms(written, resolved, fragments / 1e6, 0.0, (whole - fragments) / 1e6)))
 
     def _supported(self, technique: Technique, size: tuple[int, int]) -> TechniquePlans:
         """The plans of a technique, with the reason why the device cannot run them, if any."""
@@ -192,13 +218,35 @@ def unresolved(plan: Any) -> Any:
     return bare if bare != plan else None
 
 
-def vertices(scene: Any, geometry: Geometry | None = None) -> bytes:
-    """The triangles of a scene in the vertex shader's input format (confirm/scene.py). ValueError for more than MAX_TRIANGLES."""
-    shape = geometry or Geometry()
-    triangles = divided(scene.triangles, shape.triangle_size) if shape.triangle_size else scene.triangles
-    if len(triangles) * shape.overdraw > MAX_TRIANGLES:
-        raise ValueError(f"{len(triangles):,} triangles drawn {shape.overdraw} times are more than {MAX_TRIANGLES:,}")
-    return clip(triangles, scene.width, scene.height).tobytes() * shape.overdraw
+def plan_gigabytes(plan: Any) -> tuple[float, float]:
+    """The gigabytes (10^9) of samples in the attachments that a plan renders to, and of pixels that it resolves or blits."""
+    from msaa_lint.experiments.confirm import parts
+
+    written: list[int] = []
+    resolved: list[int] = []
+    for step in plan.steps:
+        if step.kind in ("resolve", "blit"):
+            resolved.append(step.target)
+        elif step.kind == "begin" and plan.passes[step.number].kind == parts.RENDERING:
+            rendered = [target for target in plan.passes[step.number].rendered if target.image != parts.NONE]
+            written += [target.image for target in rendered]
+            resolved += [target.resolve_image for target in rendered if target.resolve_image != parts.NONE]
+        elif step.kind == "begin":
+            frame_pass = plan.passes[step.number]
+            images = frame_pass.framebuffers[step.framebuffer].images if frame_pass.framebuffers else ()
+            targets = [images[r.attachment] for each in frame_pass.subpasses for r in each.resolves if r.attachment != parts.NONE]
+            resolved += targets
+            written += [image for image in images if image not in targets]
+    sizes = [image.width * image.height * image.layers * image.bytes * image.samples for image in plan.images]
+    return sum(sizes[number] for number in written) / 1e9, sum(sizes[number] for number in resolved) / 1e9
+
+
+def drawn_triangles(scene: Any, geometry: Geometry) -> NDArray[np.float64]:
+    """The triangles of a scene (T, 3, 2) that are drawn, in pixels. ValueError for more than MAX_TRIANGLES."""
+    triangles: NDArray[np.float64] = divided(scene.triangles, geometry.triangle_size) if geometry.triangle_size else scene.triangles
+    if len(triangles) * geometry.overdraw > MAX_TRIANGLES:
+        raise ValueError(f"{len(triangles):,} triangles drawn {geometry.overdraw} times are more than {MAX_TRIANGLES:,}")
+    return triangles
 
 
 def divided(triangles: NDArray[np.float64], size: float) -> NDArray[np.float64]:

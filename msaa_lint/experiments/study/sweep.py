@@ -134,6 +134,7 @@ def with_cost(point: Point, costs: Costs, shading: Shading, source: str) -> Poin
         shading_ms=cost.shading_ms,
         resolve_ms=cost.resolve_ms,
         invocations=cost.invocations,
+        expected_invocations=cost.expected_invocations,
         time_from=source if cost.time_ms is not None else "",
         ratio=cost.time_ms / one if cost.time_ms is not None and one else None,
         bytes_per_frame=cost.bytes_per_frame,

@@ -17,7 +17,8 @@ from .technique_frames import frame_of
 
 class Cost(NamedTuple):
     """The cost of a technique at a size under a cost of shading; None where unknown. `reason` says why a device does not support the
-    technique, or, with `failed`, why it could not be timed. The times are those of a Point; `rounds` are the medians of each round."""
+    technique, or, with `failed`, why it could not be timed. The times and invocations are those of a Point. `rounds` are the medians of
+    each round, and `terms` what the model of times depends on (study/time_model.py)."""
 
     time_ms: float | None = None
     bytes_per_frame: float | None = None
@@ -29,7 +30,9 @@ class Cost(NamedTuple):
     shading_ms: float | None = None
     resolve_ms: float | None = None
     invocations: int | None = None
+    expected_invocations: int | None = None
     rounds: tuple[float, ...] = ()
+    terms: tuple[float, ...] = ()
     reason: str = ""
     failed: bool = False
 

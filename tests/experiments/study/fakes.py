@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from msaa_lint.experiments.study.points import MSAA, SSAA, Point, Technique
 from msaa_lint.experiments.study.shading import Shading
 from msaa_lint.experiments.study.tasks import StudyInput, Task
+from msaa_lint.experiments.study.time_model import TERMS, Terms, TimeModel
 from msaa_lint.experiments.study.times import Cost, Costs
 
 ERRORS = {1: 0.2887, 2: 0.1443, 4: 0.0722, 8: 0.0361, 16: 0.0363}
@@ -74,3 +75,11 @@ class DeviceClock:
             return Cost(None, 1000, 1.0, 0.5, reason="the device does not have that count")
         time = 2.0 * technique.samples * (1 + shading.operations)
         return Cost(time, 1000 * technique.samples, 1.0, 0.5, 0.95 * time, 1.05 * time)
+
+
+def model(scene: str, base: Mapping[Technique, float], invocations: Mapping[Technique, float], residual: float, noise: float) -> TimeModel:
+    """A model of times that are `base` milliseconds plus `invocations` times the cost of a million of them, with such residuals."""
+    coefficients = tuple(1.0 if name in ("ms_per_gb_written", "fragments") else 0.0 for name in TERMS)
+    terms = {technique: Terms(gb_written=base[technique], fragments=invocations[technique] / 1e6) for technique in base}
+    # No cost above 0 is measured: all are uncertain by the residual.
+    return TimeModel(scene, coefficients, terms, {technique: [(-1.0, 1.0)] for technique in base}, residual, residual, noise)

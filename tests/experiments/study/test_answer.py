@@ -19,6 +19,7 @@ from msaa_lint.experiments.study.scenes.about import about
 from msaa_lint.experiments.study.shading import Shading
 from msaa_lint.experiments.study.steps import added_time
 from msaa_lint.experiments.study.time_model import TimeModel
+from tests.experiments.study import fakes
 from tests.experiments.study.fakes import TIMES, point, shaded, timed
 
 COUNTS = techniques((MSAA,))
@@ -147,7 +148,7 @@ def test_what_is_recommended_fits_and_nothing_that_fits_is_better(rows: list[tup
 
 def model(residual: float = 0.0, scene: str = "edges") -> TimeModel:
     base = {technique: TIMES[technique.samples] for technique in COUNTS}
-    return TimeModel(scene, base, dict.fromkeys(COUNTS, 1000000.0), residual, 0.01)
+    return fakes.model(scene, base, dict.fromkeys(COUNTS, 1000000.0), residual, 0.0)
 
 
 def test_a_step_is_worth_it_from_the_cost_where_it_adds_a_tenth() -> None:
@@ -168,7 +169,7 @@ def test_a_step_is_worth_it_from_the_cost_where_it_adds_a_tenth() -> None:
 def test_a_step_whose_invocations_grow_is_worth_it_up_to_a_cost() -> None:
     """1.0 + 1.3 x = 1.1 (1.0 + x): edges of small triangles add invocations, and a tile-based GPU adds nothing else."""
     points = [timed(technique, width=1000, height=1000) for technique in COUNTS[:2]]
-    edges = TimeModel("edges", dict.fromkeys(COUNTS, 1.0), {COUNTS[0]: 1e6, COUNTS[1]: 1.3e6}, 0.02, 0.01)
+    edges = fakes.model("edges", dict.fromkeys(COUNTS[:2], 1.0), {COUNTS[0]: 1e6, COUNTS[1]: 1.3e6}, 0.02, 0.01)
     (found,) = worth(points, ERROR, edges, [Shading("heavy", nanoseconds=12e6)])
     assert (found.at_least, found.at_greatest) == (True, False)
     assert found.full_screen_ms == pytest.approx(0.1 / 0.2)
@@ -196,7 +197,7 @@ def test_the_report_says_from_which_cost_on_or_never() -> None:
         f"(there it adds at most 10 % to the time of 2x; the model's residuals put that cost between 4.4 and 7.6 ms; {costs})",
         f"8x is not worth its time at any measured cost of shading (it always adds more than 10 % to the time of 4x; {costs})",
     ]
-    free = model()._replace(base_ms=dict.fromkeys(COUNTS, 1.0))
+    free = fakes.model("edges", dict.fromkeys(COUNTS, 1.0), dict.fromkeys(COUNTS, 1000000.0), 0.0, 0.0)
     assert sentences(points, free, medium)[0] == (
         "2x is worth its time at every measured cost of shading (it adds at most 10 % to the time of 1x; medium is 4.17 ms)"
     )

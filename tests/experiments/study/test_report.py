@@ -32,8 +32,8 @@ from msaa_lint.experiments.study.scenes import scene
 from msaa_lint.experiments.study.shading import Shading
 from msaa_lint.experiments.study.simulate import simulate
 from msaa_lint.experiments.study.tasks import FailedPoint
-from msaa_lint.experiments.study.time_model import TimeModel
 from tests.cli.report.drawn import Drawing, overlaps
+from tests.experiments.study import fakes
 from tests.experiments.study.fakes import TIMES, point, shaded, timed
 from tests.paths import ROOT
 from tests.strength import examples
@@ -98,7 +98,7 @@ def costly(**other: Any) -> Study:
         for technique in of
     ]
     base = {technique: TIMES[technique.samples] for technique in of}
-    model = TimeModel("edges", base, {technique: 3072.0 * technique.shaded for technique in of}, 0.031, 0.01)
+    model = fakes.model("edges", base, {technique: 3072.0 * technique.shaded for technique in of}, 0.031, 0.01)
     more = {"scenes": study().scenes[:1], "points": points, "failed": [], "shadings": COSTS, "models": [model], "budget_ms": 1.2}
     return study(**{**more, **other})
 
@@ -211,7 +211,7 @@ def hostile() -> Study:
         failed=[FailedPoint(HOSTILE, Technique(MSAA, 4), HOSTILE)],
         untimed=[UntimedTechnique("16x", HOSTILE)],
         shadings=[Shading(HOSTILE, 1, 1, 1, 1.0, 1.0)],
-        models=[TimeModel(HOSTILE, {}, {}, 0.1, 0.1)],
+        models=[fakes.model(HOSTILE, {}, {}, 0.1, 0.1)],
         wrong=[diagnostic("MSAA901", HOSTILE, HOSTILE)],
         records=[HOSTILE],
         pictures=[HOSTILE],
