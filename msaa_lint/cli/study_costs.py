@@ -114,7 +114,7 @@ def subject_costs(
                 if clock is None:
                     found[subject.input.name] = SubjectCosts(shadings, costs(techniques, shadings, size, model, checkpoint))
                     continue
-                plans = _frame_plans(subject, request, size)
+                plans = _frame_plans(subject, request, size, clock)
                 recorded = bool(arguments.get("record"))
                 shadings = _shadings(subject, request, calibration, stages, size, recorded)
                 if plans is not None and plans.as_described and not request.shader and not recorded:
@@ -141,7 +141,7 @@ def _shadings(
     return shadings
 
 
-def _frame_plans(subject: Subject, request: TimingRequest, size: tuple[int, int]) -> Any:
+def _frame_plans(subject: Subject, request: TimingRequest, size: tuple[int, int], clock: Any) -> Any:
     """The plans of a subject's own frame; None for a scene without one, and for a description without passes."""
     if subject.frame is None:
         return None
@@ -151,7 +151,7 @@ def _frame_plans(subject: Subject, request: TimingRequest, size: tuple[int, int]
     sizes = stated._replace(
         overdraw=request.overdraw if request.overdraw > 1 else stated.overdraw, side=request.triangle_size or stated.side
     )
-    plans = FramePlans(subject.frame, subject.file, size, sizes)
+    plans = FramePlans(subject.frame, subject.file, size, sizes, clock.device)
     return plans if plans.base.passes else None
 
 

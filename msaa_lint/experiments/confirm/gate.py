@@ -13,6 +13,7 @@ from msaa_lint.frame.vulkan.enums import VALUES
 from . import parts
 from .opening import TAKEN_UP
 from .parts import COLOR, DEPTH, NONE, STENCIL, Image, Pass, Pipeline, Plan
+from .shader_support import unsupported_in
 from .texels import format_name
 
 SINGLE_SAMPLED = "VK_EXT_multisampled_render_to_single_sampled"
@@ -307,8 +308,15 @@ def _blits(plan: Plan, frame_pass: Pass, offered: DeviceSupport) -> Iterator[str
                 yield f"the device does not blit {word} {format_name(plan.images[image].format)}{filtered}"
 
 
+def _shaders(plan: Plan, frame_pass: Pass, offered: DeviceSupport) -> Iterator[str]:
+    for pipeline in frame_pass.pipelines:
+        reason = unsupported_in(plan, frame_pass, pipeline, offered.device)
+        if reason:
+            yield f"the shader of {pipeline.name} {reason}"
+
+
 _Check = Callable[[Plan, Pass, DeviceSupport], Iterator[str]]
-_CHECKS: tuple[_Check, ...] = (_way, _mixed, _images, _images_of_attachments, _resolves, _pipelines, _blits)
+_CHECKS: tuple[_Check, ...] = (_way, _mixed, _images, _images_of_attachments, _resolves, _pipelines, _blits, _shaders)
 
 
 def _aspects(number: int) -> int:

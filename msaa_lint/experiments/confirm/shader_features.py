@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-ALWAYS = frozenset({0, 1, 40, 43, 44, 46, 47, 50, 51, 52, 61, 62, 63, 64, 65, 66, 67, 68, 4437, 5301, 6025})
-"""Capabilities of SPIR-V that need no feature. Devices without the operations of subgroups in fragment shaders are not known."""
+ALWAYS = frozenset({0, 1, 40, 43, 44, 46, 47, 50, 51, 52, 4437, 5301, 6025})
+"""Capabilities of SPIR-V that need no feature."""
 
-_NEEDS = {
+FEATURES = {
     2: "geometryShader", 3: "tessellationShader", 9: "shaderFloat16", 10: "shaderFloat64", 11: "shaderInt64",
     12: "shaderBufferInt64Atomics", 22: "shaderInt16", 25: "shaderImageGatherExtended",
     27: "shaderStorageImageMultisample", 28: "shaderUniformBufferArrayDynamicIndexing",
@@ -30,6 +30,14 @@ _NEEDS = {
     6018: "shaderIntegerDotProduct", 6019: "shaderIntegerDotProduct",
 }  # fmt: skip
 """The feature by capability."""
+
+SUBGROUPS = {
+    "GroupNonUniform": 0x1, "GroupNonUniformVote": 0x2, "GroupNonUniformArithmetic": 0x4, "GroupNonUniformBallot": 0x8,
+    "GroupNonUniformShuffle": 0x10, "GroupNonUniformShuffleRelative": 0x20, "GroupNonUniformClustered": 0x40, "GroupNonUniformQuad": 0x80,
+}  # fmt: skip
+"""VkSubgroupFeatureFlagBits by capability; the numbers of the capabilities are consecutive."""
+
+FEATURES |= {61 + number: name for number, name in enumerate(SUBGROUPS)}
 
 _CAPABILITIES = {
     7: "Linkage", 38: "GenericPointer", 53: "TransformFeedback", 4422: "FragmentShadingRateKHR", 4447: "SampleMaskPostDepthCoverage",
@@ -64,11 +72,14 @@ _OF_1_2 = frozenset({
     "shaderFloat16", "shaderInt8", "shaderBufferInt64Atomics", "shaderOutputLayer", "shaderOutputViewportIndex",
     "runtimeDescriptorArray", "vulkanMemoryModel", "vulkanMemoryModelDeviceScope", "storageBuffer8BitAccess",
     "uniformAndStorageBuffer8BitAccess", "storagePushConstant8", "scalarBlockLayout", "uniformBufferStandardLayout",
-    *(name for number, name in _NEEDS.items() if 5303 <= number <= 5312),
+    *(name for number, name in FEATURES.items() if 5303 <= number <= 5312),
 })  # fmt: skip
 
 ENABLED: Mapping[str, frozenset[str]] = {**_BY_STRUCTURE, "VkPhysicalDeviceVulkan12Features": _OF_1_2}
 """The features to enable where offered, by the structure of Vulkan that has them; those of Vulkan 1.0 are all enabled."""
+
+FRAGMENT = 0x10
+"""VK_SHADER_STAGE_FRAGMENT_BIT."""
 
 _SPIRV = {(1, 0): (1, 0), (1, 1): (1, 3), (1, 2): (1, 5), (1, 3): (1, 6)}
 """The version of SPIR-V that a version of Vulkan takes."""
@@ -76,15 +87,20 @@ _SPIRV = {(1, 0): (1, 0), (1, 1): (1, 3), (1, 2): (1, 5), (1, 3): (1, 6)}
 
 def needed(capabilities: Iterable[int]) -> tuple[tuple[str, ...], str]:
     """The features that capabilities need, and the first capability that is not supported on any device; empty if all are."""
-    unknown = sorted(number for number in capabilities if number not in ALWAYS and number not in _NEEDS)
+    unknown = sorted(number for number in capabilities if number not in ALWAYS and number not in FEATURES)
     name = _CAPABILITIES.get(unknown[0], f"number {unknown[0]}") if unknown else ""
-    return tuple(sorted({_NEEDS[number] for number in capabilities if number in _NEEDS})), name
+    return tuple(sorted({FEATURES[number] for number in capabilities if number in FEATURES})), name
 
 
 def lacking(device: Mapping[str, Any], features: Iterable[str]) -> str:
     """The first of some features that a device (`opening.Session.device`) does not have; empty if it has all."""
+    subgroups = device.get("VkPhysicalDeviceVulkan11Properties", {})
+    operations = int(subgroups.get("subgroupSupportedOperations", 0)) if int(subgroups.get("subgroupSupportedStages", 0)) & FRAGMENT else 0
     structure = {name: key for key, names in ENABLED.items() for name in names}
-    return next((name for name in features if not device.get(structure.get(name, "features"), {}).get(name)), "")
+    for name in features:
+        if name in SUBGROUPS and not operations & SUBGROUPS[name]:
+            return name
+    return next((name for name in features if name not in SUBGROUPS and not device.get(structure.get(name, "features"), {}).get(name)), "")
 
 
 def max_spirv(device: Mapping[str, Any]) -> tuple[int, int]:

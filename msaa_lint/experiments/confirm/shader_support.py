@@ -8,7 +8,7 @@ from typing import Any
 from . import parts
 from .parts import COLOR, NONE, STENCIL, Descriptor, Pass, Pipeline, Plan, Stage, unpacked
 from .plan_notes import Notes
-from .shader_features import lacking, max_spirv
+from .shader_features import SUBGROUPS, lacking, max_spirv
 from .shader_resources import (
     COMBINED,
     IMAGES,
@@ -50,7 +50,8 @@ def unsupported(stages: Sequence[Stage], device: Mapping[str, Any], without: Seq
 def _reasons(stage: Stage, device: Mapping[str, Any], without: Sequence[str]) -> Iterator[str]:
     feature = lacking(device, [name for name in stage.features if name not in without])
     if feature:
-        yield f"needs the feature {feature}, which the device does not have"
+        kind = "the subgroup operations of" if feature in SUBGROUPS else "the feature"
+        yield f"needs {kind} {feature}, which the device does not have"
     if stage.version > max_spirv(device):
         yield f"is SPIR-V {stage.version[0]}.{stage.version[1]}, and the device takes at most {'.'.join(map(str, max_spirv(device)))}"
     limits: Mapping[str, Any] = device.get("properties", {}).get("limits", {})
@@ -93,6 +94,11 @@ def _count_limit(descriptor: Descriptor) -> str:
     return f"sampledImage{kind}SampleCounts"
 
 
+def unsupported_in(plan: Plan, frame_pass: Pass, pipeline: Pipeline, device: Mapping[str, Any]) -> str:
+    """Why a device or a pass does not support the shaders of a pipeline, as `unsupported` says it; empty if both do."""
+    return unsupported(pipeline.stages, device, plan.without) or _unfitting(plan, frame_pass, pipeline)
+
+
 def supported(plan: Plan, device: Mapping[str, Any]) -> Plan:
     """A plan with built-in shaders in place of those that the device or their pass does not support; `defaults` says which."""
     notes = Notes()
@@ -100,7 +106,7 @@ def supported(plan: Plan, device: Mapping[str, Any]) -> Plan:
     for frame_pass in plan.passes:
         pipelines = []
         for pipeline in frame_pass.pipelines:
-            reason = unsupported(pipeline.stages, device, plan.without) or _unfitting(plan, frame_pass, pipeline)
+            reason = unsupported_in(plan, frame_pass, pipeline, device)
             if reason:
                 notes.append(f"the shader of {{}} {reason}: a built-in one is used", pipeline.name)
             pipelines.append(pipeline._replace(stages=()) if reason else pipeline)

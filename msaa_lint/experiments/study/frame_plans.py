@@ -6,8 +6,8 @@ they resolve to is drawn to directly. In a frame without multisampled passes, th
 
 from __future__ import annotations
 
-from collections.abc import Collection
-from typing import NamedTuple
+from collections.abc import Collection, Mapping
+from typing import Any, NamedTuple
 
 from msaa_lint.experiments.confirm import plan as planning
 from msaa_lint.experiments.confirm.meshes import Sizes, with_meshes
@@ -24,6 +24,7 @@ from msaa_lint.experiments.confirm.parts import (
     Step,
 )
 from msaa_lint.experiments.confirm.resample import resampled, resized
+from msaa_lint.experiments.confirm.shader_support import supported
 from msaa_lint.frame.description.models import ReadImage, WriteImage
 from msaa_lint.frame.facts.frame import Frame
 
@@ -56,11 +57,15 @@ class FramePlans:
     of those that the description states.
 
     `passes` are the numbers of the passes to which techniques apply, and `notes` say what is assumed. `as_described` says that all draws of
-    these passes have fragment shaders of the frame, so that a cost of shading does not apply.
+    these passes have fragment shaders of the frame, so that a cost of shading does not apply. Built-in shaders stand in for those that a
+    `device` (confirm/opening.py) does not support.
     """
 
-    def __init__(self, frame: Frame, file: str, size: tuple[int, int], sizes: Sizes | None = None) -> None:
+    def __init__(
+        self, frame: Frame, file: str, size: tuple[int, int], sizes: Sizes | None = None, device: Mapping[str, Any] | None = None
+    ) -> None:
         plan = planning.plan(frame, file)
+        plan = supported(plan, device) if device is not None else plan
         plan = with_meshes(_without_fills(_nearer_as_tested(plan)), sizes or stated_sizes(frame))
         self.passes = _multisampled_passes(plan)
         self.is_multisampled = bool(self.passes)

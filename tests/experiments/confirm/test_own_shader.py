@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import array
 import struct
 from collections.abc import Iterator
 from pathlib import Path
@@ -11,6 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from msaa_lint.experiments.confirm import shader_features
+from msaa_lint.experiments.confirm.gate import gate
 from msaa_lint.experiments.confirm.own_shader import UnusableOwnShader, own_shader
 from msaa_lint.experiments.confirm.parts import Plan, from_json, unpacked
 from msaa_lint.experiments.confirm.session import Session
@@ -313,10 +315,43 @@ def test_what_a_device_lacks_is_named(plain: Session, tmp_path: Path) -> None:
     assert unsupported(stages, old) == "is SPIR-V 1.6, and the device takes at most 1.3"
 
 
+def test_subgroup_operations_are_those_of_the_device(plain: Session, tmp_path: Path) -> None:
+    text = "#extension GL_KHR_shader_subgroup_quad : enable\n#extension GL_KHR_shader_subgroup_clustered : enable\n" + COLOR
+    for operation, capability, bit in (
+        ("subgroupQuadBroadcast(color.x, 1u)", "Quad", 0x80),
+        ("subgroupClusteredAdd(1.0, 4u)", "Clustered", 0x40),
+    ):
+        (tmp_path / "own.spv").write_bytes(spirv(f"{text}void main() {{ color = vec4({operation}); }}"))
+        stages = own_shader(str(tmp_path / "own.spv"))
+        properties = {"subgroupSupportedStages": 0x10, "subgroupSupportedOperations": 0xFF}
+        able = {**plain.device, "VkPhysicalDeviceVulkan11Properties": properties}
+        unable = {**plain.device, "VkPhysicalDeviceVulkan11Properties": {**properties, "subgroupSupportedOperations": 0xFF - bit}}
+        assert unsupported(stages, able) == ""
+        reason = f"needs the subgroup operations of GroupNonUniform{capability}, which the device does not have"
+        assert unsupported(stages, unable) == reason
+
+
+def test_extensions_of_spirv_that_are_not_enabled_are_named(tmp_path: Path) -> None:
+    words = array.array("I", spirv(COLOR + "void main() { color = vec4(1); }"))
+    name = b"SPV_KHR_maximal_reconvergence\0\0\0"
+    # After the only capability.
+    words[7:7] = array.array("I", [(len(name) // 4 + 1) << 16 | 10, *struct.unpack(f"<{len(name) // 4}I", name)])
+    (tmp_path / "own.spv").write_bytes(words.tobytes())
+    with pytest.raises(UnusableOwnShader, match="needs the extension SPV_KHR_maximal_reconvergence, which is not supported"):
+        own_shader(str(tmp_path / "own.spv"))
+
+
+def test_the_gate_refuses_shaders_that_do_not_fit(plain: Session, tmp_path: Path) -> None:
+    """As where another sample count makes an input attachment multisampled."""
+    made = plan_of(tmp_path, spirv(COLOR + LOADS), INPUTS.replace("SAMPLES", "4"))
+    assert gate(made, plain.device) == {0: "the shader of own reads input attachment 0 at set 0, binding 0, whose image has 4 samples"}
+    assert gate(supported(made, plain.device), plain.device) == {}
+
+
 def test_every_feature_that_capabilities_need_is_enabled_or_of_the_first_version(plain: Session) -> None:
     enabled = set().union(*shader_features.ENABLED.values())
-    for feature in shader_features._NEEDS.values():
-        assert feature in plain.device["features"] or feature in enabled, feature
+    for feature in shader_features.FEATURES.values():
+        assert feature in plain.device["features"] or feature in enabled or feature in shader_features.SUBGROUPS, feature
     for structure, names in shader_features.ENABLED.items():
         assert names <= plain.device[structure].keys(), structure
 
