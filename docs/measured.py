@@ -89,7 +89,22 @@ def plotted(found: list[Measured], device: str) -> bytes:
     by_name = {technique.name: technique for technique in techniques()}
     width, height = map(int, found[0].size.split("x"))
     points = [
-        Point(each.scene, by_name[each.technique], width, height, each.rmse, 0, 0, 0, 0, 0, 0, time_ms=each.time_ms)
+        Point(
+            each.scene,
+            by_name[each.technique],
+            width,
+            height,
+            each.rmse,
+            0,
+            0,
+            0,
+            0,
+            0,
+            0,
+            time_ms=each.time_ms,
+            low_ms=each.low_ms,
+            high_ms=each.high_ms,
+        )
         for each in found
         if each.rmse is not None and each.time_ms is not None
     ]

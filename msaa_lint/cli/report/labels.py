@@ -1,7 +1,5 @@
 """Places for the labels of marks in a panel: beside their marks, with nothing beneath them. All lengths are in pixels."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from typing import NamedTuple
@@ -28,6 +26,10 @@ _RINGS = (_NEAR, _NEAR, 40.0, 80.0)
 _MANY = 4
 
 
+Place = tuple[float, float]
+Line = tuple[Place, Place]
+
+
 class Box(NamedTuple):
     """A rectangle from its left top to its right bottom corner."""
 
@@ -36,7 +38,7 @@ class Box(NamedTuple):
     right: float
     bottom: float
 
-    def meets(self, other: Box) -> bool:
+    def meets(self, other: "Box") -> bool:
         """Whether two rectangles have an area in common."""
         return self.left < other.right and other.left < self.right and self.top < other.bottom and other.top < self.bottom
 
@@ -52,10 +54,6 @@ class Box(NamedTuple):
             one, other = sorted(((low - at) / step, (high - at) / step))
             start, end = max(start, one), min(end, other)
         return start < end
-
-
-Place = tuple[float, float]
-Line = tuple[Place, Place]
 
 
 class Label(NamedTuple):

@@ -1,7 +1,5 @@
 """The scales of a figure's axes: where values are, as Vega-Lite computes it, and which of them have a tick."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
@@ -43,7 +41,7 @@ class Scale(NamedTuple):
             return math.log(value)
         return math.copysign(math.log1p(abs(value / self.constant)), value) if self.kind == SYMLOG else value
 
-    def widened(self) -> Scale:
+    def widened(self) -> "Scale":
         """The scale with a margin at both ends."""
         return self._replace(low=self.value(-_MARGIN), high=self.value(1 + _MARGIN))
 

@@ -14,8 +14,8 @@ from .figure import title
 
 SOFTWARE = "times of a software driver: they say nothing about a GPU"
 
-COLUMNS = 3
-"""Of panels, where there is one cost of shading."""
+COLUMNS = {0: 1, 1: 1, 2: 2, 3: 3, 4: 2}
+"""Of panels, by the number of scenes, where there is one cost of shading."""
 
 
 class Panel(NamedTuple):

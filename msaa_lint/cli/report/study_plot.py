@@ -1,7 +1,5 @@
 """The figures of `study --plot`: error against added time, one panel per scene and cost of shading, and the parts of the added time."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from itertools import pairwise
 from typing import Any, NamedTuple
@@ -72,7 +70,7 @@ def plot(study: Study) -> Spec:
 
 def _add_accuracy(figure: Figure, study: Study, rows: Sequence[Sequence[Panel]]) -> None:
     """Adds the panels of error against added time to a figure."""
-    columns = len(rows[0]) if rows and len(rows[0]) > 1 else min(COLUMNS, max(len(rows), 1))
+    columns = len(rows[0]) if rows and len(rows[0]) > 1 else COLUMNS.get(len(rows), max(COLUMNS.values()))
     width = _WIDTHS.get(columns, _WIDTH)
     charts = []
     for row in rows:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from msaa_lint.experiments.confirm.png import EDGE, Picture
 
@@ -13,48 +13,40 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-_PERIOD = 8
+    from .scenes.scene import Scene
+
+_BAND = 128
+"""Rows of the picture that are compared at once."""
 
 
-class Crops:
+class Crops(NamedTuple):
     """The same part of a scene by each technique, and exactly; `corner` is its left top pixel."""
 
-    def __init__(self, corner: tuple[int, int], exact: Picture, pictures: Sequence[tuple[Technique, Picture]]) -> None:
-        self.corner, self.exact, self.pictures = corner, exact, pictures
+    corner: tuple[int, int]
+    exact: Picture
+    pictures: Sequence[tuple[Technique, Picture]]
 
 
-def crops(scene: Any, techniques: Sequence[Technique], bits: int = 8) -> Crops:
+def crops(scene: Scene, techniques: Sequence[Technique], bits: int = 8) -> Crops:
     """The crops of at most 16x16 pixels in which the first technique differs most from the exact picture.
 
     Linear colors are clipped to [0, 1] and encoded as sRGB.
     """
     from .measure import truth
+    from .scenes.scene import Part
     from .simulate import simulate
 
-    exact = display_codes(truth(scene, Technique(MSAA, 1), bits).image)
-    # The first technique determines the crop; the others are rendered only there.
-    x, y = align(most_different(display_codes(simulate(scene, techniques[0], bits).image), exact))
-    part = window(scene, x, y)
-    pictures = [(technique, _picture(display_codes(simulate(part, technique, bits).image))) for technique in techniques]
-    return Crops((x, y), _picture(exact[y : y + part.height, x : x + part.width]), pictures)
-
-
-def align(corner: tuple[int, int]) -> tuple[int, int]:
-    """A corner moved back to a multiple of 8, so that patterns that repeat every few pixels (dithering) are the same in the crop."""
-    return corner[0] // _PERIOD * _PERIOD, corner[1] // _PERIOD * _PERIOD
-
-
-def window(scene: Any, x: int, y: int) -> Any:
-    """The part of a scene from a corner on, at most 16x16 pixels, which renders exactly as it does within the whole."""
-    width, height = min(EDGE, scene.width - x), min(EDGE, scene.height - y)
-    whole = scene.shade
-
-    def shade(triangle: NDArray[np.int32], column: NDArray[np.float64], row: NDArray[np.float64]) -> NDArray[np.float64]:
-        colors: NDArray[np.float64] = whole(triangle, column + x, row + y)
-        return colors
-
-    triangles = scene.triangles - (x, y)
-    return scene._replace(width=width, height=height, triangles=triangles, shade=shade if whole is not None else None)
+    found = -1, 0, 0
+    for top in range(0, max(scene.height - EDGE, 0) + 1, _BAND):
+        # Bands overlap, so that every crop is within one of them.
+        band = Part(0, top, scene.width, min(_BAND + EDGE - 1, scene.height - top))
+        rendered, exact = simulate(scene, techniques[0], bits, band).image, truth(scene, Technique(MSAA, 1), bits, band).image
+        amount, x, y = most_different(display_codes(rendered), display_codes(exact))
+        found = max(found, (amount, x, top + y), key=lambda crop: crop[0])
+    part = Part(*found[1:], min(EDGE, scene.width), min(EDGE, scene.height))
+    exact = truth(scene, Technique(MSAA, 1), bits, part).image
+    pictures = [(technique, _picture(display_codes(simulate(scene, technique, bits, part).image))) for technique in techniques]
+    return Crops((part.left, part.top), _picture(display_codes(exact)), pictures)
 
 
 def display_codes(linear: NDArray[Any]) -> NDArray[np.uint8]:
@@ -66,8 +58,8 @@ def display_codes(linear: NDArray[Any]) -> NDArray[np.uint8]:
     return np.asarray(np.floor(codes * 255 + 0.5), dtype=np.uint8)
 
 
-def most_different(one: NDArray[np.uint8], other: NDArray[np.uint8]) -> tuple[int, int]:
-    """The corner (x, y) of the 16x16 pixels in which two pictures differ most; the first of equal ones."""
+def most_different(one: NDArray[np.uint8], other: NDArray[np.uint8]) -> tuple[int, int, int]:
+    """By how much two pictures differ in the 16x16 pixels in which they differ most, and their corner (x, y); of equal ones the first."""
     import numpy as np
 
     difference = np.abs(one.astype(np.int64) - other.astype(np.int64)).sum(axis=2)
@@ -77,7 +69,7 @@ def most_different(one: NDArray[np.uint8], other: NDArray[np.uint8]) -> tuple[in
     rows, columns = min(EDGE, height), min(EDGE, width)
     sums = integral[rows:, columns:] - integral[:-rows, columns:] - integral[rows:, :-columns] + integral[:-rows, :-columns]
     y, x = np.unravel_index(int(sums.argmax()), sums.shape)
-    return int(x), int(y)
+    return int(sums.max()), int(x), int(y)
 
 
 def short_name(technique: Technique) -> str:

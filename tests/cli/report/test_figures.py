@@ -298,6 +298,21 @@ def test_names_of_any_length_and_content_are_text(name: str) -> None:
     assert all(text.box.right <= drawing.width for text in drawing.texts)
 
 
+def test_names_that_cannot_be_seen_are_escaped() -> None:
+    name = "\x00\ufffe\ud800\u202e\n"
+    words = Drawing(draw(plot(shaded_study(name)), "svg")).words()
+    assert words.count("\\x00\\ufffe\\ud800\\u202e") == 6
+    assert draw(plot(shaded_study(name)), "json").isascii()
+
+
+@pytest.mark.parametrize(("count", "columns"), [(1, 1), (2, 2), (3, 3), (4, 2), (5, 3)])
+def test_scenes_without_costs_of_shading_are_in_a_grid(count: int, columns: int) -> None:
+    points = [point(technique, f"scene {number}") for number in range(count) for technique in techniques((MSAA,))]
+    scenes = [SceneSummary(f"scene {number}", "", ()) for number in range(count)]
+    spec = plot(Study("", "", (64, 48), 8, scenes, points, (), ()))
+    assert spec["vconcat"][0]["columns"] == columns and len(spec["vconcat"][0]["concat"]) == count
+
+
 def test_times_without_a_number_have_no_place() -> None:
     points = [shaded_point(technique, "edges", "none") for technique in techniques((MSAA,))]
     points[1:3] = [points[1]._replace(time_ms=math.nan), points[2]._replace(rmse=math.inf)]
