@@ -30,7 +30,7 @@ class Crops(NamedTuple):
 def crops(scene: Scene, techniques: Sequence[Technique], bits: int = 8) -> Crops:
     """The crops of at most 16x16 pixels in which the first technique differs most from the exact picture.
 
-    Linear colors are clipped to [0, 1] and encoded as sRGB.
+    Colors are as a display shows them: light beyond its white is mapped, and all is encoded as sRGB.
     """
     from .measure import truth
     from .scenes.scene import Part
@@ -41,20 +41,21 @@ def crops(scene: Scene, techniques: Sequence[Technique], bits: int = 8) -> Crops
         # Bands overlap, so that every crop is within one of them.
         band = Part(0, top, scene.width, min(_BAND + EDGE - 1, scene.height - top))
         rendered, exact = simulate(scene, techniques[0], bits, band).image, truth(scene, Technique(MSAA, 1), bits, band).image
-        amount, x, y = most_different(display_codes(rendered), display_codes(exact))
+        amount, x, y = most_different(shown(scene, rendered), shown(scene, exact))
         found = max(found, (amount, x, top + y), key=lambda crop: crop[0])
     part = Part(*found[1:], min(EDGE, scene.width), min(EDGE, scene.height))
     exact = truth(scene, Technique(MSAA, 1), bits, part).image
-    pictures = [(technique, _picture(display_codes(simulate(scene, technique, bits, part).image))) for technique in techniques]
-    return Crops((part.left, part.top), _picture(display_codes(exact)), pictures)
+    pictures = [(technique, _picture(shown(scene, simulate(scene, technique, bits, part).image))) for technique in techniques]
+    return Crops((part.left, part.top), _picture(shown(scene, exact)), pictures)
 
 
-def display_codes(linear: NDArray[Any]) -> NDArray[np.uint8]:
-    """The 8-bit sRGB codes of linear RGB (IEC 61966-2-1); NaN is black."""
+def shown(scene: Scene, color: NDArray[Any]) -> NDArray[np.uint8]:
+    """The 8-bit sRGB codes of resolved color; NaN is black."""
     import numpy as np
 
-    light = np.clip(np.nan_to_num(linear[..., :3], nan=0.0), 0.0, 1.0)
-    codes = np.where(light <= 0.0031308, light * 12.92, 1.055 * light ** (1 / 2.4) - 0.055)
+    from .displayed import display_codes
+
+    codes = np.clip(np.nan_to_num(display_codes(scene, color), nan=0.0), 0.0, 1.0)
     return np.asarray(np.floor(codes * 255 + 0.5), dtype=np.uint8)
 
 

@@ -25,7 +25,7 @@ from msaa_lint.core.diagnostics import diagnostic
 from msaa_lint.experiments.confirm.png import Picture, is_own_picture, png, signed
 from msaa_lint.experiments.study.advice import Advice
 from msaa_lint.experiments.study.answer import conclude
-from msaa_lint.experiments.study.crops import crops, display_codes, most_different, short_name
+from msaa_lint.experiments.study.crops import crops, most_different, short_name, shown
 from msaa_lint.experiments.study.measure import truth
 from msaa_lint.experiments.study.outcome import SceneSummary, Study, UntimedTechnique
 from msaa_lint.experiments.study.points import MSAA, SAMPLE_SHADING, SSAA, Point, Technique, techniques
@@ -279,7 +279,7 @@ def picture(pixels: list[list[int]]) -> Any:
 
 def test_linear_light_is_displayed_as_srgb() -> None:
     linear = np.array([[[0.0, 0.5, 1.0, 0.3], [2.0, -1.0, math.nan, 1.0], [0.0031308, 0.21404, math.inf, 0.0]]])
-    assert display_codes(linear).tolist() == [[[0, 188, 255], [255, 0, 0], [10, 127, 255]]]
+    assert shown(scene("edge-fan", 32, 32), linear).tolist() == [[[0, 188, 255], [255, 0, 0], [10, 127, 255]]]
 
 
 @given(st.integers(1, 40), st.integers(1, 40), st.data())
@@ -316,12 +316,12 @@ def test_crops_are_parts_of_the_pictures_where_the_first_technique_differs_most(
     whole = scene(name, 96, 160)
     chosen = [Technique(MSAA, 1), Technique(MSAA, 4), Technique(SAMPLE_SHADING, 4, 1.0), Technique(SSAA, 9, grid=3)]
     found = crops(whole, chosen)
-    exact = display_codes(truth(whole).image)
+    exact = shown(whole, truth(whole).image)
+    rendered = [shown(whole, simulate(whole, technique).image) for technique in chosen]
     x, y = found.corner
-    assert (x, y) == most_different(display_codes(simulate(whole, chosen[0]).image), exact)[1:]
-    for shown, picture in ((found.exact, exact), *((shown, display_codes(simulate(whole, each).image)) for each, shown in found.pictures)):
-        assert (shown.width, shown.height) == (16, 16)
-        codes = np.frombuffer(shown.rgb, dtype=np.uint8).reshape(16, 16, 3)
+    assert (x, y) == most_different(rendered[0], exact)[1:]
+    for crop, picture in zip([found.exact, *(crop for _, crop in found.pictures)], [exact, *rendered], strict=True):
+        codes = np.frombuffer(crop.rgb, dtype=np.uint8).reshape(16, 16, 3)
         np.testing.assert_allclose(codes.astype(int), picture[y : y + 16, x : x + 16], rtol=0, atol=1)
 
 
