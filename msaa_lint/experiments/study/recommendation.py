@@ -54,12 +54,15 @@ def _added(point: Point, one: Point) -> AddedTime:
 
 
 def _within(points: Sequence[Point], one: Point, measure: Measure, budget_ms: float) -> Recommendation:
-    """The least error of those whose added time surely fits: the upper bound of its interval counts."""
+    """The least error of those whose added time fits with its upper bound."""
     fitting = [point for point in points if _added(point, one).high_ms <= budget_ms]
     choice = _front(fitting, measure)[-1]
-    count = f"{len(fitting)} technique{'' if len(fitting) == 1 else 's'}"
-    reason = f"the least {measure.name}, {_figure(measure, choice)}, of {count} that surely add at most {budget_ms:.3g} ms"
-    reason += f"; it adds {_bounds(_added(choice, one))}"
+    reason = f"every other technique adds more than {budget_ms:.3g} ms"
+    if len(fitting) > 1:
+        reason = (
+            f"the least {measure.name}, {_figure(measure, choice)}, of the {len(fitting)} techniques that add at most {budget_ms:.3g} ms"
+        )
+        reason += f"; it adds {_bounds(_added(choice, one))}"
     better = [point for point in _front(points, measure) if measure.rounded(point) < measure.rounded(choice)]
     following = f"no technique has less {measure.name}"
     if better:
