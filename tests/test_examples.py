@@ -34,7 +34,6 @@ EXPECTED: dict[str, list[tuple[int, str]]] = {
         (35, "framebuffer-readback"),
         (60, "multisampled-float-blending"),
     ],
-    "lit/rocks.msaa.yaml": [],
     "tutorial/final.msaa.yaml": [
         (7, "sample-count-above-four"),
         (7, "sample-count-not-portable"),

@@ -178,7 +178,7 @@ def _study(arguments: Arguments, options: StudyOptions) -> int:
             failures.append(result)
             warn(f"{result.scene}: {result.technique.name}: {result.reason}")
         else:
-            subject_shadings, subject_times = costs.subjects[result.scene]
+            subject_shadings, subject_times, _ = costs.subjects[result.scene]
             points += [with_cost(result, subject_times, shading, costs.device) for shading in subject_shadings]
     order = [(name, shading.name) for name in names for shading in costs.subjects[name].shadings]
     points.sort(key=lambda point: order.index((point.scene, point.shading)))
@@ -222,18 +222,26 @@ def _outcome(
     errors: Sequence[Finding],
 ) -> Study:
     """What there is to report."""
-    every_cost = [item for subject in costs.subjects.values() for item in subject.costs.items()]
-    untimed = {technique.name: cost.reason for (technique, _), cost in every_cost if cost.reason}
+    many = len(costs.subjects) > 1
+    untimed = {
+        (technique.name, f"{name}: {cost.reason}" if many else cost.reason): None
+        for name, subject in costs.subjects.items()
+        for (technique, _), cost in subject.costs.items()
+        if cost.reason
+    }
     models = {subject.device.name if subject.device is not None else "" for subject in studied}
     return Study(
         costs.device,
         models.pop() if len(models) == 1 else "",
         size,
         bits,
-        [_scene(subject, [point for point in points if point.scene == subject.input.name]) for subject in studied],
+        [
+            _scene(subject, [point for point in points if point.scene == subject.input.name], costs.subjects[subject.input.name].assumed)
+            for subject in studied
+        ],
         points,
         failures,
-        [UntimedTechnique(name, reason) for name, reason in untimed.items()],
+        [UntimedTechnique(name, reason) for name, reason in untimed],
         wrong=errors,
         software=costs.software,
         shadings=costs.shadings,
@@ -251,7 +259,7 @@ def _models(costs: AllCosts) -> list[TimeModel]:
     return [model for model in models if model is not None]
 
 
-def _scene(subject: Subject, points: Sequence[Point]) -> SceneSummary:
+def _scene(subject: Subject, points: Sequence[Point], assumed: tuple[str, ...]) -> SceneSummary:
     """The scene with the effects that it needs, and those that one of its techniques needs."""
     from msaa_lint.experiments.study.scenes.about import about
 
@@ -260,7 +268,9 @@ def _scene(subject: Subject, points: Sequence[Point]) -> SceneSummary:
     for point in points:
         for name in point.effects:
             effects.setdefault(name, "a technique needs it")
-    return SceneSummary(subject.input.name, picture.description, tuple(effects.items()), picture.coverage_matter, about(picture))
+    return SceneSummary(
+        subject.input.name, picture.description, tuple(effects.items()), picture.coverage_matter, about(picture), assumed=assumed
+    )
 
 
 @contextlib.contextmanager

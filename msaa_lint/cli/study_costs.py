@@ -38,10 +38,11 @@ class TimingRequest(NamedTuple):
 
 
 class SubjectCosts(NamedTuple):
-    """The costs of shading under which a subject is timed, and what its techniques cost under each."""
+    """The costs of shading under which a subject is timed, what its techniques cost under each, and what is assumed of its frame."""
 
     shadings: Sequence[Shading]
     costs: Costs
+    assumed: tuple[str, ...] = ()
 
 
 class AllCosts(NamedTuple):
@@ -115,12 +116,13 @@ def subject_costs(
                     found[subject.input.name] = SubjectCosts(shadings, costs(techniques, shadings, size, model, checkpoint))
                     continue
                 plans = _frame_plans(subject, request, size, clock)
+                notes = plans.notes if plans is not None else ()
                 recorded = bool(arguments.get("record"))
                 shadings = _shadings(subject, request, calibration, stages, size, recorded)
                 if plans is not None and plans.as_described and not request.shader and not recorded:
                     shadings = [Shading(AS_DESCRIBED)]
                 with _source(subject, request, clock, model, stages, plans) as source:
-                    found[subject.input.name] = SubjectCosts(shadings, costs(techniques, shadings, size, source, checkpoint))
+                    found[subject.input.name] = SubjectCosts(shadings, costs(techniques, shadings, size, source, checkpoint), notes)
         if clock is None:
             return AllCosts(found)
         return AllCosts(found, clock.name, clock.software, clock.unstable)

@@ -21,6 +21,10 @@ from .common import MAX_RENDER_SIDE, UsageError, input_options, overrides
 from .options import Arguments
 
 SIZE = (1920, 1080)
+
+MIN_SIDE = 200
+"""The least width and height of a frame, in pixels, that a scene is as large as if the description does not state the size."""
+
 MESHES = (".obj", ".ply")
 
 
@@ -135,8 +139,18 @@ def _profile(arguments: Arguments) -> DeviceProfile | None:
 
 
 def _stated_size(documents: Sequence[Input]) -> tuple[int, int] | None:
-    """The size that all descriptions state; None if they differ, state none, or it is too large."""
-    frames = [document.frame.description.frame for document in documents]
-    sizes = {(frame.width, frame.height) if frame else (None, None) for frame in frames}
-    width, height = sizes.pop() if len(sizes) == 1 else (None, None)
+    """The size of all descriptions; None if they differ, state none, or it is too large or, of images alone, too small."""
+    sizes = {_frame_size(document.frame) for document in documents}
+    width, height = sizes.pop() if len(sizes) == 1 else (0, 0)
     return (width, height) if width and height and max(width, height) <= MAX_RENDER_SIDE else None
+
+
+def _frame_size(frame: Frame) -> tuple[int, int]:
+    """The size of a frame as stated, otherwise that of the passes that techniques are about; 0 without any."""
+    from msaa_lint.experiments.study.frame_plans import described_size
+
+    stated = frame.description.frame
+    if stated is not None and stated.width is not None and stated.height is not None:
+        return stated.width, stated.height
+    width, height = described_size(frame) or (0, 0)
+    return (width, height) if min(width, height) >= MIN_SIDE else (0, 0)

@@ -46,6 +46,8 @@ def _scene(scene: SceneSummary, study: Study, console: Console, out: Write, opti
             print_times(study, scene, out, options)
     for line in _effects(scene, study):
         console.print(line, soft_wrap=True)
+    for note in scene.assumed:
+        console.print(f"timed: {display(note)}", soft_wrap=True)
     for failure in study.failed:
         if failure.scene == scene.name:
             console.print(f"{failure.technique.name} failed: {display(failure.reason)}", style="red", soft_wrap=True)

@@ -58,6 +58,7 @@ def _scene(scene: SceneSummary, study: Study) -> Json:
         "effects": [{"name": name, "why": text(why)} for name, why in scene.effects],
         "about": list(scene.about),
         "compared_by": scene.measure.key,
+        "assumed": [text(note) for note in scene.assumed],
     }
 
 

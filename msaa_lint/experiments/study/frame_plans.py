@@ -6,6 +6,7 @@ they resolve to is drawn to directly. In a frame without multisampled passes, th
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection, Mapping
 from typing import Any, NamedTuple
 
@@ -23,6 +24,7 @@ from msaa_lint.experiments.confirm.parts import (
     Plan,
     Step,
 )
+from msaa_lint.experiments.confirm.plan_images import Images
 from msaa_lint.experiments.confirm.resample import resampled, resized
 from msaa_lint.experiments.confirm.shader_support import supported
 from msaa_lint.frame.description.models import ReadImage, WriteImage
@@ -139,6 +141,16 @@ def _drawn(plan: Plan, number: int) -> list[Pipeline]:
     """The pipelines with color that draw in a pass."""
     used = {inner.pipeline for step in plan.steps if step.number == number for inner in step.inner if inner.kind == "draw"}
     return [plan.passes[number].pipelines[index] for index in used if any(plan.passes[number].pipelines[index].numerics)]
+
+
+def described_size(frame: Frame) -> tuple[int, int] | None:
+    """The size in pixels of the largest pass to which techniques apply, or of all if they apply to none; None if it is not stated."""
+    if not Images(frame).sized:
+        return None
+    plan = planning.plan(frame)
+    passes = _multisampled_passes(plan) or _geometry_passes(plan) or range(len(plan.passes))
+    sizes = [(framebuffer.width, framebuffer.height) for number in passes for framebuffer in plan.passes[number].framebuffers]
+    return max(sizes, key=math.prod, default=None)
 
 
 def _without_color(pipeline: Pipeline) -> Pipeline:

@@ -18,7 +18,8 @@ from .time_model import TimeModel
 
 class SceneSummary(NamedTuple):
     """A scene of a study: what it shows, in one sentence; its effects, each with the reason; whether its error is of coverage, in [0, 1],
-    or of linear color; what it is about (study/scenes/about.py), and the error by which its techniques are therefore compared."""
+    or of linear color; what it is about (study/scenes/about.py), and the error by which its techniques are therefore compared; what is
+    assumed of a frame that a device timed."""
 
     name: str
     description: str
@@ -26,6 +27,7 @@ class SceneSummary(NamedTuple):
     coverage: bool = True
     about: tuple[str, ...] = (EDGES,)
     measure: Measure = ERROR
+    assumed: tuple[str, ...] = ()
 
 
 class UntimedTechnique(NamedTuple):

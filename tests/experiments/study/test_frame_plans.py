@@ -258,7 +258,7 @@ def messages(session: Session, plan: Plan) -> list[str]:
 
 def test_shaders_of_the_frame_are_as_described() -> None:
     """No cost of shading applies where all that draws has a fragment shader of its own."""
-    (document,) = inputs(Request(paths=[str(ROOT / "examples/lit/rocks.msaa.yaml")])).inputs
+    (document,) = inputs(Request(paths=[str(ROOT / "examples/lit/forward.msaa.yaml")])).inputs
     studied = FramePlans(document.frame, document.file, SIZE)
     assert studied.as_described and not plans(FORWARD).as_described
     assert not any(pipeline.shaded for each in studied.of(FOUR).plan.passes for pipeline in each.pipelines)

@@ -258,3 +258,30 @@ def test_calls_that_failed_made_nothing() -> None:
     made = b'"args": {"device": 2, "pCreateInfo"'
     text = program.text().replace(b'"return": "VK_SUCCESS", ' + made, b'"return": "VK_ERROR_OUT_OF_DEVICE_MEMORY", ' + made)
     assert "images:" not in read_capture(io.BytesIO(text), "gfxreconstruct", "p", None).source.text
+
+
+def test_draws_of_one_pipeline_are_counted() -> None:
+    """Those that differ but for their counts are one command with the mean of the first pass; full-screen draws stay apart."""
+    program = Program()
+    view = program.view(program.image())
+    first, second = program.pipeline(), program.pipeline(dynamic=["VK_DYNAMIC_STATE_VIEWPORT"])
+    for _ in range(2):
+        buffer = program.buffer()
+        program.rendering(buffer, [info(view, store="STORE")])
+        for vertices in (300, 600, 3, 3, 900):
+            program.draw(buffer, first, vertices)
+        program.call("vkCmdDrawIndirect", commandBuffer=buffer, buffer=9, offset=0, drawCount=5, stride=16)
+        infos = [{"firstIndex": 0, "indexCount": count, "vertexOffset": 0} for count in (36, 72)]
+        program.draw(buffer, second, 60)
+        program.call("vkCmdDrawMultiIndexedEXT", commandBuffer=buffer, drawCount=2, pIndexInfo=infos, instanceCount=3)
+        program.end(buffer, rendering=True)
+        program.submit(buffer)
+        program.present()
+    draws = [command["draw"] for command in tree(program)["commands"] if "draw" in command]
+    assert [{key: value for key, value in draw.items() if key != "pipeline"} for draw in draws] == [
+        {"vertexCount": 600, "instanceCount": 1, "drawCount": 3},
+        {"vertexCount": 3, "instanceCount": 1, "drawCount": 2},
+        {},
+        {"vertexCount": 60, "instanceCount": 1},
+        {"indexCount": 162, "instanceCount": 1, "drawCount": 2},
+    ]

@@ -1,0 +1,89 @@
+"""`msaa-lint study` of frames: of descriptions and captures, as a device draws them."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from tests.command import run
+from tests.paths import ROOT
+
+EXAMPLES = ROOT / "examples"
+FRAMES = sorted([*EXAMPLES.glob("*/*.msaa.yaml"), *EXAMPLES.glob("capture/*.jsonl"), *EXAMPLES.glob("capture/*.xml")])
+SMALL = ("--size", "192x96", "--samples", "1,4", "--jobs", "1", "--isolated")
+ON_LAVAPIPE = ("--device", "llvmpipe", "--repeats", "1")
+
+
+def studied(folder: Path, *arguments: str, code: int = 0) -> dict[str, Any]:
+    done = run(folder, "study", *arguments, *SMALL, "--output", "json")
+    assert done.returncode == code, done.stderr
+    data: dict[str, Any] = json.loads(done.stdout)
+    return data
+
+
+@pytest.mark.parametrize("path", FRAMES, ids=lambda path: path.name)
+def test_every_example_is_studied(tmp_path: Path, path: Path) -> None:
+    done = run(tmp_path, "study", str(path), *SMALL, "--techniques", "msaa")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "what the description calls for: " in done.stdout
+    assert "Traceback" not in done.stdout and "internal error" not in done.stdout
+
+
+def test_a_forward_frame_is_timed_as_it_is(tmp_path: Path) -> None:
+    """All techniques under two costs of shading: what the scene draws with more samples takes more invocations, and shading adds time to
+    the passes of the techniques alone."""
+    data = studied(tmp_path, str(EXAMPLES / "phone/forward.msaa.yaml"), *ON_LAVAPIPE, "--shading", "none,200ops")
+    (scene,) = data["scenes"]
+    assert scene["assumed"] == ["the techniques apply to scene"]
+    assert scene["says"].startswith("what the description calls for: mesh (triangles have ")
+    assert (data["untimed"], data["failed"], data["errors"]) == ([], [], [])
+    points = {(point["name"], point["shading"]): point for point in data["points"]}
+    names = list(dict.fromkeys(point["name"] for point in data["points"]))
+    assert names == ["1x", "4x", "4x, half of them shaded", "4x, each shaded", "SSAA 2x2", "SSAA 3x3", "SSAA 4x4"]
+    assert all(point["time_ms"] > 0 for point in data["points"])
+    counted = {name: points[name, "none"]["invocations"] for name in names}
+    assert 0 < counted["1x"] <= counted["4x"] <= counted["4x, each shaded"] and counted["SSAA 2x2"] < counted["SSAA 4x4"]
+
+
+def test_a_capture_is_timed_as_it_is(tmp_path: Path) -> None:
+    data = studied(tmp_path, str(EXAMPLES / "capture/forward-fixed.jsonl"), *ON_LAVAPIPE, "--shading", "none", "--techniques", "msaa")
+    (scene,) = data["scenes"]
+    assert any(note.startswith("the techniques apply to ") for note in scene["assumed"])
+    assert [(point["name"], point["time_ms"] is not None) for point in data["points"]] == [("1x", True), ("4x", True)]
+
+
+def test_a_frame_with_shaders_has_their_cost(tmp_path: Path) -> None:
+    """No cost of shading applies where all that draws has a shader of its own."""
+    data = studied(tmp_path, str(EXAMPLES / "lit/forward.msaa.yaml"), *ON_LAVAPIPE, "--techniques", "msaa")
+    assert [(point["name"], point["shading"]) for point in data["points"]] == [("1x", "as described"), ("4x", "as described")]
+    assert all(point["time_ms"] > 0 and point["shading_ms"] == 0 for point in data["points"])
+
+
+def test_a_technique_that_a_frame_cannot_have_says_why(tmp_path: Path) -> None:
+    (tmp_path / "frame.msaa.yaml").write_text(
+        "images: {c: {format: R8G8B8A8_UNORM, samples: 1, extent: {width: 64, height: 64}}}\n"
+        "renderPasses: {p: {attachments: {c: {image: c, loadOp: LOAD, storeOp: STORE}}, subpasses: [{colorAttachments: [c]}]}}\n"
+    )
+    data = studied(tmp_path, "frame.msaa.yaml", *ON_LAVAPIPE, "--shading", "none", "--techniques", "msaa")
+    reason = "no pass of the frame draws geometry to color attachments that it clears"
+    assert data["untimed"] == [{"name": "4x", "reason": reason}]
+    assert [(point["name"], point["time_ms"] is not None) for point in data["points"]] == [("1x", True), ("4x", False)]
+
+
+@pytest.mark.parametrize(
+    ("text", "size"),
+    [
+        ("frame: {width: 320, height: 200}\n", [320, 200]),
+        ("images: {c: {format: R8G8B8A8_UNORM, samples: 4, extent: {width: 300, height: 240}}}\nPASS", [300, 240]),
+        ("images: {c: {format: R8G8B8A8_UNORM, samples: 4, extent: {width: 16, height: 16}}}\nPASS", [1920, 1080]),
+    ],
+)
+def test_a_frame_has_its_own_size(tmp_path: Path, text: str, size: list[int]) -> None:
+    attachments = "{c: {image: c, loadOp: CLEAR, storeOp: STORE}}"
+    frame = text.replace("PASS", f"renderPasses: {{p: {{attachments: {attachments}, subpasses: [{{colorAttachments: [c]}}]}}}}\n")
+    (tmp_path / "frame.msaa.yaml").write_text(frame)
+    done = run(tmp_path, "study", "frame.msaa.yaml", "--samples", "1", "--techniques", "msaa", "--jobs", "1", "--output", "json")
+    assert json.loads(done.stdout)["size"] == size
