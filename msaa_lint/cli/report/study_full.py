@@ -74,7 +74,7 @@ def _effects(scene: SceneSummary, study: Study) -> Iterator[str]:
     if not ran:
         yield "no effects: the scene needs none"
     elif times:
-        yield f"off, without any time: {', '.join(effect.name for effect in TABLE if effect.name not in ran)}"
+        yield f"no effects besides: {', '.join(effect.name for effect in TABLE if effect.name not in ran)} are off and took no time"
 
 
 def _answer(scene: SceneSummary, name: str, study: Study) -> Iterator[str]:
