@@ -11,6 +11,9 @@ LINEAR, LOG, SYMLOG = "linear", "log", "symlog"
 _MARGIN = 0.07
 """The part of an axis beyond the first and the last value."""
 
+_LEAST = 1e-300
+"""Of the values that a logarithm is drawn of: next to the least ones there is no margin."""
+
 _LETTER = 0.6
 """The greatest width of a digit, a point, or a sign, in font sizes."""
 
@@ -81,7 +84,7 @@ class Scale(NamedTuple):
 def linear_or_log(values: Sequence[float], narrow: float = 1.0) -> Scale:
     """A logarithmic scale for values above zero of which the greatest is more than `narrow` times the least, else a linear one."""
     low, high = min(values, default=0.0), max(values, default=1.0)
-    if low > 0 and high > narrow * low:
+    if low > _LEAST and high > narrow * low:
         return Scale(LOG, low, high).widened()
     return _apart(Scale(LINEAR, low, high)).widened()
 
@@ -89,12 +92,13 @@ def linear_or_log(values: Sequence[float], narrow: float = 1.0) -> Scale:
 def from_zero(values: Sequence[float]) -> Scale:
     """A scale for zero and values of very different sizes, which may be negative."""
     low, high = min([0.0, *values]), max([0.0, *values])
-    sizes = [abs(value) for value in values if value]
+    sizes = [abs(value) for value in values if abs(value) > _LEAST]
     most = max(sizes, default=1.0)
     return _apart(Scale(SYMLOG, low, high, max(min(sizes, default=1.0), most / 500))).widened()
 
 
 def _apart(scale: Scale) -> Scale:
     """The scale, with its ends apart if they are equal or next to each other."""
-    size = max(abs(scale.low), abs(scale.high)) or 1.0
+    size = max(abs(scale.low), abs(scale.high))
+    size = size if size > _LEAST else 1.0
     return scale if scale.high - scale.low > 1e-9 * size else scale._replace(low=scale.low - size / 2, high=scale.high + size / 2)

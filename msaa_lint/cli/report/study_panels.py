@@ -6,6 +6,7 @@ from typing import Any, NamedTuple
 
 from msaa_lint.experiments.study.measures import ERROR
 from msaa_lint.experiments.study.outcome import SceneSummary, Study
+from msaa_lint.experiments.study.pareto import tie
 from msaa_lint.experiments.study.points import MSAA, Point, Technique
 from msaa_lint.experiments.study.shading import NONE, Shading
 
@@ -19,12 +20,25 @@ COLUMNS = {0: 1, 1: 1, 2: 2, 3: 3, 4: 2}
 
 
 class Panel(NamedTuple):
-    """The points of a scene under one cost of shading. `base` is the time of one sample, None if times do not refer to it."""
+    """The points of a scene under one cost of shading. `base` is the time of one sample, None if times do not refer to it; with `by_time`,
+    the Pareto-optimal points are those of error against time."""
 
     scene: SceneSummary
     shading: Shading
     points: Sequence[Point]
     base: float | None
+    by_time: bool
+
+    @property
+    def front(self) -> list[tuple[float, float]]:
+        """The places of the Pareto front, from its fastest point on; nothing if it is not of error against time."""
+        return sorted(self.place(point) for point in self.points if point.best) if self.by_time else []
+
+    def is_optimal(self, point: Point) -> bool:
+        """Whether a point is Pareto-optimal, or has the error and, within the noise, the time of a point that is."""
+        rounded = self.scene.measure.rounded
+        best = (other for other in self.points if other.best)
+        return any(other is point or (self.by_time and rounded(other) == rounded(point) and tie(other, point)) for other in best)
 
     def place(self, point: Point) -> tuple[float, float]:
         """What a point is drawn at: the time that it adds to that of one sample, or its time, or without times samples plus shader
@@ -64,11 +78,12 @@ def panels(study: Study) -> list[list[Panel]]:
     costs = {shading.name: shading for shading in study.shadings}
     points = {scene.name: plotted(scene, study.of(scene.name)) for scene in study.scenes}
     names = list(dict.fromkeys(point.shading for scene in study.scenes for point in points[scene.name]))
+    by_time = not study.software and any(point.time_ms is not None for point in study.points)
     rows = []
     for scene in study.scenes:
         if points[scene.name]:
             row = [
-                Panel(scene, costs.get(name, Shading(name)), of_cost, _base(of_cost))
+                Panel(scene, costs.get(name, Shading(name)), of_cost, _base(of_cost), by_time)
                 for name in names
                 for of_cost in [[point for point in points[scene.name] if point.shading == name]]
             ]

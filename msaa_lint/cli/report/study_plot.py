@@ -6,8 +6,7 @@ from typing import Any, NamedTuple
 
 from msaa_lint.experiments.study.crops import short_name
 from msaa_lint.experiments.study.outcome import Study
-from msaa_lint.experiments.study.pareto import tie
-from msaa_lint.experiments.study.points import MSAA, SAMPLE_SHADING, SSAA, Point
+from msaa_lint.experiments.study.points import MSAA, SAMPLE_SHADING, SSAA
 
 from .escape import display
 from .figure import INK, Figure, Spec, title
@@ -70,50 +69,46 @@ def plot(study: Study) -> Spec:
 
 def _add_accuracy(figure: Figure, study: Study, rows: Sequence[Sequence[Panel]]) -> None:
     """Adds the panels of error against added time to a figure."""
-    columns = len(rows[0]) if rows and len(rows[0]) > 1 else COLUMNS.get(len(rows), max(COLUMNS.values()))
+    costs = max((len(row) for row in rows), default=1)
+    columns = costs if costs > 1 else COLUMNS.get(len(rows), max(COLUMNS.values()))
     width = _WIDTHS.get(columns, _WIDTH)
     charts = []
-    for row in rows:
-        axes, labels = _with_room(row, width, _front(study, row))
-        for number, panel in enumerate(row):
-            charts.append(_chart(panel, axes, labels[number], _front(study, [panel])[0], figure, first=number == 0))
+    # All panels beside each other are as high as one of them needs.
+    beside = columns // costs
+    for group in (rows[start : start + beside] for start in range(0, len(rows), beside)):
+        for row, axes, labels in _with_room(group, width):
+            charts += [_chart(panel, axes, labels[n], figure, first=n == 0) for n, panel in enumerate(row)]
     lines = [SOFTWARE] if study.software else []
     added = "Error against added time on a software driver" if study.software else "Error against added time"
     name = f"{added}: {display(study.device)}" if study.device else "Error against samples (no times measured)"
-    if study.device and not study.software:
+    if any(panel.by_time for row in rows for panel in row):
         lines.append("line, and names in bold: the Pareto front; pale marks: not on it, nor within the noise of it")
     else:
-        lines.append("names in bold: Pareto-optimal in error, samples, and shader invocations")
+        lines.append("names in bold: Pareto-optimal in error, samples, and shader invocations; pale marks: not optimal")
     if any(panel.interval(point) for row in rows for panel in row for point in panel.points):
         lines.append("horizontal bars: 95 % intervals of the time")
     heading = title(f"{name}, {study.size[0]}x{study.size[1]}", lines, columns * width, size=13)
     figure.add(charts, heading, columns=columns, spacing=14)
 
 
-def _front(study: Study, row: Sequence[Panel]) -> list[list[Place]]:
-    """The Pareto front of each panel, from its fastest point on; nothing where it is not one of error against time."""
-    known = [study.software or any(point.time_ms is None for point in panel.points) for panel in row]
-    return [
-        [] if unknown else sorted(panel.place(point) for point in panel.points if point.best)
-        for panel, unknown in zip(row, known, strict=True)
-    ]
+def _with_room(rows: Sequence[Sequence[Panel]], width: float) -> list[tuple[Sequence[Panel], Axes, list[list[Label | None]]]]:
+    """The axes of rows of panels, all as high as their labels need, and the labels."""
+    for height, reach in _ROOMS:
+        axes = [_axes(row, width, height) for row in rows]
+        labels = [[_labels(panel, of_row, reach) for panel in row] for row, of_row in zip(rows, axes, strict=True)]
+        if all(label is not None for of_row in labels for of_panel in of_row for label in of_panel):
+            break
+    return list(zip(rows, axes, labels, strict=True))
 
 
-def _with_room(row: Sequence[Panel], width: float, fronts: Sequence[Sequence[Place]]) -> tuple[Axes, list[list[Label | None]]]:
-    """The axes of a row of panels, as high as its labels need, and the labels."""
+def _axes(row: Sequence[Panel], width: float, height: float) -> Axes:
     places = [panel.place(point) for panel in row for point in panel.points]
     costs = [x for x, _ in places] + [time for panel in row for point in panel.points for time in panel.interval(point) or ()]
     related = any(panel.base is not None for panel in row)
-    scales = from_zero(costs) if related else linear_or_log(costs), linear_or_log([y for _, y in places], _NARROW)
-    for height, reach in _ROOMS:
-        axes = Axes(*scales, width, height)
-        labels = [_labels(panel, axes, front, reach) for panel, front in zip(row, fronts, strict=True)]
-        if all(label is not None for of_panel in labels for label in of_panel):
-            break
-    return axes, labels
+    return Axes(from_zero(costs) if related else linear_or_log(costs), linear_or_log([y for _, y in places], _NARROW), width, height)
 
 
-def _labels(panel: Panel, axes: Axes, front: Sequence[Place], reach: float) -> list[Label | None]:
+def _labels(panel: Panel, axes: Axes, reach: float) -> list[Label | None]:
     """The labels of a panel's points. Those of the front are the first to choose."""
     order = sorted(range(len(panel.points)), key=lambda n: (not panel.points[n].best, panel.place(panel.points[n])))
     places = [axes.pixels(*panel.place(panel.points[n])) for n in order]
@@ -123,7 +118,7 @@ def _labels(panel: Panel, axes: Axes, front: Sequence[Place], reach: float) -> l
         if interval := panel.interval(point):
             (left, y), (right, _) = (axes.pixels(x, panel.place(point)[1]) for x in interval)
             lines.append(Box(left, y - _HAIR, right, y + _HAIR))
-    corners = [axes.pixels(*place) for place in front]
+    corners = [axes.pixels(*place) for place in panel.front]
     for (x, y), (next_x, next_y) in pairwise(corners):
         lines += [Box(x, y - _HAIR, next_x, y + _HAIR), Box(next_x - _HAIR, y, next_x + _HAIR, next_y)]
     marks = [around(place, _RADIUS) for place in places]
@@ -131,7 +126,7 @@ def _labels(panel: Panel, axes: Axes, front: Sequence[Place], reach: float) -> l
     return [found[n] for n in range(len(order))]
 
 
-def _chart(panel: Panel, axes: Axes, labels: Sequence[Label | None], front: Sequence[Place], figure: Figure, *, first: bool) -> Any:
+def _chart(panel: Panel, axes: Axes, labels: Sequence[Label | None], figure: Figure, *, first: bool) -> Any:
     """One panel. The first one of a row has the labels of the vertical axis."""
     import altair
 
@@ -157,7 +152,7 @@ def _chart(panel: Panel, axes: Axes, labels: Sequence[Label | None], front: Sequ
         if any(field in row for row in rows)
     ]
     layers = [
-        figure.chart([{"x": x, "y": y} for x, y in front])
+        figure.chart([{"x": x, "y": y} for x, y in panel.front])
         .mark_line(interpolate="step-after", color=INK, strokeWidth=1.2)
         .encode(x("x"), y("y")),
         figure.chart([row for row in rows if "low" in row]).mark_rule(color=INK, strokeWidth=1).encode(x("low"), y("y"), x2="high"),
@@ -193,7 +188,7 @@ def _rows(panel: Panel) -> list[dict[str, Any]]:
             "technique": point.technique.name,
             "error": point.rmse,
         }
-        row["opacity"] = 1.0 if _optimal(panel, point) else _PALE
+        row["opacity"] = 1.0 if panel.is_optimal(point) else _PALE
         if point.time_ms is not None:
             row["time"] = point.time_ms
         if interval := panel.interval(point):
@@ -201,12 +196,6 @@ def _rows(panel: Panel) -> list[dict[str, Any]]:
             row["least"], row["most"] = point.low_ms, point.high_ms
         rows.append(row)
     return rows
-
-
-def _optimal(panel: Panel, point: Point) -> bool:
-    """Whether a point is on the front, or has the error and, within the noise, the time of a point on it."""
-    error = panel.scene.measure.rounded
-    return any(other is point or (error(other) == error(point) and tie(other, point)) for other in panel.points if other.best)
 
 
 def _names(panel: Panel, axes: Axes, labels: Sequence[Label | None]) -> list[dict[str, Any]]:

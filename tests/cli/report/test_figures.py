@@ -9,7 +9,7 @@ from itertools import pairwise
 from typing import Any
 
 import pytest
-from hypothesis import Phase, given
+from hypothesis import Phase, example, given
 from hypothesis import strategies as st
 
 from msaa_lint.cli.report.figure import FONT_SIZE, draw
@@ -157,11 +157,13 @@ def test_no_label_of_a_drawn_study_meets_anything(figures: list[tuple[float, flo
 
 
 def values(kind: str) -> st.SearchStrategy[list[float]]:
-    sizes = st.floats(1e-6, 1e6)
+    sizes = st.floats(1e-6, 1e6) if kind == LOG else st.one_of(st.floats(1e-6, 1e6), st.sampled_from([5e-324, 1e-310, 1e-200]))
     return st.lists(sizes if kind == LOG else st.one_of(st.just(0.0), sizes, sizes.map(lambda value: -value)), min_size=1, max_size=8)
 
 
 @given(values(SYMLOG), values(LOG))
+@example([5e-324], [1.0])
+@example([0.0, 1e-310], [1e-6, 1e6])
 def test_scales_have_a_place_for_every_value_and_ticks_apart(any_sign: list[float], positive: list[float]) -> None:
     for scale, shown in ((from_zero(any_sign), any_sign), (linear_or_log(positive, 3), positive), (linear_or_log(any_sign, 3), any_sign)):
         assert all(0 < scale.share(value) < 1 for value in shown)
