@@ -32,6 +32,8 @@ def own_shader(path: str) -> tuple[Stage, Stage]:
         if not code.startswith((b"\x03\x02\x23\x07", b"\x07\x23\x02\x03")):
             if path.endswith(".spv"):
                 raise SpirvError("it is not SPIR-V")
+            if path.endswith((".hlsl", ".metal", ".wgsl")):
+                raise SpirvError("only SPIR-V and GLSL are supported: compile it to SPIR-V, HLSL by `dxc -spirv -T ps_6_0`")
             code = compiled(path)
         if len(code) > MAX_OWN:
             raise SpirvError(f"its SPIR-V is larger than {MAX_OWN >> 10} KiB")

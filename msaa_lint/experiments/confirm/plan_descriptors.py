@@ -123,15 +123,16 @@ def _image(made: Descriptor, reflected: Reflected, image: ImageType, where: str)
     if view == NONE:
         raise Unmakeable(f"has a {_WORDS[reflected.kind]} of the dimensionality {image.dimension} at {where}, which Vulkan does not have")
     name = _SAMPLED[image.component]
+    compares = made.compares or (image.depth and reflected.kind == bindings.COMBINED)
     if reflected.kind == bindings.STORAGE_IMAGE:
         name = _stated(image, where) or _STORED[image.component]
-    elif made.compares or image.depth:
+    elif compares:
         name = _DEPTH
     return made._replace(
         view=view,
         format=VALUES["VkFormat"][name],
         samples=SAMPLES if image.multisampled else 1,
-        compares=made.compares or (image.depth and reflected.kind == bindings.COMBINED),
+        compares=compares,
     )
 
 

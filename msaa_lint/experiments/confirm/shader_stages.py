@@ -3,6 +3,7 @@
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
+from msaa_lint.core.quote import quoted
 from msaa_lint.frame.spirv import numbers as op
 from msaa_lint.frame.spirv.constants import Constants
 from msaa_lint.frame.spirv.interface import Interface, interface
@@ -18,9 +19,6 @@ from .shaders.vertex import vertex_shader
 
 VERTEX, FRAGMENT = 1, 16
 """VkShaderStageFlagBits."""
-
-BUILT_INS = {3: "ClipDistance", 4: "CullDistance"}
-"""Built-in inputs that the generated vertex shader does not write."""
 
 
 class ReflectedStage(NamedTuple):
@@ -43,7 +41,7 @@ def reflected_stage(module: Module, entry: Entry, number: int, path: str, consta
         raise Unmakeable(f"needs the capability {unsupported}, which is not supported")
     extension = min(found.extensions - EXTENSIONS, default="")
     if extension:
-        raise Unmakeable(f"needs the extension {extension[:60]}, which is not supported")
+        raise Unmakeable(f"needs the extension {quoted(extension)}, which is not supported")
     contents = BufferContents(layouts)
     pushed = packed(contents.of(found.push_constants)) if found.push_constants else ""
     if any(descriptor.writes for descriptor in found.descriptors):
@@ -56,11 +54,8 @@ def reflected_stage(module: Module, entry: Entry, number: int, path: str, consta
 
 def scene_stage(fragment: ReflectedStage) -> Stage:
     """The vertex shader that draws the scene for a fragment shader. Raises Unmakeable if one of the inputs cannot be written."""
-    for number, name in BUILT_INS.items():
-        if number in fragment.interface.built_ins:
-            raise Unmakeable(f"reads {name}, which the generated vertex shader does not write")
     try:
-        code = vertex_shader(fragment.interface.inputs, fragment.layouts)
+        code = vertex_shader(fragment.interface, fragment.layouts)
     except SpirvError as error:
         raise Unmakeable(f"has inputs that no vertex shader can be generated for: {error}") from None
     return Stage(VERTEX, "", "main", code=packed(code))

@@ -31,9 +31,9 @@ class Varying(NamedTuple):
 
 
 class Interface(NamedTuple):
-    """The interface of an entry point. `version` is that of SPIR-V; `built_ins` are numbers of the SPIR-V registry, of inputs;
-    `push_constants` is the id of the block (0 without) and `push_size` its size in bytes; `specialization` has the types, in GLSL's words,
-    by constant id."""
+    """The interface of an entry point. `version` is that of SPIR-V; `built_ins` are numbers of the SPIR-V registry, of inputs, with the
+    number of elements (1 if it is no array); `push_constants` is the id of the block (0 without) and `push_size` its size in bytes;
+    `specialization` has the types, in GLSL's words, by constant id."""
 
     entry: Entry
     version: tuple[int, int]
@@ -43,7 +43,7 @@ class Interface(NamedTuple):
     push_constants: int
     push_size: int
     inputs: tuple[Varying, ...]
-    built_ins: frozenset[int]
+    built_ins: Mapping[int, int]
     outputs: tuple[Varying, ...]
     specialization: Mapping[int, str]
 
@@ -63,7 +63,7 @@ def interface(module: Module, entry: Entry, constants: Constants) -> Interface:
         push,
         push_size,
         _varyings(module, entry, op.INPUT, layouts),
-        _built_ins(module, entry),
+        _built_ins(module, entry, layouts),
         _varyings(module, entry, op.OUTPUT, layouts),
         {
             spec: type_name(layouts, type_id)
@@ -108,13 +108,17 @@ def _is_built_in(module: Module, identity: int) -> bool:
     return module.decoration(identity, op.BUILT_IN) is not None or any(op.BUILT_IN in member for member in members)
 
 
-def _built_ins(module: Module, entry: Entry) -> frozenset[int]:
-    found: set[int] = set()
+def _built_ins(module: Module, entry: Entry, layouts: Layouts) -> dict[int, int]:
+    found: dict[int, int] = {}
     for identity, variable in module.variables.items():
         if variable.storage == op.INPUT and identity in entry.interface:
-            stated = [module.decorations.get(identity, {}), *module.members.get(variable.holds, {}).values()]
-            found.update(each[op.BUILT_IN][0] for each in stated if each.get(op.BUILT_IN))
-    return frozenset(found)
+            kind = layouts.kind(variable.holds)
+            stated = [(module.decorations.get(identity, {}), kind)]
+            stated += [(each, layouts.kind(kind[1 + n])) for n, each in module.members.get(variable.holds, {}).items() if n + 1 < len(kind)]
+            for decorations, own in stated:
+                if decorations.get(op.BUILT_IN):
+                    found[decorations[op.BUILT_IN][0]] = layouts.count(own) if own[0] == op.TYPE_ARRAY else 1
+    return found
 
 
 _VECTORS = {"float": "vec", "int": "ivec", "uint": "uvec", "bool": "bvec", "double": "dvec"}

@@ -180,6 +180,14 @@ void main() {
     color = vec4(0.5);
 }
 """,
+    "built-in inputs": """
+in float gl_ClipDistance[2];
+in float gl_CullDistance[1];
+void main() {
+    color = gl_FragCoord + vec4(gl_ClipDistance[1], gl_CullDistance[0], gl_PrimitiveID, gl_SampleID);
+    color += vec4(gl_FrontFacing, gl_SamplePosition, 1);
+}
+""",
     "no descriptors, derivatives, discard": """
 layout(location = 3) in float edge;
 void main() { if (edge < 0.25) discard; color = vec4(fwidth(edge)); }
@@ -261,7 +269,6 @@ def test_input_attachments_that_do_not_fit_leave_the_built_in_shader(
         ("layout(binding = 0) buffer B { uint a[8000000]; };\nvoid main() { color = vec4(a[3]); }", "a block is larger than 16 MiB"),
         ("layout(binding = 0) uniform sampler2D t[5000];\nvoid main() { color = texture(t[3], vec2(0)); }",
          "needs 5000 descriptors at set 0, binding 0; at most 4096 are created"),
-        ("in float gl_ClipDistance[2];\nvoid main() { color = vec4(gl_ClipDistance[1]); }", "reads ClipDistance"),
         (LOADS, "reads input attachment 0 at set 0, binding 0, and the passes of a study have none"),
     ],
 )  # fmt: skip
@@ -337,7 +344,7 @@ def test_extensions_of_spirv_that_are_not_enabled_are_named(tmp_path: Path) -> N
     # After the only capability.
     words[7:7] = array.array("I", [(len(name) // 4 + 1) << 16 | 10, *struct.unpack(f"<{len(name) // 4}I", name)])
     (tmp_path / "own.spv").write_bytes(words.tobytes())
-    with pytest.raises(UnusableOwnShader, match="needs the extension SPV_KHR_maximal_reconvergence, which is not supported"):
+    with pytest.raises(UnusableOwnShader, match="needs the extension `SPV_KHR_maximal_reconvergence`, which is not supported"):
         own_shader(str(tmp_path / "own.spv"))
 
 
@@ -398,6 +405,7 @@ def test_without_a_compiler_the_message_says_what_to_install(tmp_path: Path, mon
     ("name", "data", "reason"),
     [
         ("own.spv", b"#version 450", "cannot be used: it is not SPIR-V"),
+        ("own.hlsl", b"float4 main() : SV_Target { return 1; }", "only SPIR-V and GLSL are supported: compile it to SPIR-V"),
         ("own.spv", struct.pack("<5I", 0x07230203, 0x10000, 0, 1, 0), "cannot be used: it has no fragment shader"),
         ("own.spv", spirv("void main() { gl_Position = vec4(0); }", stage="vert"), "cannot be used: it has no fragment shader"),
         ("none.spv", None, "cannot be read: No such file or directory"),
@@ -448,7 +456,7 @@ def test_the_vertex_shader_is_valid_and_writes_every_input(scratch: Path, types:
     module = Module(spirv("\n".join(lines) + "\n" + COLOR + "void main() { color = vec4(0); }"))
     constants = Constants(module, {})
     found = interface(module, module.entry("main"), constants)
-    code = vertex_shader(found.inputs, Layouts(module, constants))
+    code = vertex_shader(found, Layouts(module, constants))
     (scratch / "made.spv").write_bytes(code)
     validate(scratch / "made.spv")
     made = Module(code)

@@ -179,7 +179,7 @@ void main() {
         (0, 0, "vec3", set()), (1, 0, "ivec2", {"flat"}), (2, 0, "vec2", {"centroid", "noperspective"}), (3, 0, "mat3x3", {"sample"}),
         (6, 2, "float", set()), (7, 0, "vec4[2]", set()), (9, 0, "struct", {"flat"}),
     ]  # fmt: skip
-    assert found.built_ins == {7, 15}
+    assert found.built_ins == {7: 1, 15: 1}
     assert [(each.location, each.blend_index, each.type) for each in found.outputs] == [(0, 0, "vec4"), (0, 1, "vec4"), (1, 0, "uvec2")]
 
 

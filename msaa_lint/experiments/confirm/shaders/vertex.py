@@ -9,15 +9,19 @@ from __future__ import annotations
 
 import array
 import struct
-from collections.abc import Sequence
 
 from msaa_lint.frame.spirv import numbers as op
 from msaa_lint.frame.spirv.constants import MAX_DEPTH
-from msaa_lint.frame.spirv.interface import MAX_LOCATIONS, Varying
+from msaa_lint.frame.spirv.interface import MAX_LOCATIONS, Interface, Varying
 from msaa_lint.frame.spirv.layouts import Layouts
 from msaa_lint.frame.spirv.words import MAGIC, SpirvError
 
 MAX_CONSTITUENTS = 4 * MAX_LOCATIONS
+
+DISTANCES = {3: 32, 4: 33}
+"""BuiltIn ClipDistance and CullDistance, and the capability for each."""
+
+MAX_DISTANCES = 8
 
 POSITION, VERTEX_INDEX, INSTANCE_INDEX = 0, 42, 43
 """BuiltIn."""
@@ -74,10 +78,13 @@ def _add(words: array.array[int], number: int, *operands: int) -> None:
     words.extend((len(operands) + 1 << 16 | number, *operands))
 
 
-def vertex_shader(inputs: Sequence[Varying], layouts: Layouts) -> bytes:
+def vertex_shader(interface: Interface, layouts: Layouts) -> bytes:
     """The SPIR-V, version 1.0. Raises SpirvError, with the input by location, for one that cannot be written."""
     shader = _Vertex(layouts)
-    for varying in inputs:
+    for built_in, capability in DISTANCES.items():
+        if built_in in interface.built_ins:
+            shader.distances(built_in, capability, interface.built_ins[built_in])
+    for varying in interface.inputs:
         if varying.location is None:
             raise SpirvError("an input has no location")
         try:
@@ -99,6 +106,7 @@ class _Vertex:
         self.float = words.type(op.TYPE_FLOAT, 32)
         self.signature = words.type(FUNCTION_TYPE, self.void)
         self.interface: list[int] = []
+        self.capabilities = [1]
         self._types: dict[int, int] = {}
         self._constituents = 0
         self._scene()
@@ -142,6 +150,16 @@ class _Vertex:
         self.values = [words.value(FADD, self.float, words.value(FMUL, self.float, each, half), half) for each in (x, y, z)]
         self.parity = words.value(AND, self.int, triangle, self._integer(1))
         self.unsigned_parity = words.value(BITCAST, self.uint, self.parity)
+
+    def distances(self, built_in: int, capability: int, length: int) -> None:
+        """Adds distances to planes that cut nothing off."""
+        if length > MAX_DISTANCES:
+            raise SpirvError(f"it reads {length} distances to planes, of which there are at most {MAX_DISTANCES}")
+        words, one = self.words, self._number(1.0)
+        self.capabilities.append(capability)
+        kind = words.type(op.TYPE_ARRAY, self.float, words.constant(self.uint, length))
+        variable = self._built_in(kind, op.OUTPUT, built_in)
+        _add(words.body, op.STORE, variable, words.value(op.COMPOSITE_CONSTRUCT, kind, *[one] * length))
 
     def write(self, varying: Varying) -> None:
         """Adds an output that matches an input."""
@@ -262,7 +280,8 @@ class _Vertex:
         _add(function, op.RETURN)
         _add(function, op.FUNCTION_END)
         head = array.array("I", [MAGIC, 0x10000, 0, words.bound, 0])
-        _add(head, op.CAPABILITY, 1)
+        for capability in self.capabilities:
+            _add(head, op.CAPABILITY, capability)
         _add(head, MEMORY_MODEL, 0, 1)
         _add(head, op.ENTRY_POINT, 0, self.main, *struct.unpack("=2I", b"main\0\0\0\0"), *self.interface)
         return (head + words.decorations + words.declarations + function).tobytes()
