@@ -14,6 +14,7 @@ from docs.study_cases.alpha_cases import alpha_to_coverage
 from docs.study_cases.area_cases import exact_areas
 from docs.study_cases.coverage_cases import coverages, phases
 from docs.study_cases.depth_cases import depths
+from docs.study_cases.model_cases import models
 from docs.study_cases.picture_cases import flickering, flips
 from docs.study_cases.resolve_cases import averages, lights, sums, weighted_resolves
 from docs.study_cases.row import Row
@@ -34,6 +35,7 @@ GROUPS: tuple[Callable[[], Iterator[Row]], ...] = (
     flickering,
     flips,
     intervals,
+    models,
 )
 
 

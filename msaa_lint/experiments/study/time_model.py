@@ -6,6 +6,7 @@ where the pixels at edges have more invocations, and helpers that complete quads
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
@@ -110,11 +111,12 @@ class TimeModel(NamedTuple):
 
 
 def fit(scene: str, measured: Sequence[MeasuredTime], terms: Mapping[Technique, Terms]) -> TimeModel | None:
-    """The model with small relative residuals, and with coefficients that are not negative; None for fewer than MIN_TIMES times."""
+    """The model with small relative residuals, and with coefficients that are not negative; None where the times cannot
+    check it: for fewer than MIN_TIMES, for no more than coefficients, and under a single cost, where writing and shading look alike."""
     import numpy as np
 
-    known = [each for each in measured if each.technique in terms and each.time_ms > 0]
-    if len(known) < MIN_TIMES:
+    known = [each for each in measured if each.technique in terms and 0 < each.time_ms < math.inf]
+    if len(known) < MIN_TIMES or len({each.nanoseconds for each in known}) < 2:
         return None
     times = np.array([each.time_ms for each in known])
     columns = np.array([_columns(terms[each.technique], each.nanoseconds) for each in known])
@@ -130,6 +132,10 @@ def fit(scene: str, measured: Sequence[MeasuredTime], terms: Mapping[Technique, 
         weights = 0.7 * weights + 0.3 * np.maximum(off / max(off.max(), EXACT), 1e-3) ** (POWER / 2 - 1)
     coefficients[-1] = min(coefficients[-1], 1.0)
     fitted = tuple(float(value) for value in coefficients)
+    if len(known) <= sum(value > 0 for value in fitted) or not all(
+        _time(fitted, terms[each.technique], each.nanoseconds) for each in known
+    ):
+        return None
     ratios: dict[Technique, list[tuple[float, float]]] = {}
     for each in sorted(known, key=lambda each: each.nanoseconds):
         modeled = _time(fitted, terms[each.technique], each.nanoseconds)

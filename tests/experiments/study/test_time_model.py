@@ -71,6 +71,16 @@ def test_few_times_give_no_model() -> None:
     assert fit("edges", times(coefficients, ALL[:1]), KNOWN) is None
     assert fit("edges", [], KNOWN) is None
     assert fit("edges", [each._replace(time_ms=0.0) for each in times(coefficients)], KNOWN) is None
+    assert fit("edges", [each._replace(time_ms=math.inf) for each in times(coefficients)], KNOWN) is None
+
+
+def test_times_that_cannot_check_a_model_give_none() -> None:
+    coefficients = (0.02, 20.0, 19.0, 0.03, 0.1, 1.2, 0.8, 0.7, 1.5, 0.1)
+    assert fit("edges", times(coefficients, costs=(2e6,)), KNOWN) is None, "one cost of shading"
+    assert fit("edges", times(coefficients, [Technique(MSAA, 1), Technique(MSAA, 4)]), KNOWN) is None, "as many times as coefficients"
+    empty = {technique: Terms() for technique in ALL}
+    model = fit("edges", times(coefficients), empty)
+    assert model is None or model.predict(ALL[0], 0.0) is not None
 
 
 def test_noise_is_reported_beside_the_residual() -> None:
