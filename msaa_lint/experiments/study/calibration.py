@@ -88,7 +88,7 @@ def _next_guess(wanted_ms: float | None, shading: Shading, added_ms: float, fetc
         return shading
     if shading.fetches and fetches_ms > MAX_FETCHES * wanted_ms:
         fetches = int(shading.fetches * MAX_FETCHES * wanted_ms / fetches_ms)
-        return shading._replace(fetches=fetches, footprint=shading.footprint if fetches else 0)
+        return shading._replace(operations=PROBE, fetches=fetches, footprint=shading.footprint if fetches else 0)
     rate = (added_ms - fetches_ms) / shading.operations
     limit = min(GROWTH * shading.operations, MAX_OPERATIONS)
     operations = limit if rate <= 0 else min(round((wanted_ms - fetches_ms) / rate), limit)
