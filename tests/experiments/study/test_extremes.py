@@ -18,7 +18,7 @@ from msaa_lint.experiments.study.answer import conclude
 from msaa_lint.experiments.study.outcome import SceneSummary, Study
 from msaa_lint.experiments.study.points import Point, Technique, techniques
 from msaa_lint.experiments.study.shading import Shading
-from msaa_lint.experiments.study.time_model import TimeModel
+from msaa_lint.experiments.study.time_model import MeasuredTime, Terms, fit
 from tests.experiments.study.fakes import timed
 from tests.paths import ROOT
 from tests.strength import examples
@@ -48,15 +48,15 @@ def studies(draw: st.DrawFn) -> Study:
     """The answer to a study of one scene."""
     chosen = draw(st.lists(st.sampled_from(techniques()), min_size=1, max_size=7, unique=True).map(sorted))
     made = [draw(points(technique, name)) for name in NAMES for technique in chosen]
-    base = {technique: draw(st.sampled_from([0.0, 1e-9, 1.0, 2.0])) for technique in chosen}
-    invocations = {technique: draw(st.sampled_from([0.0, 1e6, 1.2e6, 4e6])) for technique in chosen}
-    residual = draw(st.sampled_from([0.0, 0.02, 1.5]))
+    quantities = st.builds(Terms, *[st.sampled_from([0.0, 1e-6, 1.0, 2.0])] * len(Terms._fields))
+    terms = {technique: draw(quantities) for technique in chosen}
+    model = fit("edges", [MeasuredTime(technique, cost, draw(TIMES) or 0.0, 0.01) for technique in chosen for cost in (0.0, 2e6)], terms)
     shadings = [Shading(name, nanoseconds=draw(st.sampled_from([None, 0.0, 1e6])), full_screen_ms=draw(TIMES)) for name in NAMES]
     about = draw(st.sampled_from([(), ("hdr",), ("alpha",), ("texture",), ("thin lines",), ("edges",)]))
     return conclude(
         Study(
             "a device", "", (64, 48), 8, [SceneSummary("edges", "", ())._replace(about=about)], made, [], [], shadings=shadings,
-            software=draw(st.booleans()), models=[TimeModel("edges", base, invocations, residual, 0.01)],
+            software=draw(st.booleans()), models=[] if model is None else [model],
             budget_ms=draw(st.sampled_from([None, 1e-9, 0.5, 1e9])),
         )
     )  # fmt: skip
