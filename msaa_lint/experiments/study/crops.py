@@ -33,7 +33,7 @@ def crops(scene: Scene, techniques: Sequence[Technique], bits: int = 8) -> Crops
     Colors are as a display shows them: light beyond its white is mapped, and all is encoded as sRGB.
     """
     from .measure import truth
-    from .scenes.scene import Part
+    from .scenes.part import Part
     from .simulate import simulate
 
     found = -1, 0, 0

@@ -16,7 +16,8 @@ from numpy.typing import NDArray
 
 from .displayed import display_codes
 from .points import Technique
-from .scenes.scene import Part, Scene
+from .scenes.part import Part
+from .scenes.scene import Scene
 from .scenes.shapes import spread
 from .scenes.view import snapped
 from .simulate import BAND_SAMPLES, Simulator
@@ -118,7 +119,7 @@ def windows(scene: Scene, bits: int = 8) -> list[Part]:
     crossed = []
     for top in range(0, scene.height - SIDE + 1, SIDE):
         band = Part(0, top, scene.width, SIDE, OFFSET, OFFSET)
-        edge_pixels = scene.exact(snapped(scene, [band], bits=bits).view()).edge_pixels[0]
+        edge_pixels = scene.exact(snapped(scene.triangles, [band], bits=bits).view()).edge_pixels[0]
         columns = edge_pixels.any(axis=0)[: scene.width // SIDE * SIDE].reshape(-1, SIDE).any(axis=1)
         crossed += [Part(int(column) * SIDE, top, SIDE, SIDE) for column in np.flatnonzero(columns)]
     count = min(max(-(-len(crossed) // SHARE), MIN_WINDOWS), MAX_WINDOWS, len(crossed))

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from . import displayed, shade
 from .flicker import flicker
 from .points import MSAA, SAMPLE_SHADING, Point, Technique
-from .scenes.scene import Part, Scene
+from .scenes.part import Part
+from .scenes.scene import Scene
 from .scenes.view import Truth, snapped
 from .simulate import Simulation, Simulator
 from .sums import ErrorSum, Sum, difference
@@ -23,7 +24,7 @@ def truth(scene: Scene, technique: Technique = ONE, bits: int = 8, part: Part | 
     """The exact picture of the triangles as the technique snaps them, so that only the error of sampling remains; of the whole scene or
     of a part."""
     whole = part or Part(0, 0, scene.width, scene.height)
-    image, edge_pixels = scene.exact(snapped(scene, [whole], technique.grid, bits).view())
+    image, edge_pixels = scene.exact(snapped(scene.triangles, [whole], technique.grid, bits).view())
     return Truth(image[0], edge_pixels[0])
 
 

@@ -18,7 +18,8 @@ from . import coverage, effects, fragments, locations, resolve
 from .drawing import Band, Batch, Drawing, Floats, group_of, has_sample
 from .locations import SUBPIXELS
 from .points import SAMPLE_SHADING, SSAA, Technique
-from .scenes.scene import Part, Scene
+from .scenes.part import Part
+from .scenes.scene import Scene
 from .scenes.shapes import depth_planes
 from .scenes.view import Snapped, offsets, snapped
 from .shade import groups, positions, shade
@@ -107,7 +108,7 @@ class Simulator:
 
     def snapped(self, parts: Sequence[Part]) -> Snapped:
         """The triangles near parts of one size as the technique renders them."""
-        return snapped(self.scene, parts, self.grid, self.bits)
+        return snapped(self.scene.triangles, parts, self.grid, self.bits)
 
     def render(self, parts: Sequence[Part], triangles: Snapped | None = None) -> Simulation:
         """Parts of one size; `triangles` are snapped(parts)."""

@@ -9,7 +9,8 @@ from msaa_lint.experiments.study.measure import truth
 from msaa_lint.experiments.study.points import MSAA, SAMPLE_SHADING, SSAA, Technique
 from msaa_lint.experiments.study.scenes import NAMES, scene
 from msaa_lint.experiments.study.scenes.description import from_description
-from msaa_lint.experiments.study.scenes.scene import Part, Scene
+from msaa_lint.experiments.study.scenes.part import Part
+from msaa_lint.experiments.study.scenes.scene import Scene
 from msaa_lint.experiments.study.simulate import Simulation, Simulator, simulate
 from tests.experiments.study.test_scenes import FULL, SAMPLED, frame
 

@@ -18,7 +18,8 @@ from msaa_lint.experiments.study.scenes import depth, detail, edges, view, visib
 from msaa_lint.experiments.study.scenes import mesh as own
 from msaa_lint.experiments.study.scenes.description import from_description
 from msaa_lint.experiments.study.scenes.mesh import from_mesh
-from msaa_lint.experiments.study.scenes.scene import Part, Scene
+from msaa_lint.experiments.study.scenes.part import Part
+from msaa_lint.experiments.study.scenes.scene import Scene
 from msaa_lint.experiments.study.simulate import simulate
 from tests.experiments.confirm.frames import frame
 from tests.experiments.study import spans
@@ -39,7 +40,7 @@ def without_flicker(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def exact_picture(made: Scene) -> np.ndarray:
     """The exact picture of the triangles as they are, not snapped."""
-    return made.exact(view.whole(made)).image[0]
+    return made.exact(view.whole(made.triangles, made.width, made.height)).image[0]
 
 
 @pytest.mark.parametrize("name", scenes.NAMES)
@@ -199,7 +200,7 @@ def squares(depths: tuple[list[float], list[float]], look: visible.Visibility) -
     given = np.array([[a, b, c] for own in depths for a, b, c in ([own[0], own[1], own[2]], [own[0], own[2], own[3]])])
     exact = visible.overlapping(colors, given if look.depth else None, 8, 4, look)
     made = Scene(8, 4, np.array(corners, np.float64), colors, exact)
-    picture, crossed = exact(view.whole(made))
+    picture, crossed = exact(view.whole(made.triangles, made.width, made.height))
     return picture[0], crossed[0]
 
 
@@ -565,4 +566,4 @@ def test_formats_that_hold_light_are_hdr() -> None:
     assert made.why["hdr"] == "light is B10G11R11_UFLOAT_PACK32, which holds light of 50 times display white"
     assert made.why["tone-mapping"] == "scene.toneMapping is not stated: after the resolve"
     # Tone mapped, light of 50 is less than display white.
-    assert 0.5 < made.exact(made.triangles)[..., :3].max() < 1 < made.colors.max() < 50
+    assert 0.5 < exact_picture(made)[..., :3].max() < 1 < made.colors.max() < 50

@@ -70,7 +70,7 @@ def from_mesh(path: str, width: int, height: int) -> Scene:
     exact = visible.overlapping(colors, depths, width, height, visible.Visibility(depth=not flat))
     scene = Scene(width, height, triangles, colors, exact, False, depths, name=name, description=description)
     # The picture that the points are compared with is computed now, so that its limit is an error of the mesh, not of each point.
-    exact(whole(scene, snapped(triangles) / SUBPIXELS))
+    exact(whole(snapped(triangles) / SUBPIXELS, width, height))
     if flat:
         return scene
     why = {"depth-test": "the mesh has triangles at different depths"}

@@ -26,18 +26,6 @@ MIN_SIZE = 32
 """Minimum width and height of a picture, in pixels."""
 
 
-class Part(NamedTuple):
-    """A window of a picture: its left column, its top row, its width and its height in pixels, where the scene has moved by (dx, dy)
-    pixels. What belongs to the screen (sample locations, dithering) has not moved."""
-
-    left: int
-    top: int
-    width: int
-    height: int
-    dx: float = 0.0
-    dy: float = 0.0
-
-
 class Scene(NamedTuple):
     """A picture to render. Coordinates are pixels, x to the right and y down; colors are linear, 1.0 is display white.
 

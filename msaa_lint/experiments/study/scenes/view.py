@@ -12,7 +12,7 @@ from msaa_lint.experiments.study import snap
 from msaa_lint.experiments.study.exact_area import areas_of
 from msaa_lint.experiments.study.locations import SUBPIXELS
 
-from .scene import Part, Scene
+from .part import Part
 
 Floats = NDArray[np.float64]
 
@@ -60,10 +60,10 @@ class Snapped(NamedTuple):
         return View(self.parts, self.triangle, self.part, self.corners / (SUBPIXELS * self.grid))
 
 
-def snapped(scene: Scene, parts: Sequence[Part], grid: int = 1, bits: int = 8) -> Snapped:
-    """The triangles near parts of one size, snapped to 2^-bits pixels of a picture rendered `grid` times as wide and as high. A moved
-    scene is snapped after it has moved, as on a device."""
-    low, high = scene.triangles.min(axis=1, initial=np.inf), scene.triangles.max(axis=1, initial=-np.inf)
+def snapped(triangles: Floats, parts: Sequence[Part], grid: int = 1, bits: int = 8) -> Snapped:
+    """Those of a scene's triangles (T, 3, 2) that are near parts of one size, snapped to 2^-bits pixels of a picture rendered `grid` times
+    as wide and as high. A moved scene is snapped after it has moved, as on a device."""
+    low, high = triangles.min(axis=1, initial=np.inf), triangles.max(axis=1, initial=-np.inf)
     motion = np.array([(part.dx, part.dy) for part in parts])
     # Snapping moves corners by at most half a pixel.
     margin = 1 + float(np.abs(motion).max())
@@ -75,17 +75,16 @@ def snapped(scene: Scene, parts: Sequence[Part], grid: int = 1, bits: int = 8) -
     lists = [near[part.left, part.top] for part in parts]
     triangle = np.concatenate(lists)
     number = np.repeat(np.arange(len(parts)), [len(each) for each in lists])
-    corners = scene.triangles[triangle]
+    corners = triangles[triangle]
     if motion.any():
         corners = corners + motion[number][:, None]
     return Snapped(parts, triangle, number, snap.snapped(corners * grid, bits), grid)
 
 
-def whole(scene: Scene, triangles: Floats | None = None) -> View:
-    """All triangles, at other corners if given, and the whole picture as the only part."""
-    corners = scene.triangles if triangles is None else triangles
-    numbers = np.arange(len(corners))
-    return View([Part(0, 0, scene.width, scene.height)], numbers, np.zeros_like(numbers), corners)
+def whole(triangles: Floats, width: int, height: int) -> View:
+    """All triangles (T, 3, 2), and the whole picture as the only part."""
+    numbers = np.arange(len(triangles))
+    return View([Part(0, 0, width, height)], numbers, np.zeros_like(numbers), triangles)
 
 
 def offsets(parts: Sequence[Part]) -> NDArray[np.int64]:

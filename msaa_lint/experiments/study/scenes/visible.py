@@ -16,7 +16,8 @@ from numpy.typing import NDArray
 from msaa_lint.experiments.study.exact_area import areas_of
 
 from .area import TOLERANCE
-from .scene import BLACK, Part
+from .part import Part
+from .scene import BLACK
 from .shapes import Point, depth_planes, fan, rectangle
 from .view import Truth, View
 
