@@ -186,7 +186,7 @@ def _rows(panel: Panel) -> list[dict[str, Any]]:
             "y": y,
             "kind": KINDS[point.technique.kind][0],
             "technique": point.technique.name,
-            "error": point.rmse,
+            "error": y,
         }
         row["opacity"] = 1.0 if panel.is_optimal(point) else _PALE
         if point.time_ms is not None:
