@@ -26,6 +26,10 @@ SMALL = 256.0
 """Triangles of at most so many pixels are shown as a mesh of them: their inner edges are everywhere."""
 
 
+ASSUMED_PEAK = 4.0
+"""The brightest light of floating-point images of which nothing else is stated, in units of display white."""
+
+
 class _GlobalEffects(NamedTuple):
     """The effects that apply to the whole picture: the reason for each, and its settings."""
 
@@ -139,10 +143,13 @@ def _add_light(content: _Content, effects: _GlobalEffects) -> None:
     """HDR, tone mapping and sRGB."""
     stated = content.frame.description.scene
     if _is_hdr(content):
-        peak = f"{_peak(content):g} times display white"
-        image = f"{content.light[0].name} is {format_name(content.light[0].format)}, which holds light of" if content.light else ""
-        why = "scene.color is HDR, scene.peak" if stated is not None and stated.color == "HDR" else image
-        effects.why["hdr"] = f"{why} {peak}"
+        stated_hdr = stated is not None and stated.color == "HDR"
+        why = f"scene.color is HDR, scene.peak {_peak(content):g} times display white"
+        if not stated_hdr:
+            image = content.light[0]
+            format = format_name(image.format)
+            why = f"{image.name} is {format}, which holds light above display white: {ASSUMED_PEAK:g} times is assumed without scene.peak"
+        effects.why["hdr"] = why
         mapping = stated.toneMapping if stated is not None else None
         setting = {"AFTER_RESOLVE": "after-resolve", "IN_PASS": "before-resolve"}.get(mapping or "AFTER_RESOLVE")
         if setting is not None:
@@ -178,7 +185,9 @@ def _peak(content: _Content) -> float:
     stated = content.frame.description.scene
     if not _is_hdr(content):
         return 1.0
-    return float(stated.peak) if stated is not None and stated.peak is not None else light.EMITTER[0]
+    if stated is not None and stated.peak is not None:
+        return float(stated.peak)
+    return light.EMITTER[0] if stated is not None and stated.color == "HDR" else ASSUMED_PEAK
 
 
 def _is_reversed(content: _Content) -> bool:
