@@ -103,7 +103,9 @@ def _descriptor(module: Module, layouts: Layouts, type_id: int, storage: int) ->
     image = _image_type(module, type_id)
     if image is None or image[2] >= len(DIMENSIONS):
         raise SpirvError("a descriptor is of an unknown type")
-    component = module.types.get(image[1], (0, 0))
+    component = module.types.get(image[1], ())
+    if len(component) < 2 or component[0] not in (op.TYPE_FLOAT, op.TYPE_INT):
+        raise SpirvError("an image has components of an unknown type")
     name = "float" if component[0] == op.TYPE_FLOAT else "int" if component[-1] else "uint"
     dimension = DIMENSIONS[image[2]]
     described = ImageType(dimension, name + ("64" if component[1] == 64 else ""), image[3] == 1, image[4] == 1, image[5] == 1, image[7])

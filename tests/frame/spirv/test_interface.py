@@ -231,6 +231,16 @@ def test_structures_of_structures_are_counted_once() -> None:
     assert interface(module, module.entry("main"), Constants(module, {})).descriptors[0].size == 4 << 14
 
 
+def test_an_image_of_no_numbers_is_refused() -> None:
+    code = spirv("layout(binding = 0) uniform sampler2D t;\n" + COLOR + "void main() { color = texture(t, vec2(0)); }")
+    words = list(struct.unpack(f"<{len(code) // 4}I", code))
+    # Of OpTypeImage the component type, here OpTypeVoid.
+    image = next(at for at, word in enumerate(words) if word == 9 << 16 | 25)
+    words[image + 2] = words[next(at for at, word in enumerate(words) if word == 2 << 16 | 19) + 1]
+    with pytest.raises(SpirvError, match="components of an unknown type"):
+        reflected(struct.pack(f"<{len(words)}I", *words))
+
+
 def test_a_structure_in_itself_is_refused() -> None:
     with pytest.raises(SpirvError, match="nested too deeply"):
         reflected(hostile((30, 8, 8), holds=8, decorations=((72, 8, 0, 35, 0),)))
