@@ -306,7 +306,7 @@ COMMANDS = {
                 Option("overdraw", "integer", "Draw each triangle this many times.", "N", default="1"),
                 Option("triangle_size", "decimal", "Split triangles until no side is longer than this.", "PIXELS", default="as they are"),
                 Option("repeats", "integer", "Number of rounds in which techniques are timed.", "N", default="15"),
-                Option("budget", "text", "Recommend what adds at most this time to that of one sample: 0.5ms, 500us.", "TIME", default="1ms"),
+                Option("budget", "text", "Recommend what adds at most this time to one sample: 0.5ms, 500us.", "TIME", default="1ms"),
             ),
             "Output": (
                 _output(*TEXT_FORMATS),
