@@ -1,8 +1,9 @@
-"""The tables of a study's text report: errors, times under each cost of shading, and their parts."""
+"""The tables of a study's text report: errors and work, which are the same under every cost of shading, and times."""
 
 from __future__ import annotations
 
 import math
+import textwrap
 from collections.abc import Callable, Mapping, Sequence, Set
 from itertools import pairwise
 from typing import NamedTuple
@@ -10,14 +11,20 @@ from typing import NamedTuple
 from rich.text import Text
 
 from msaa_lint.experiments.study.outcome import SceneSummary, Study
-from msaa_lint.experiments.study.pareto import tie
+from msaa_lint.experiments.study.pareto import has_time, tie
 from msaa_lint.experiments.study.points import Point, Technique
+from msaa_lint.experiments.study.shading import AS_DESCRIBED
 
 from . import Options, Write
 from .escape import display
-from .tables import FIGURE, Column, Table, print_tables
+from .tables import FIGURE, SHORT, TEXT, Column, Table, print_tables
 
 MARK, TIE = "*", "="
+
+_MAX_HEADING = 12
+"""Cells in a line of a heading that holds a name."""
+
+_MAX_DECIMALS = 6
 
 
 class _Figures(NamedTuple):
@@ -40,67 +47,87 @@ def _count(value: int | None) -> str:
     return "-" if value is None else f"{value:,}"
 
 
+_RMSE_ALL = _Figures("RMSE\nall", lambda point: figure(point.rmse_all, ".5f"))
+_WORST = _Figures("worst", lambda point: figure(point.max_error, ".3f"))
+_BIAS = _Figures("bias", lambda point: figure(point.bias, "+.4f"))
+_PSNR = _Figures("PSNR dB\nlinear", lambda point: figure(point.psnr_db, ".1f"))
+_PSNR_DISPLAY = _Figures("PSNR dB\ndisplay", lambda point: figure(point.psnr_display_db, ".1f"))
+_BYTES = _Figures("MB per\nframe", lambda point: figure(point.bytes_per_frame / 1e6 if point.bytes_per_frame is not None else None, ".1f"))
+_POWER = _Figures("mW", lambda point: figure(point.milliwatts, ".0f"))
+_MEMORY = _Figures("MiB", lambda point: figure(point.memory_mib, ".1f"))
+_COUNTED = _Figures("invocations\ncounted", lambda point: _count(point.invocations))
+_EXPECTED = _Figures("invocations\nexpected", lambda point: _count(point.expected_invocations))
 _ERRORS = (
     _Figures("RMSE\nedges", lambda point: figure(point.rmse, ".4f")),
-    _Figures("RMSE\nall", lambda point: figure(point.rmse_all, ".5f")),
-    _Figures("worst", lambda point: figure(point.max_error, ".3f")),
-    _Figures("bias", lambda point: figure(point.bias, "+.4f")),
-)
-_PERCEIVED = (
-    _Figures("PSNR dB\nlinear", lambda point: figure(point.psnr_db, ".1f")),
-    _Figures("PSNR dB\ndisplay", lambda point: figure(point.psnr_display_db, ".1f")),
+    _RMSE_ALL,
+    _WORST,
+    _BIAS,
+    _PSNR,
+    _PSNR_DISPLAY,
     _Figures("SSIM", lambda point: figure(point.ssim, ".4f")),
     _Figures("FLIP", lambda point: figure(point.flip, ".4f")),
     _Figures("flicker", lambda point: figure(point.flicker, ".4f")),
+    _BYTES,
+    _POWER,
+    _MEMORY,
+    _COUNTED,
+    _EXPECTED,
 )
-_WORK = (
-    _Figures("MB per\nframe", lambda point: figure(point.bytes_per_frame / 1e6 if point.bytes_per_frame is not None else None, ".1f")),
-    _Figures("mW", lambda point: figure(point.milliwatts, ".0f")),
-    _Figures("MiB", lambda point: figure(point.memory_mib, ".1f")),
-    _Figures("invocations\ncounted", lambda point: _count(point.invocations)),
-    _Figures("invocations\nexpected", lambda point: _count(point.expected_invocations)),
-)
-_PARTS = (
-    _Figures("fill\nms", lambda point: figure(point.fill_ms, ".3g")),
-    _Figures("shading\nms", lambda point: figure(point.shading_ms, ".3g")),
-    _Figures("resolve\nms", lambda point: figure(point.resolve_ms, ".3g")),
-)
-
+_LEFT_OUT = (_POWER, _MEMORY, _RMSE_ALL, _PSNR, _BIAS, _BYTES, _WORST, _EXPECTED, _COUNTED, _PSNR_DISPLAY)
+"""The columns that a narrow table is without, the first one first."""
 
 _Column = tuple[Column, Mapping[Technique, str]]
 """A column of a table, and its cells by technique."""
 
 
-def print_errors(study: Study, scene: SceneSummary, out: Write, options: Options) -> None:
-    """Prints the errors of a scene's techniques, which are the same under every cost of shading, their traffic and memory, and their
-    invocations: in as few tables as fit. Without times of a GPU, the Pareto-optimal ones are marked."""
+def row_name(technique: Technique) -> str:
+    """The name of a technique, as short as a table needs it: `4x, half shaded`."""
+    return technique.name.replace(" of them", "")
+
+
+def print_errors(study: Study, scene: SceneSummary, out: Write, options: Options) -> list[str]:
+    """Prints the errors, traffic, memory, and invocations of a scene's techniques, which are the same under every cost of shading, in one
+    table; returns the names of the columns for which the output is too narrow. Without times of a GPU, the Pareto-optimal techniques are
+    marked."""
     points = study.of(scene.name, study.shading_names(scene.name)[0])
     best = set() if has_times(points) and not study.software else {point.technique for point in points if point.best}
-    errors = [figures._replace(title=figures.title if scene.coverage else figures.title.replace("edges", "color")) for figures in _ERRORS]
-    perceived, work = _known(_PERCEIVED, points), _known(_WORK, points)
+    columns = [figures for figures in _ERRORS if _is_known(figures, points)]
+    optional = [figures for figures in _LEFT_OUT if figures in columns]
 
-    def layout(gap: int, *groups: Sequence[_Figures]) -> list[Table]:
-        marks = [(Column(""), dict.fromkeys(best, MARK))]
-        return [_table(points, [*marks, *_columns(group, points)], gap, best) for group in groups if group]
+    def layout(gap: int, left_out: Sequence[_Figures]) -> list[Table]:
+        marks = [(Column(""), dict.fromkeys(best, MARK))] if best else []
+        shown = [figures for figures in columns if figures not in left_out]
+        if not scene.coverage:
+            shown = [figures._replace(title=figures.title.replace("edges", "color")) for figures in shown]
+        return [_table(points, [*marks, *_columns(shown, points)], gap, best)]
 
-    every = [*errors, *perceived, *work]
-    apart = layout(1, [*errors, *perceived], work), layout(1, errors, perceived, work)
-    print_tables(out, options, layout(2, every), layout(1, every), *apart)
+    chosen = print_tables(out, options, layout(2, ()), *(layout(1, optional[:number]) for number in range(len(optional) + 1)))
+    return [figures.title.replace("\n", " ") for figures in optional[: max(chosen - 1, 0)]]
 
 
-def print_times(study: Study, scene: SceneSummary, out: Write, options: Options) -> None:
-    """Prints the times of a scene's techniques, a group of columns for each cost of shading, then their parts."""
+def print_times(study: Study, scene: SceneSummary, out: Write, options: Options) -> bool:
+    """Prints the times of a scene's techniques, a group of columns for each cost of shading, and the parts of these times; returns whether
+    it shows what shading takes under each cost."""
     groups = [points for name in study.shading_names(scene.name) if has_times(points := study.of(scene.name, name))]
     if study.software:
         groups = [[point._replace(best=False) for point in points] for points in groups]
-    label = "software\ndriver\n" if study.software else ""
-    for group_columns in (_time_columns, _part_columns):
-        columns = [group_columns(points, label) for points in groups]
-        if any(columns):
-            best = {point.technique for point in groups[0] if point.best} if len(groups) == 1 else set()
-            whole = [[_table(groups[0], [column for group in columns for column in group], gap, best)] for gap in (2, 1)]
-            print_tables(out, options, *whole, [_table(groups[0], group, 1, best) for group in columns if group])
-            out("\n")
+    best = {point.technique for point in groups[0] if point.best} if len(groups) == 1 else set()
+
+    def table(gap: int, *parts: Sequence[_Column], kind: str = TEXT) -> Table:
+        return _table(groups[0], [column for part in parts for column in part], gap, best, kind)
+
+    fill, shading = _fill_columns(groups), [column for points in groups for column in _shading_columns(points)]
+    times = [_time_columns(points, _decimals(points)) for points in groups]
+    related = [[*columns, *_ratio_columns(points)] for columns, points in zip(times, groups, strict=True)]
+    together = [[table(2, *related, fill, shading)], [table(1, *related, fill, shading)], [table(1, *times, fill, shading)]]
+    parts = [table(1, fill, shading)] if fill or shading else []
+    apart = [
+        [*(table(1, *times[start : start + number]) for start in range(0, len(times), number)), *parts]
+        for number in range(len(times), 0, -1)
+    ]
+    folded = [table(1, *times, kind=SHORT), *parts]
+    chosen = print_tables(out, options, *together, [table(1, *times, fill)], apart[0], folded, *apart[1:])
+    return not shading or chosen != len(together)
 
 
 def has_times(points: Sequence[Point]) -> bool:
@@ -108,27 +135,54 @@ def has_times(points: Sequence[Point]) -> bool:
     return any(point.time_ms is not None for point in points)
 
 
-def _time_columns(points: Sequence[Point], label: str) -> list[_Column]:
-    """The marks, times, half-widths of their intervals, and times relative to one sample, under one cost of shading."""
+def _time_columns(points: Sequence[Point], decimals: int) -> list[_Column]:
+    """The marks, times, and half-widths of their intervals, under one cost of shading."""
     ties = _ties_with_shorter(points)
     marks = {point.technique: MARK * point.best + TIE * (point.technique in ties) for point in points}
-    name = display(points[0].shading)
-    figures = _known(
-        (
-            _Figures(f"{label}{name}\nms" if name else f"{label}ms", lambda point: figure(point.time_ms, ".3g")),
-            _Figures("±", lambda point: figure(_half_width(point), ".2g")),
-            _Figures("to 1x", lambda point: figure(point.ratio, ".2f")),
-        ),
-        points,
+    figures = [
+        _Figures(_heading(points[0].shading, "ms"), lambda point: figure(point.time_ms, f".{decimals}f")),
+        _Figures("±", lambda point: _half_width(point, decimals)),
+    ]
+    known = _columns([each for each in figures if _is_known(each, points)], points)
+    return [(Column(""), marks), *known] if any(marks.values()) else known
+
+
+def _ratio_columns(points: Sequence[Point]) -> list[_Column]:
+    """The times relative to those of one sample, under one cost of shading."""
+    ratio = _Figures("to 1x", lambda point: figure(point.ratio, ".2f"))
+    return _columns([ratio], points) if _is_known(ratio, points) else []
+
+
+def _fill_columns(groups: Sequence[Sequence[Point]]) -> list[_Column]:
+    """The parts of the times that are the same under every cost of shading. A frame's own shaders are not timed apart from what they
+    fill."""
+    described = {points[0].shading for points in groups} == {AS_DESCRIBED}
+    decimals = max(map(_decimals, groups))
+    parts = (
+        _Figures("fill and\nshading\nms" if described else "fill\nms", lambda point: figure(point.fill_ms, f".{decimals}f")),
+        _Figures("resolve\nms", lambda point: figure(point.resolve_ms, f".{decimals}f")),
     )
-    return [(Column(""), marks), *_columns(figures, points)]
+    return _columns([part for part in parts if _is_known(part, groups[0])], groups[0])
 
 
-def _part_columns(points: Sequence[Point], label: str) -> list[_Column]:
-    """The parts of the times under one cost of shading."""
-    name = display(points[0].shading)
-    parts = _known(_PARTS, points)
-    return _columns([each._replace(title=f"{label}{name}\n{each.title}" if each is parts[0] else each.title) for each in parts], points)
+def _shading_columns(points: Sequence[Point]) -> list[_Column]:
+    """What one cost of shading adds to the times; nothing where it adds nothing."""
+    if not any(point.shading_ms for point in points):
+        return []
+    decimals, name = _decimals(points), points[0].shading
+    part = _Figures(_heading(f"shading {name}", "ms"), lambda point: figure(point.shading_ms, f".{decimals}f"))
+    return _columns([part], points)
+
+
+def _heading(name: str, unit: str) -> str:
+    """The heading of a column of times: a cost's name, broken where it is long."""
+    return "\n".join([*textwrap.wrap(display(name), _MAX_HEADING), unit])
+
+
+def _decimals(points: Sequence[Point]) -> int:
+    """The decimals with which the shortest of the times has three significant digits."""
+    shortest = min((point.time_ms for point in points if point.time_ms is not None and has_time(point)), default=1.0)
+    return min(max(2 - math.floor(math.log10(shortest)), 0), _MAX_DECIMALS)
 
 
 def _ties_with_shorter(points: Sequence[Point]) -> set[Technique]:
@@ -137,25 +191,28 @@ def _ties_with_shorter(points: Sequence[Point]) -> set[Technique]:
     return {longer.technique for shorter, longer in pairwise(ordered) if tie(shorter, longer)}
 
 
-def _half_width(point: Point) -> float | None:
+def _half_width(point: Point, decimals: int) -> str:
+    """The distance from a time to the farther bound of its interval; `<0.001` where that is less than the time's digits show."""
     if point.time_ms is None or point.low_ms is None or point.high_ms is None:
-        return None
-    return max(point.time_ms - point.low_ms, point.high_ms - point.time_ms)
+        return "-"
+    width = max(point.time_ms - point.low_ms, point.high_ms - point.time_ms)
+    least = 10.0**-decimals
+    return "-" if not math.isfinite(width) else f"<{least:.{decimals}f}" if 0 <= width < least else f"{width:.{decimals}f}"
 
 
-def _known(figures: Sequence[_Figures], points: Sequence[Point]) -> list[_Figures]:
-    """The columns in which anything is known."""
-    return [each for each in figures if any(each.cell(point) != "-" for point in points)]
+def _is_known(figures: _Figures, points: Sequence[Point]) -> bool:
+    """Whether anything is known of a column."""
+    return any(figures.cell(point) != "-" for point in points)
 
 
 def _columns(figures: Sequence[_Figures], points: Sequence[Point]) -> list[_Column]:
     return [(Column(each.title, FIGURE), {point.technique: each.cell(point) for point in points}) for each in figures]
 
 
-def _table(points: Sequence[Point], columns: Sequence[_Column], gap: int, best: Set[Technique]) -> Table:
+def _table(points: Sequence[Point], columns: Sequence[_Column], gap: int, best: Set[Technique], kind: str = TEXT) -> Table:
     """A row for each technique, with its name before the first column of figures."""
-    names = (Column("samples"), {point.technique: point.technique.name for point in points})
-    place = 1 if columns[0][0].kind != FIGURE else 0
+    names = (Column("samples", kind), {point.technique: row_name(point.technique) for point in points})
+    place = 1 if columns and columns[0][0].kind != FIGURE else 0
     ordered = [*columns[:place], names, *columns[place:]]
     rows = [
         (

@@ -15,17 +15,17 @@ from rich.text import Text
 from . import Options, Write
 from .escape import escape_commands
 
-FIGURE, TEXT, NAME = "figure", "text", "name"
+FIGURE, TEXT, SHORT, NAME = "figure", "text", "short", "name"
 MIN_NAME_WIDTH = 12
-GOOD_WIDTHS = {TEXT: 24, NAME: 60}
+GOOD_WIDTHS = {TEXT: 24, SHORT: 14, NAME: 60}
 """Cells in which a longer text or name is readable in several lines."""
 
 _UNLIMITED = 10_000
 
 
 class Column(NamedTuple):
-    """A column: its heading, and what its cells hold. Figures are on the right and never broken, texts are broken between words, and names
-    anywhere."""
+    """A column: its heading, and what its cells hold. Figures are on the right and never broken, texts and short
+    ones are broken between words, and names anywhere."""
 
     title: str
     kind: str = TEXT
@@ -39,12 +39,14 @@ class Table(NamedTuple):
     gap: int = 2
 
 
-def print_tables(out: Write, options: Options, *layouts: Sequence[Table]) -> None:
-    """Prints the tables of the first layout that fits with long texts and names broken, else those of the last one."""
+def print_tables(out: Write, options: Options, *layouts: Sequence[Table]) -> int:
+    """Prints the tables of the first layout that fits with long texts and names broken, else those of the last one; returns its place."""
     width = options.width or _UNLIMITED
-    chosen = next((layout for layout in layouts if all(_total(table, _good_widths(table)) <= width for table in layout)), layouts[-1])
-    for number, table in enumerate(chosen):
+    fitting = (place for place, layout in enumerate(layouts) if all(_total(table, _good_widths(table)) <= width for table in layout))
+    chosen = next(fitting, len(layouts) - 1)
+    for number, table in enumerate(layouts[chosen]):
         out(("\n" if number else "") + _rendered(table, width, options.color))
+    return chosen
 
 
 def _rendered(table: Table, width: int, color: bool) -> str:

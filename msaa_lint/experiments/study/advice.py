@@ -39,7 +39,6 @@ def advice(points: Sequence[Point], measure: Measure = ERROR) -> Iterator[Advice
         *_counts(compared, counts, measure),
         *_shading(compared, counts, measure),
         *_supersampling(compared, counts, measure),
-        *_worth(counts, measure),
     )
     return (Advice(compared[0].point.scene, text, reason) for text, reason in sentences)
 
@@ -136,40 +135,49 @@ def _supersampling(points: Sequence[_Compared], counts: Sequence[_Compared], mea
             yield f"SSAA has {more} {measure.name} than MSAA with as many samples: {', '.join(texts)}", reason
 
 
-def _worth(counts: Sequence[_Compared], measure: Measure) -> Iterator[tuple[str, str]]:
-    """Up to which count steps remove enough of the error."""
+def error_advice(points: Sequence[Point], measure: Measure) -> Iterator[Advice]:
+    """Up to which count of samples steps remove enough of the error of one scene, where no model says at which costs that is worth it."""
+    finite = (point for point in points if ERROR.is_finite(point) and measure.is_finite(point))
+    counts = sorted((point for point in finite if point.technique.kind == MSAA), key=lambda point: point.technique)
     last = None
     for before, after in pairwise(counts):
-        if not is_enough(measure, before.point, after.point):
+        if not is_enough(measure, before, after):
             break
         last = after
     if last is not None:
         removed = f"at least {percent(1 - MAX_REMAINING)[1:]} of the {measure.name}"
-        yield f"each step up to {last.name} removes {removed}", "whether that is worth its time depends on the cost of shading"
+        reason = "whether that is worth its time depends on the cost of shading"
+        yield Advice(last.scene, f"each step up to {last.technique.name} removes {removed}", reason)
 
 
-def worth_advice(scene: str, found: Worth, shadings: Sequence[Shading]) -> Advice:
-    """At which costs of shading a step up is worth its time, beside the costs that were measured."""
-    name, other, limit = found.after.name, found.before.name, percent(MAX_ADDED)[1:]
-    cost = f"{found.full_screen_ms:.2g} ms" if found.full_screen_ms is not None else ""
-    reason = f"there it adds at most {limit} to the time of {other}"
-    if found.at_least and found.at_greatest:
-        text = f"{name} is worth its time at every measured cost of shading"
-        reason = f"it adds at most {limit} to the time of {other}"
-    elif found.at_greatest:
-        text = f"{name} is worth its time where shading a full screen takes about {cost} or more"
-    elif found.at_least:
-        text = f"{name} is worth its time where shading a full screen takes at most about {cost}"
-    else:
-        text = f"{name} is not worth its time at any measured cost of shading"
-        reason = f"it always adds more than {limit} to the time of {other}"
-    if cost and found.low_ms is not None:
-        reason += f"; the model's residuals put that cost between {found.low_ms:.2g} and {found.high_ms:.2g} ms"
-    elif cost:
-        reason += "; within the model's residuals it may be at every measured cost or at none"
-    calibrated = [shading for shading in shadings if shading.full_screen_ms]
-    costs = ", ".join(f"{shading.name} is {shading.full_screen_ms:.3g} ms" for shading in calibrated)
-    return Advice(scene, text, f"{reason}; {costs}" if costs else reason)
+def worth_advice(scene: str, found: Sequence[Worth], measure: Measure, shadings: Sequence[Shading]) -> Advice:
+    """At which costs of shading steps up are worth their time, beside the costs that were measured. `found` has at least one step."""
+    steps: dict[str, list[str]] = {}
+    for step in found:
+        steps.setdefault(_worth_costs(step), []).append(step.after.name)
+    clauses: list[str] = []
+    for costs, names in steps.items():
+        verb = "" if clauses else " is worth its time" if len(names) == 1 else " are worth their time"
+        clauses.append(f"{_listed(names)}{verb} {costs}")
+    removed, added = percent(1 - MAX_REMAINING)[1:], percent(MAX_ADDED)[1:]
+    reason = f"at least {removed} less {measure.name} for at most {added} more time than the count before"
+    calibrated = [f"{shading.name} is {shading.full_screen_ms:.3g} ms" for shading in shadings if shading.full_screen_ms]
+    return Advice(scene, "; ".join(clauses), "; ".join([reason, *([", ".join(calibrated)] if calibrated else [])]))
+
+
+def _listed(names: Sequence[str]) -> str:
+    """`2x`, `2x and 4x`, `2x, 4x, and 8x`."""
+    return " and ".join(names) if len(names) < 3 else f"{', '.join(names[:-1])}, and {names[-1]}"
+
+
+def _worth_costs(step: Worth) -> str:
+    """At which costs of shading a step is worth its time, with the bounds that the model's residuals leave."""
+    if step.full_screen_ms is None:
+        return "at every measured cost of shading" if step.at_least else "at no measured cost of shading"
+    where = f"{'from' if step.at_greatest else 'up to'} about {step.full_screen_ms:.2g} ms of shading a full screen"
+    if step.low_ms is None or step.high_ms is None:
+        return f"{where} (within the model's residuals perhaps at every measured cost, or at none)"
+    return f"{where} ({step.low_ms:.2g} to {step.high_ms:.2g} ms)"
 
 
 def _percent(one: float, other: float) -> str:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
-from .advice import Advice, advice, worth_advice
-from .measures import Measure, measure_of
+from .advice import Advice, advice, error_advice, worth_advice
+from .measures import measure_of
 from .outcome import SceneSummary, Study
 from .pareto import mark_best
 from .points import Point
@@ -36,14 +36,11 @@ def _first(study: Study, scene: SceneSummary) -> list[Point]:
 
 
 def _advice(study: Study, scene: SceneSummary) -> Iterator[Advice]:
-    points = _first(study, scene)
-    yield from advice(points, scene.measure)
-    if not study.software:
-        yield from _worth(study, scene, points, scene.measure)
-
-
-def _worth(study: Study, scene: SceneSummary, points: Sequence[Point], measure: Measure) -> Iterator[Advice]:
-    for model in study.models:
-        if model.scene == scene.name:
-            for found in worth(points, measure, model, study.shadings):
-                yield worth_advice(scene.name, found, study.shadings)
+    points, measure = _first(study, scene), scene.measure
+    yield from advice(points, measure)
+    models = [] if study.software else [model for model in study.models if model.scene == scene.name]
+    found = [step for model in models for step in worth(points, measure, model, study.shadings)]
+    if found:
+        yield worth_advice(scene.name, found, measure, study.shadings)
+    else:
+        yield from error_advice(points, measure)

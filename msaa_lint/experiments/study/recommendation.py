@@ -57,12 +57,9 @@ def _within(points: Sequence[Point], one: Point, measure: Measure, budget_ms: fl
     """The least error of those whose added time fits with its upper bound."""
     fitting = [point for point in points if _added(point, one).high_ms <= budget_ms]
     choice = _front(fitting, measure)[-1]
-    reason = f"every other technique adds more than {budget_ms:.3g} ms"
+    reason = f"every other technique adds more than {budget_ms:.4g} ms"
     if len(fitting) > 1:
-        reason = (
-            f"the least {measure.name}, {_figure(measure, choice)}, of the {len(fitting)} techniques that add at most {budget_ms:.3g} ms"
-        )
-        reason += f"; it adds {_bounds(_added(choice, one))}"
+        reason = f"adds {_bounds(_added(choice, one))} and has the least {measure.name} of the {len(fitting)} that fit"
     better = [point for point in _front(points, measure) if measure.rounded(point) < measure.rounded(choice)]
     following = f"no technique has less {measure.name}"
     if better:
@@ -91,10 +88,6 @@ def _worth_their_time(points: Sequence[Point], one: Point, measure: Measure) -> 
     return Recommendation(one.scene, one.shading, choice.technique, _added(choice, one), reason, following or "nothing is worth more time")
 
 
-def _figure(measure: Measure, point: Point) -> str:
-    return f"{measure.rounded(point):.4g}"
-
-
 def _less(measure: Measure, one: Point, other: Point) -> str:
     share = 1 - measure.rounded(one) / measure.rounded(other) if measure.rounded(other) else 0.0
     return f"{percent(share)[1:]} less {measure.name}"
@@ -103,7 +96,7 @@ def _less(measure: Measure, one: Point, other: Point) -> str:
 def _bounds(added: AddedTime) -> str:
     if not added.ms and added.low_ms == added.high_ms:
         return "nothing"
-    return f"{added.ms:.3g} ms ({added.low_ms:.3g} to {added.high_ms:.3g} ms, {percent(added.share)})"
+    return f"{added.ms:.3g} ms ({added.low_ms:.3g} to {added.high_ms:.3g}, {percent(added.share)})"
 
 
 class Worth(NamedTuple):

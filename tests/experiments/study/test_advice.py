@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from msaa_lint.experiments.study.advice import Ruling, advice, ruling
+from msaa_lint.experiments.study.advice import Ruling, advice, error_advice, ruling
 from msaa_lint.experiments.study.measures import ERROR, FLICKER, FLIP, Measure
 from msaa_lint.experiments.study.pareto import mark_best
 from msaa_lint.experiments.study.points import MSAA, SAMPLE_SHADING, SSAA, Point, Technique, techniques
@@ -15,7 +15,7 @@ WORTH = "(whether that is worth its time depends on the cost of shading)"
 
 
 def says(points: list[Point], measure: Measure = ERROR) -> list[str]:
-    return [f"{each.text} ({each.reason})" for each in advice(points, measure)]
+    return [f"{each.text} ({each.reason})" for each in (*advice(points, measure), *error_advice(points, measure))]
 
 
 def test_what_errors_say_whatever_the_time() -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 import os
+import re
 from pathlib import Path
 from typing import Any
 
@@ -132,8 +133,7 @@ def test_costs_of_shading_byte_for_byte() -> None:
     """Errors once, then times with a group of columns for each cost, in 100 columns."""
     text = printed(as_text, costly(), Options(width=100))
     check("shading.txt", text)
-    table = [line for line in text.splitlines() if line.startswith((" ", "*", "=")) and "to" not in line]
-    assert max(map(len, table)) <= 100
+    assert widest(text) <= 100
     assert text.count("0.2887") == 1, "errors are the same under every cost"
     json_text = printed(as_json, costly(), Options(version="1.0"))
     check("shading.json", json_text)
@@ -145,17 +145,53 @@ def test_a_software_driver_s_times_are_labelled_and_advise_nothing() -> None:
     text = printed(as_text, of, Options(width=100))
     check("software.txt", text)
     assert "llvmpipe is a software driver: its times say nothing about a GPU" in text
-    assert all(word not in text for word in ("take ", "front", "worth its time where", "+0.3 ms"))
+    assert text.count("software") == 1 and text.index("software") < text.index("RMSE"), "once, before any time"
+    assert all(word not in text for word in ("take ", "front", "worth its time at", "+0.3 ms"))
     data = json.loads(printed(as_json, of, Options()))
     assert data["software"] is True and {each["software"] for each in data["points"]} == {True}
     assert data["recommendations"] == [] and {each["added_ms"] for each in data["steps"]} == {None}
 
 
-def test_every_group_of_a_narrow_table_has_its_heading() -> None:
-    text = printed(as_text, costly(), Options(width=60))
-    assert max(len(line) for line in text.splitlines() if line.startswith((" ", "*", "=")) and ":" not in line) <= 60
-    for name in ("medium", "heavy"):
-        assert sum(line.split()[0:1] == [name] for line in text.splitlines()) >= 1
+def widest(text: str) -> int:
+    """The length of the longest line of the tables, which every row of a technique belongs to."""
+    rows = re.compile(r"[*= ]*(?:samples|\d+x|SSAA)\b.*\d$|[*= ]*samples .*")
+    return max(len(line) for line in text.splitlines() if rows.fullmatch(line))
+
+
+@pytest.mark.parametrize("width", [50, 60, 70, 80, 90, 100, 120, 140, 200])
+def test_tables_fit_their_width_with_each_cost_as_a_column(width: int) -> None:
+    text = printed(as_text, costly(), Options(width=width))
+    assert widest(text) <= width
+    assert text.count("none") >= 2 and text.count("0.2887") == 1, "errors are the same under every cost"
+    # Errors, times, and where these are too wide their parts, in tables of their own.
+    tables = len(re.findall(r"(?m)^[*= ]*samples ", text))
+    assert tables == 2 if width >= 80 else tables >= 2
+    lost = {"RMSE all", "mW", "MiB", "bias", "PSNR dB linear"} if width == 80 else set()
+    line = next((line for line in text.splitlines() if line.startswith("left out at this width")), "")
+    assert lost <= set(line.partition(": ")[2].split(", ")) and bool(line) == (width < 120)
+
+
+def test_one_scene_under_three_costs_is_about_a_screen() -> None:
+    lines = printed(as_text, costly(), Options(width=80)).splitlines()
+    of_scene = lines[: next(number for number, line in enumerate(lines) if line.startswith("64x48"))]
+    assert sum(-(-max(len(line), 1) // 80) for line in of_scene) <= 58
+    names = [line for line in lines if line.startswith("take ")]
+    assert names == ["take 4x within 1.2 ms under every cost of shading"] and lines.index(names[0]) == 3
+
+
+def test_the_intervals_of_times_are_never_in_scientific_notation() -> None:
+    points = [each._replace(low_ms=(each.time_ms or 0.0) - 1e-7, high_ms=(each.time_ms or 0.0) + 9e-6) for each in costly().points]
+    text = printed(as_text, costly(points=points), Options(width=200))
+    assert "<0.01" in text and not re.search(r"\de[-+]\d", text)
+
+
+def test_a_shader_of_one_s_own_is_its_file_s_name_and_what_it_takes() -> None:
+    own = Shading("lit.frag", nanoseconds=1.5e6, full_screen_ms=3.21)
+    points = [each._replace(shading="lit.frag") for each in costly().points if each.shading == "medium"]
+    text = printed(as_text, costly(shadings=[own], points=points), Options(width=80))
+    assert "lit.frag: 3.21 ms a full screen at 1x" in text.splitlines()
+    assert "shading lit.frag (3.21 ms a full screen at 1x): take 4x" in text.splitlines()
+    assert " operation" not in text
 
 
 def test_a_time_that_ties_with_the_next_shorter_one_is_marked() -> None:
