@@ -21,7 +21,7 @@ from msaa_lint.experiments.study.points import MSAA, SSAA, Technique, techniques
 from msaa_lint.experiments.study.scene_timing import clip
 from msaa_lint.experiments.study.scenes import scene
 from msaa_lint.experiments.study.scenes.scene import Scene
-from msaa_lint.experiments.study.sums import difference, errors
+from msaa_lint.experiments.study.sums import ErrorSum, difference
 from tests.experiments.study.device import covered, viewport
 from tests.experiments.study.spans import masks
 
@@ -58,9 +58,11 @@ def measured(made: Scene, technique: Technique, session: Session, fused: bool) -
         return Measured(technique.name, samples * width * height, reason=str(error))
     share = drawn.reshape(made.height, side, made.width, side, samples).mean(axis=(1, 3, 4), dtype=np.float64)
     exact = truth(made, technique)
-    own = errors(difference(share, exact.image[..., 3])[exact.edge_pixels])
+    error_sum = ErrorSum()
+    error_sum.add(difference(share, exact.image[..., 3])[exact.edge_pixels])
+    errors = error_sum.errors()
     differ = int((drawn != simulate(corners, width, height, samples, fused)).sum())
-    return Measured(technique.name, samples * width * height, own.rmse, own.bias, own.greatest, differ)
+    return Measured(technique.name, samples * width * height, errors.rmse, errors.bias, errors.greatest, differ)
 
 
 def table(found: list[Measured]) -> Iterator[str]:

@@ -23,8 +23,6 @@ ALPHA_THRESHOLD = 0.5
 BAYER = np.array([[0, 8, 2, 10], [12, 4, 14, 6], [3, 11, 1, 9], [15, 7, 13, 5]], np.float32) / 16 + np.float32(1 / 32)
 """Dither thresholds by row and column of a 4x4 block, evenly spaced from 1/32 to 31/32."""
 
-ALPHA_TO_COVERAGE_MODELS = ("dithered", "ceil")
-
 COMPARE: dict[str, Callable[[Any, Any], NDArray[np.bool_]]] = {
     "LESS": np.less,
     "LESS_OR_EQUAL": np.less_equal,

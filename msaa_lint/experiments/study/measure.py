@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import time
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from . import displayed, shade
+from . import displayed
 from .flicker import flicker
 from .points import MSAA, SAMPLE_SHADING, Point, Technique
 from .scenes.part import Part
@@ -28,14 +27,7 @@ def truth(scene: Scene, technique: Technique = ONE, bits: int = 8, part: Part | 
     return Truth(image[0], edge_pixels[0])
 
 
-class _Measured(NamedTuple):
-    """A point, and how many fragments have each sample mask."""
-
-    point: Point
-    masks: NDArray[np.int64]
-
-
-_LAST: list[tuple[Scene, tuple[object, ...], _Measured]] = []
+_LAST: list[tuple[Scene, tuple[object, ...], Point]] = []
 
 
 def point(scene: Scene, technique: Technique, bits: int = 8, ssim: bool = False, flip: bool = False) -> Point:
@@ -49,20 +41,12 @@ def point(scene: Scene, technique: Technique, bits: int = 8, ssim: bool = False,
     else:
         measured = _measure(scene, rendered, bits, ssim, flip)
         _LAST[:] = [(scene, key, measured)]
-    return measured.point._replace(technique=technique, expected_invocations=invocations(measured.masks, technique))
+    return measured._replace(technique=technique)
 
 
 def same_picture(scene: Scene, technique: Technique) -> Technique:
     """The technique to simulate: without a shader, sample shading gives the picture of multisampling."""
     return Technique(MSAA, technique.samples) if technique.kind == SAMPLE_SHADING and scene.shade is None else technique
-
-
-def invocations(masks: NDArray[np.int64], technique: Technique) -> int:
-    """The fragment shader invocations of as many fragments of each sample mask: one for each group of samples with a covered sample."""
-    samples = len(masks).bit_length() - 1
-    numbers = np.arange(len(masks))
-    groups = shade.groups(samples, technique.shaded if technique.kind == SAMPLE_SHADING else 1)
-    return sum(int(masks[(numbers & bits) != 0].sum()) for bits in groups)
 
 
 class _Sums:
@@ -109,19 +93,17 @@ class _Sums:
         return np.concatenate(measured), np.concatenate(exact)
 
 
-def _measure(scene: Scene, technique: Technique, bits: int, ssim: bool, flip: bool) -> _Measured:
+def _measure(scene: Scene, technique: Technique, bits: int, ssim: bool, flip: bool) -> Point:
     simulator, sums = Simulator(scene, technique, bits), _Sums(scene, ssim or flip)
-    masks: NDArray[np.int64] = np.zeros(1 << simulator.samples, np.int64)
     seconds = 0.0
     for band in simulator.bands():
         start = time.perf_counter()
         triangles = simulator.snapped([band])
         simulation = simulator.render([band], triangles)
         seconds += time.perf_counter() - start
-        masks += simulation.masks
         sums.add(simulation, scene.exact(triangles.view()))
     edges = sums.edges.errors()
-    point = Point(
+    return Point(
         scene=scene.name,
         technique=technique,
         width=scene.width,
@@ -140,4 +122,3 @@ def _measure(scene: Scene, technique: Technique, bits: int, ssim: bool, flip: bo
         simulated_ms=1000 * seconds,
         stages=simulator.times.table(),
     )
-    return _Measured(point, masks)

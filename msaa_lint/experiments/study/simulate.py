@@ -43,14 +43,13 @@ LARGE_TRIANGLE = 256
 
 class Simulation(NamedTuple):
     """Resolved parts of a picture (P, H, W, 4), or one whole picture (H, W, 4), in linear color. `coverage` (..., H, W) is the share of
-    samples that were drawn to, None for scenes without coverage; `depth` (..., H, W) is resolved depth for scenes that need it. `masks`
-    counts the fragments, before any test, by their sample masks. `effects` are the stages that ran."""
+    samples that were drawn to, None for scenes without coverage; `depth` (..., H, W) is resolved depth for scenes that need it. `effects`
+    are the stages that ran."""
 
     image: Floats
     coverage: NDArray[np.float64] | None
     effects: tuple[str, ...]
     depth: Floats | None
-    masks: NDArray[np.int64]
 
 
 def simulate(scene: Scene, technique: Technique, bits: int = 8, part: Part | None = None) -> Simulation:
@@ -61,7 +60,7 @@ def simulate(scene: Scene, technique: Technique, bits: int = 8, part: Part | Non
         None if parts[0][column] is None else np.concatenate([np.asarray(each[column])[0] for each in parts]) for column in (0, 1, 3)
     )
     assert image is not None
-    return Simulation(image, covered, simulator.effect_names, depth, np.sum([each.masks for each in parts], axis=0))
+    return Simulation(image, covered, simulator.effect_names, depth)
 
 
 class Simulator:
@@ -115,12 +114,12 @@ class Simulator:
         if triangles is None:
             triangles = self.snapped(parts)
         size = len(parts), parts[0].height, parts[0].width
-        band, masks = self.band(size[0] * size[1] * size[2] * self.grid * self.grid), np.zeros(1 << self.samples, np.int64)
-        self._draw(band, triangles, masks)
+        band = self.band(size[0] * size[1] * size[2] * self.grid * self.grid)
+        self._draw(band, triangles)
         image = self._color(band, size[2]).reshape(*size, 4)
         covered = None if band.written is None else self._coverage(band.written, size[2]).reshape(size)
         depth = self._depth(band, size[2]).reshape(size) if self.has("depth-resolve") else None
-        return Simulation(image, covered, self.effect_names, depth, masks)
+        return Simulation(image, covered, self.effect_names, depth)
 
     def band(self, pixels: int) -> Band:
         """Cleared samples."""
@@ -136,8 +135,8 @@ class Simulator:
         written = np.zeros(pixels, np.uint16) if self.scene.coverage_matter else None
         return Band(color, depth, stencil, written)
 
-    def _draw(self, band: Band, triangles: Snapped, masks: NDArray[np.int64]) -> None:
-        """Draws triangles into the samples of their parts, which are one below the other, and counts the fragments by their masks."""
+    def _draw(self, band: Band, triangles: Snapped) -> None:
+        """Draws triangles into the samples of their parts, which are one below the other."""
         grid, parts = self.grid, triangles.parts
         first = parts[0]
         width, height = first.width * grid, first.height * grid
@@ -146,7 +145,6 @@ class Simulator:
         rows_of = triangles.part[:, None] * height + (0, height)
         rows = coverage.rows(corners, width, height * len(parts), self.sample_locations, limits=rows_of)
         drawn = fragments.fragments(rows, self.samples)
-        masks += np.bincount(drawn.mask, minlength=len(masks))
         planes = None
         if self.has("depth-test") and self.scene.depths is not None:
             planes = depth_planes(triangles.corners / SUBPIXELS, self.scene.depths[triangles.triangle])

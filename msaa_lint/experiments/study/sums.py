@@ -97,17 +97,3 @@ def difference(measured: NDArray[np.floating], exact: NDArray[np.floating]) -> F
     """Measured minus exact, in double precision; 0 where they are equal, including infinities."""
     with np.errstate(invalid="ignore"):
         return np.where(measured == exact, 0.0, measured.astype(np.float64) - exact.astype(np.float64))
-
-
-def errors(differences: Floats) -> Errors:
-    """Differences summarized; zeros where there are none."""
-    error_sum = ErrorSum()
-    error_sum.add(differences)
-    return error_sum.errors()
-
-
-def psnr(measured: NDArray[np.floating], exact: NDArray[np.floating]) -> float:
-    """The peak signal-to-noise ratio in dB with a peak of 1.0, display white; infinite where nothing differs."""
-    differences, squares = difference(measured, exact), Sum()
-    squares.add(differences * differences)
-    return squares.psnr()

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from fractions import Fraction
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,7 +12,8 @@ from numpy.typing import NDArray
 from msaa_lint.experiments.study.coverage import Rows
 
 Point = tuple[int, int]
-Corners = Sequence[tuple[Fraction, Fraction]]
+Corners = list[tuple[Any, Any]]
+"""Of fractions, or floating-point numbers of some precision."""
 
 
 def edge(a: Point, b: Point, at: Point) -> int:
@@ -54,20 +56,25 @@ def hit(rows: Rows, triangle: int, row: int, column: int, sample: int = 0) -> bo
 
 
 def exact_area(polygon: NDArray[np.float64], column: int, row: int) -> Fraction:
-    """The area of a polygon within a pixel: clipped at its four sides, by the shoelace formula."""
-    corners: Corners = [(Fraction(float(x)), Fraction(float(y))) for x, y in polygon]
+    """The area of a polygon within a pixel."""
+    return Fraction(clipped_area(polygon.tolist(), column, row, Fraction))
+
+
+def clipped_area(polygon: Sequence[Sequence[float]], column: int, row: int, number: Callable[[float], Any]) -> Any:
+    """The area of a polygon within a pixel, in numbers of a kind: clipped at its four sides, by the shoelace formula."""
+    corners = [(number(x), number(y)) for x, y in polygon]
     for axis, side, keep in ((0, column, 1), (0, column + 1, -1), (1, row, 1), (1, row + 1, -1)):
-        corners = _clipped(corners, axis, Fraction(side), keep)
+        corners = _clipped(corners, axis, number(side), number(keep))
     return abs(shoelace(corners))
 
 
-def shoelace(corners: Corners) -> Fraction:
+def shoelace(corners: Corners) -> Any:
     """The signed area of a polygon."""
-    return sum((a[0] * b[1] - b[0] * a[1] for a, b in zip(corners, (*corners[1:], *corners[:1]), strict=True)), Fraction(0)) / 2
+    return sum(a[0] * b[1] - b[0] * a[1] for a, b in zip(corners, (*corners[1:], *corners[:1]), strict=True)) / 2
 
 
-def _clipped(corners: Corners, axis: int, side: Fraction, keep: int) -> Corners:
-    found: list[tuple[Fraction, Fraction]] = []
+def _clipped(corners: Corners, axis: int, side: Any, keep: Any) -> Corners:
+    found: Corners = []
     for a, b in zip((*corners[-1:], *corners[:-1]), corners, strict=True):
         near, far = (a[axis] - side) * keep, (b[axis] - side) * keep
         if near * far < 0:
