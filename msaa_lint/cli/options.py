@@ -319,7 +319,14 @@ COMMANDS = {
             "Execution": (
                 Option("resume", "text", "Save finished points in this folder, and reuse those already there.", "FOLDER"),
                 Option("jobs", "integer", "Points to simulate at once.", "N", default="one per core, or per cluster worker"),
-                Option("backend", "choice", "joblib backend.", "NAME", choices=("loky", "threading", "dask", "ray"), default="loky"),
+                Option(
+                    "backend",
+                    "choice",
+                    "joblib backend; DASK_SCHEDULER_ADDRESS or RAY_ADDRESS names a cluster.",
+                    "NAME",
+                    choices=("loky", "threading", "dask", "ray"),
+                    default="loky",
+                ),
             ),
             "Inputs": _INPUTS,
             "Configuration": _CONFIGURATION,

@@ -6,6 +6,8 @@ import contextlib
 import functools
 import os
 import signal
+import socket
+import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import BrokenExecutor
 from typing import Any
@@ -18,6 +20,9 @@ from .points import MSAA, Point, Technique
 from .shading import Shading
 from .tasks import FailedPoint, StudyInput, Task, Unusable
 from .times import Cost, Costs, CostSource
+
+CONNECT_SECONDS = 10.0
+"""How long to wait for a cluster's answer."""
 
 Measure = Callable[[Task], Point]
 Progress = Callable[[int, int, str], None]
@@ -157,7 +162,8 @@ def _results(tasks: Sequence[Task], jobs: int, backend: str | None, measure: Mea
                 yield number, _attempt(measure, task)
         return
     unfinished = dict(enumerate(tasks))
-    with _cluster(backend):
+    # Ray prints what happens to workers to standard output, which is for the report.
+    with contextlib.redirect_stdout(sys.stderr), _cluster(backend):
         try:
             groups = sorted(_groups(unfinished), key=_work, reverse=True)
             for number, result in _parallel(groups, jobs, backend, measure):
@@ -165,7 +171,7 @@ def _results(tasks: Sequence[Task], jobs: int, backend: str | None, measure: Mea
                 yield number, result
             return
         except Exception as error:
-            if len(unfinished) == len(tasks) and not isinstance(error, BrokenExecutor):
+            if len(unfinished) == len(tasks) and not _worker_died(error):
                 raise Unusable(f"--backend {backend}: {_text(error)}") from None
         # A worker died, and nothing tells which point killed it. Continue one by one to find out.
         for number, task in tuple(unfinished.items()):
@@ -241,12 +247,23 @@ def _attempt(measure: Measure, task: Task) -> Point | str:
         return _text(error)
 
 
+def _worker_died(error: Exception) -> bool:
+    """Whether an error of a backend says that a worker ended, as loky, Dask, and Ray say it."""
+    return isinstance(error, BrokenExecutor) or type(error).__name__ in (
+        "KilledWorker",
+        "ActorDiedError",
+        "RayActorError",
+        "WorkerCrashedError",
+    )
+
+
 def _text(error: Exception) -> str:
     return f"{type(error).__name__}: {str(error)[:300]}" if str(error) else type(error).__name__
 
 
 def _cluster(backend: str | None) -> Any:
-    """A context manager for what a backend needs. Unusable where a package is not installed."""
+    """A context manager for what a backend needs: the cluster that DASK_SCHEDULER_ADDRESS or RAY_ADDRESS names, or one on this machine.
+    Unusable where a package is not installed, or the cluster cannot be reached."""
     try:
         import joblib  # noqa: F401
 
@@ -259,14 +276,26 @@ def _cluster(backend: str | None) -> Any:
         package = (error.name or "").partition(".")[0]
         missing = f"{package} is not installed: run `{pip_install(package)}`"
         raise Unusable(needs_extra("more than one job", "study") if package == "joblib" else missing) from None
-    if backend == "dask":
-        with _outside_the_working_folder():
-            return contextlib.closing(Client())
-    if backend == "ray":
-        register_ray()
-        with _outside_the_working_folder():
-            return contextlib.nullcontext() if ray.is_initialized() else ray.init(logging_level="ERROR")
+    try:
+        if backend == "dask":
+            with _outside_the_working_folder():
+                return contextlib.closing(Client())
+        if backend == "ray":
+            register_ray()
+            _check_ray_address(os.environ.get("RAY_ADDRESS", ""))
+            os.environ.setdefault("RAY_USAGE_STATS_ENABLED", "0")
+            with _outside_the_working_folder():
+                return contextlib.nullcontext() if ray.is_initialized() else ray.init(logging_level="ERROR")
+    except Exception as error:
+        raise Unusable(f"--backend {backend}: no cluster: {_text(error)}") from None
     return contextlib.nullcontext()
+
+
+def _check_ray_address(address: str) -> None:
+    """OSError where nothing listens at an address `host:port`: Ray ends the process then."""
+    host, _, port = address.rpartition(":")
+    if host and "/" not in host and port.isdecimal():
+        socket.create_connection((host.strip("[]"), int(port)), CONNECT_SECONDS).close()
 
 
 def _outside_the_working_folder() -> contextlib.AbstractContextManager[None]:
