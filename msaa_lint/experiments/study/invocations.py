@@ -17,9 +17,10 @@ from .shade import groups
 
 
 class Invocations(NamedTuple):
-    """The invocations of a frame with one per covered pixel of a triangle, and their helpers; and those that sample shading adds, and
-    theirs. Depth, stencil, and discarding are not considered."""
+    """The samples of a frame that triangles cover; its invocations with one per covered pixel of a triangle, and their helpers; and those
+    that sample shading adds, and theirs. Depth, stencil, and discarding are not considered."""
 
+    covered: int = 0
     pixels: int = 0
     pixel_helpers: int = 0
     samples: int = 0
@@ -40,7 +41,8 @@ def count(triangles: NDArray[np.float64], size: tuple[int, int], technique: Tech
     every_sample, shared = groups(samples, 1), groups(samples, technique.shaded if technique.kind == SAMPLE_SHADING else 1)
     pixels, lanes = _counted(rows, every_sample)
     invocations, all_lanes = _counted(rows, shared) if shared != every_sample else (pixels, lanes)
-    return Invocations(pixels, lanes - pixels, invocations - pixels, max(all_lanes - invocations - (lanes - pixels), 0))
+    covered = int((rows.right - rows.left).sum(dtype=np.int64))
+    return Invocations(covered, pixels, lanes - pixels, invocations - pixels, max(all_lanes - invocations - (lanes - pixels), 0))
 
 
 def _counted(rows: coverage.Rows, sample_groups: tuple[int, ...]) -> tuple[int, int]:

@@ -131,7 +131,10 @@ class SceneClock:
         if whole is None:
             return cost
         fragments = whole if technique.kind != SAMPLE_SHADING or one is None else min(one, whole)
-        return cost._replace(terms=tuple(Terms(written, resolved, fragments / 1e6, 0.0, (whole - fragments) / 1e6)))
+        # With sample shading, an invocation for each sample that is drawn.
+        every = counts.get(Technique(SAMPLE_SHADING, technique.samples, 1.0))
+        drawn = every if every is not None else fragments * technique.samples
+        return cost._replace(terms=tuple(Terms(written, resolved, drawn / 1e6, fragments / 1e6, 0.0, (whole - fragments) / 1e6)))
 
     def _supported(self, technique: Technique, size: tuple[int, int]) -> TechniquePlans:
         """The plans of a technique, with the reason why the device cannot run them, if any."""

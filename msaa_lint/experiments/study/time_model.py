@@ -1,7 +1,8 @@
 """A model of the times of techniques on a device, fitted to measured times.
 
-A frame takes a fixed time, plus the bytes of samples that it writes, the bytes that it resolves, and its invocations times their cost,
-where the pixels at edges have more invocations, and helpers that complete quads. Some of the writing is hidden behind shading.
+A frame takes a fixed time, plus the bytes of its attachments and those that it resolves. Its draws write samples while they shade: the
+longer of the two hides the shorter one, or a part of it. Shading is invocations times their cost, where the pixels at
+edges have more invocations, and helpers that complete quads.
 """
 
 from __future__ import annotations
@@ -17,8 +18,11 @@ TERMS = (
     "fixed_ms",
     "ms_per_gb_written",
     "ms_per_gb_resolved",
+    "ms_per_million_samples_drawn",
     "ms_per_million_fragments",
+    "ms_per_million_fragment_helpers",
     "ms_per_million_samples_shaded",
+    "ms_per_million_sample_helpers",
     "fragments",
     "fragment_helpers",
     "samples_shaded",
@@ -26,29 +30,42 @@ TERMS = (
     "hidden",
 )
 """The coefficients. Those from `fragments` to `sample_helpers` are times relative to those of a full screen; `hidden` is the share of the
-shorter one of writing and shading that the longer one hides."""
+shorter one of writing samples and shading that the longer one hides."""
 
-_SHADING = slice(TERMS.index("fragments"), TERMS.index("hidden"))
-_WRITING = slice(TERMS.index("ms_per_gb_written"), TERMS.index("fragments"))
-ROUNDS = 80
-"""Rounds in which the fit settles: what is hidden depends on the other coefficients, and weights on residuals."""
+_WRITING = TERMS.index("ms_per_million_samples_drawn")
+_SHADING = slice(_WRITING + 1, TERMS.index("hidden"))
 
-POWER = 6
-"""The power of residuals whose sum the fit makes small: a high one makes the greatest residual small, and 2 their mean square."""
+STARTS = (-2.0, 0.0, 2.0)
+"""Logits of the share that is hidden from which the fit starts: which of writing and shading is longer changes with the coefficients, so
+that there are several minima."""
 
-EXACT = 1e-9
-"""Relative residuals below this are rounding."""
+STEPS = 300
+"""Steps of the solver from a start; it takes some tens."""
+
+POWERS = (1, 3)
+"""The powers of residuals of which the fit makes the squares small, one after another: 1 their mean square, and 3 nearly the greatest."""
+
+TOLERANCE = 0.05
+"""The relative residual whose powers are 1."""
+
+FAR = 12.0
+"""Logarithms of coefficients, and the logit, stay within this: beyond it there is no slope."""
+
+NEGLIGIBLE = 1e-5
+"""A coefficient that adds at most this share to each time is 0."""
 
 MIN_TIMES = 6
 """Fewer times give no model."""
 
 
 class Terms(NamedTuple):
-    """What the time of a technique depends on: gigabytes (10^9) of samples written and of pixels resolved or downscaled; and millions of
-    invocations (study/invocations.py): one per fragment, those that sample shading adds, and the helpers of both."""
+    """What the time of a technique depends on: gigabytes (10^9) of attachments written and of pixels resolved or downscaled; and millions
+    (study/invocations.py) of samples that draws write, and of invocations: one per fragment, those that sample shading adds, and the
+    helpers of both."""
 
     gb_written: float = 0.0
     gb_resolved: float = 0.0
+    samples_drawn: float = 0.0
     fragments: float = 0.0
     fragment_helpers: float = 0.0
     samples_shaded: float = 0.0
@@ -119,18 +136,7 @@ def fit(scene: str, measured: Sequence[MeasuredTime], terms: Mapping[Technique, 
     if len(known) < MIN_TIMES or len({each.nanoseconds for each in known}) < 2:
         return None
     times = np.array([each.time_ms for each in known])
-    columns = np.array([_columns(terms[each.technique], each.nanoseconds) for each in known])
-    coefficients, weights = np.zeros(len(TERMS)), np.ones(len(times))
-    for _ in range(ROUNDS):
-        writing = columns[:, _WRITING] @ coefficients[_WRITING]
-        shading = columns[:, _SHADING] @ coefficients[_SHADING]
-        # Half of the way, as the coefficients would otherwise alternate.
-        columns[:, -1] = (columns[:, -1] - np.minimum(writing, shading)) / 2
-        coefficients = _nonnegative(columns / times[:, None] * weights[:, None], weights)
-        # Iteratively reweighted least squares.
-        off = np.abs(columns @ coefficients / times - 1)
-        weights = 0.7 * weights + 0.3 * np.maximum(off / max(off.max(), EXACT), 1e-3) ** (POWER / 2 - 1)
-    coefficients[-1] = min(coefficients[-1], 1.0)
+    coefficients = _coefficients(np.array([_columns(terms[each.technique], each.nanoseconds) for each in known]) / times[:, None])
     fitted = tuple(float(value) for value in coefficients)
     if len(known) <= sum(value > 0 for value in fitted) or not all(
         _time(fitted, terms[each.technique], each.nanoseconds) for each in known
@@ -165,32 +171,87 @@ def _measured_times(costs: Mapping[tuple[Technique, str], Any], shadings: Sequen
 
 
 def _columns(terms: Terms, nanoseconds: float) -> list[float]:
-    """What the coefficients are multiplied by; what is hidden depends on them and is 0 here."""
+    """What the coefficients but `hidden` are multiplied by."""
     # Nanoseconds of a million invocations, times millions of them, in milliseconds.
     cost = nanoseconds * 1e-6
-    return [
-        1.0, terms.gb_written, terms.gb_resolved, terms.fragments, terms.samples_shaded, terms.fragments * cost,
-        terms.fragment_helpers * cost, terms.samples_shaded * cost, terms.sample_helpers * cost, 0.0,
-    ]  # fmt: skip
+    invocations = terms[Terms._fields.index("fragments") :]
+    return [1.0, terms.gb_written, terms.gb_resolved, terms.samples_drawn, *invocations, *(number * cost for number in invocations)]
 
 
 def _time(coefficients: Sequence[float], terms: Terms, nanoseconds: float) -> float:
-    parts = [column * coefficient for column, coefficient in zip(_columns(terms, nanoseconds), coefficients, strict=True)]
-    return sum(parts) - coefficients[-1] * min(sum(parts[_WRITING]), sum(parts[_SHADING]))
+    parts = [column * coefficient for column, coefficient in zip(_columns(terms, nanoseconds), coefficients[:-1], strict=True)]
+    return sum(parts) - coefficients[-1] * min(parts[_WRITING], sum(parts[_SHADING]))
 
 
-def _nonnegative(columns: Any, wanted: Any) -> Any:
-    """Coefficients, none of them negative, with nearly the least squares: those that would be negative are 0, the most negative one
-    first. Columns are scaled, so that the result does not depend on units; of dependent columns it is the smallest one."""
+def _coefficients(columns: Any) -> Any:
+    """Coefficients, none of them negative, whose greatest relative residual is small. `columns` (N, terms - 1) are divided by times."""
     import numpy as np
 
+    # Scaled, so that the result does not depend on units.
     scale = np.linalg.norm(columns, axis=0)
-    usable = scale > 0
-    while True:
-        result = np.zeros(columns.shape[1])
-        if not usable.any():
-            return result
-        result[usable] = np.linalg.lstsq(columns[:, usable] / scale[usable], wanted, rcond=1e-9)[0]
-        if result.min() >= 0:
-            return result / np.where(scale > 0, scale, 1)
-        usable[int(result.argmin())] = False
+    scale[scale == 0] = 1
+    columns = columns / scale
+    found = []
+    for hidden in STARTS:
+        place = np.append(np.full(columns.shape[1], -1.0), hidden)
+        for power in POWERS:
+            place = _solved(columns, np.clip(place, -FAR, FAR), power)
+        found.append(_values(place))
+    best = min(found, key=lambda values: float(np.abs(_residuals(columns, values)).max()))
+    best[:-1] *= columns.max(axis=0) * best[:-1] > NEGLIGIBLE
+    return best / np.append(scale, 1.0)
+
+
+def _solved(columns: Any, place: Any, power: int) -> Any:
+    """The logarithms of the coefficients, and the logit of the share that is hidden, at which the squares of a power of the residuals have
+    their least sum, from a place on: the method of Levenberg and Marquardt (J. SIAM 11, 1963)."""
+    import numpy as np
+
+    def residuals(place: Any) -> Any:
+        return (_residuals(columns, _values(place)) / TOLERANCE) ** power
+
+    damping, current = 1.0, residuals(place)
+    for _ in range(STEPS):
+        values = _values(place)
+        inner = power * (_residuals(columns, values) / TOLERANCE) ** (power - 1) / TOLERANCE
+        slopes = _slopes(columns, values) * np.append(values[:-1], values[-1] * (1 - values[-1])) * inner[:, None]
+        curvature = slopes.T @ slopes
+        step = np.linalg.solve(curvature + damping * np.diag(np.diag(curvature) + 1e-9), -slopes.T @ current)
+        following = np.clip(place + np.clip(step, -2, 2), -2 * FAR, 2 * FAR)
+        after = residuals(following)
+        gain = 1 - (after @ after) / (current @ current) if current.any() else 0.0
+        if gain > 0:
+            place, current, damping = following, after, max(damping / 3, 1e-9)
+        else:
+            damping *= 3
+        if 0 <= gain < 1e-9 or damping > 1e12:
+            break
+    return place
+
+
+def _values(place: Any) -> Any:
+    import numpy as np
+
+    return np.append(np.exp(place[:-1]), 1 / (1 + np.exp(-place[-1])))
+
+
+def _residuals(columns: Any, values: Any) -> Any:
+    import numpy as np
+
+    return columns @ values[:-1] - values[-1] * np.minimum(*_alternatives(columns, values)) - 1
+
+
+def _slopes(columns: Any, values: Any) -> Any:
+    """The derivatives of the residuals with respect to the coefficients."""
+    import numpy as np
+
+    writing, shading = _alternatives(columns, values)
+    result = np.column_stack((columns, -np.minimum(writing, shading)))
+    result[:, _WRITING] *= 1 - values[-1] * (writing < shading)
+    result[:, _SHADING] *= 1 - values[-1] * (writing >= shading)[:, None]
+    return result
+
+
+def _alternatives(columns: Any, values: Any) -> tuple[Any, Any]:
+    """The times of writing samples and of shading, of which the longer one hides the shorter one."""
+    return columns[:, _WRITING] * values[_WRITING], columns[:, _SHADING] @ values[_SHADING]

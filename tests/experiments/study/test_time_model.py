@@ -18,6 +18,9 @@ SIZE = (160, 96)
 COSTS = (0.0, 2e6, 6e6)
 """Nanoseconds of a million invocations."""
 
+COEFFICIENTS = (0.02, 15.0, 19.0, 0.1, 0.03, 0.05, 0.1, 0.02, 1.2, 0.8, 0.7, 1.5, 0.9)
+"""Of a GPU, in the order of TERMS."""
+
 TRIANGLES = scene("edge-fan", *SIZE).triangles
 ALL = techniques(counts=(1, 2, 4, 8))
 
@@ -35,9 +38,9 @@ def times(coefficients: tuple[float, ...], of: list[Technique] = ALL, costs: tup
     return [MeasuredTime(technique, cost, _time(coefficients, KNOWN[technique], cost)) for technique in of for cost in costs]
 
 
-@given(st.lists(st.floats(0.1, 10), min_size=len(TERMS) - 1, max_size=len(TERMS) - 1))
-def test_times_without_noise_are_fitted(factors: list[float]) -> None:
-    coefficients = (0.01 * factors[0], 20 * factors[1], 20 * factors[2], *factors[3:], 0.0)
+@given(st.lists(st.floats(0.1, 10), min_size=len(TERMS) - 1, max_size=len(TERMS) - 1), st.floats(0, 1))
+def test_times_without_noise_are_fitted(factors: list[float], hidden: float) -> None:
+    coefficients = (0.01 * factors[0], 20 * factors[1], 20 * factors[2], *(0.1 * factor for factor in factors[3:8]), *factors[8:], hidden)
     model = fit("edges", times(coefficients), KNOWN)
     assert model is not None and model.residual < 0.02
     for each in times(coefficients):
@@ -49,7 +52,7 @@ def test_times_without_noise_are_fitted(factors: list[float]) -> None:
 
 
 def test_between_measured_costs_the_prediction_lies_between() -> None:
-    coefficients = (0.02, 20.0, 19.0, 0.03, 0.1, 1.2, 0.8, 0.7, 1.5, 0.1)
+    coefficients = COEFFICIENTS
     model = fit("edges", times(coefficients), KNOWN)
     assert model is not None
     for technique in ALL:
@@ -61,13 +64,13 @@ def test_between_measured_costs_the_prediction_lies_between() -> None:
 
 
 def test_a_technique_that_was_not_timed_has_no_prediction() -> None:
-    model = fit("edges", times((0.02, 20.0, 19.0, 0.03, 0.1, 1.2, 0.8, 0.7, 1.5, 0.0), ALL[:3]), KNOWN)
+    model = fit("edges", times((*COEFFICIENTS[:-1], 0.0), ALL[:3]), KNOWN)
     assert model is not None
     assert model.predict(Technique(SSAA, 4, grid=2), 1e6) is None
 
 
 def test_few_times_give_no_model() -> None:
-    coefficients = (0.02, 20.0, 19.0, 0.03, 0.1, 1.2, 0.8, 0.7, 1.5, 0.0)
+    coefficients = (*COEFFICIENTS[:-1], 0.0)
     assert fit("edges", times(coefficients, ALL[:1]), KNOWN) is None
     assert fit("edges", [], KNOWN) is None
     assert fit("edges", [each._replace(time_ms=0.0) for each in times(coefficients)], KNOWN) is None
@@ -75,7 +78,7 @@ def test_few_times_give_no_model() -> None:
 
 
 def test_times_that_cannot_check_a_model_give_none() -> None:
-    coefficients = (0.02, 20.0, 19.0, 0.03, 0.1, 1.2, 0.8, 0.7, 1.5, 0.1)
+    coefficients = COEFFICIENTS
     assert fit("edges", times(coefficients, costs=(2e6,)), KNOWN) is None, "one cost of shading"
     assert fit("edges", times(coefficients, [Technique(MSAA, 1), Technique(MSAA, 4)]), KNOWN) is None, "as many times as coefficients"
     empty = {technique: Terms() for technique in ALL}
@@ -84,7 +87,7 @@ def test_times_that_cannot_check_a_model_give_none() -> None:
 
 
 def test_noise_is_reported_beside_the_residual() -> None:
-    noisy = [each._replace(noise=0.03) for each in times((0.02, 20.0, 19.0, 0.03, 0.1, 1.2, 0.8, 0.7, 1.5, 0.0))]
+    noisy = [each._replace(noise=0.03) for each in times((*COEFFICIENTS[:-1], 0.0))]
     model = fit("edges", noisy, KNOWN)
     assert model is not None and model.noise == 0.03
     predicted = model.predict(ALL[0], 3e6)
@@ -111,7 +114,8 @@ def by_pixel(technique: Technique) -> Invocations:
 
     pixels, lanes = counted(groups(samples, 1))
     every, every_lane = counted(groups(samples, technique.shaded if technique.kind == SAMPLE_SHADING else 1))
-    return Invocations(pixels, lanes - pixels, every - pixels, every_lane - every - lanes + pixels)
+    covered = sum(int(mask).bit_count() for mask in drawn.mask)
+    return Invocations(covered, pixels, lanes - pixels, every - pixels, every_lane - every - lanes + pixels)
 
 
 @pytest.mark.parametrize("technique", techniques(), ids=lambda technique: technique.name)
@@ -121,7 +125,7 @@ def test_invocations_and_helpers_are_those_of_each_pixel(technique: Technique) -
 
 def test_a_full_screen_has_an_invocation_for_each_pixel_and_no_helpers() -> None:
     whole = np.array([[(-1.0, -1.0), (1000.0, -1.0), (-1.0, 1000.0)]])
-    assert count(whole, SIZE, Technique(MSAA, 4)) == Invocations(SIZE[0] * SIZE[1])
+    assert count(whole, SIZE, Technique(MSAA, 4)) == Invocations(4 * SIZE[0] * SIZE[1], SIZE[0] * SIZE[1])
     assert count(whole, SIZE, Technique(SAMPLE_SHADING, 4, 1.0)).total == 4 * SIZE[0] * SIZE[1]
     assert count(whole[:0], SIZE, Technique(MSAA, 4)) == Invocations()
     assert math.isfinite(count(whole + 1e6, SIZE, Technique(MSAA, 4)).total)
