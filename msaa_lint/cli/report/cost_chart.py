@@ -87,7 +87,7 @@ def chart(bars: Sequence[Bar], heading: str, subheading: str, cost: FrameCost) -
     beside = figure.chart(texts)
     layers = [
         figure.chart(amounts).mark_bar(stroke=INK, strokeWidth=0.6).encode(x("start"), y, x2="end", color=color, tooltip=tooltip),
-        beside.mark_text(align="right", dx=-6, limit=_WIDTH, aria=False).encode(x("start"), y, text="name:N"),
+        beside.mark_text(align="right", dx=-6, limit=_WIDTH, aria=False).encode(x("start"), y, text="name:N", tooltip="name:N"),
         beside.mark_text(align="left", dx=6, aria=False).encode(x("end"), y, text="text:N"),
     ]
     panel = altair.layer(*layers).properties(width=_WIDTH, height=altair.Step(_STEP))

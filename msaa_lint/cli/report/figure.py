@@ -6,6 +6,7 @@ specification always gives the same bytes: vl-convert brings the font with it.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from typing import Any
 
@@ -38,13 +39,55 @@ _CONFIG: Spec = {
     "view": {"stroke": GRID},
 }  # fmt: skip
 
+_WIDTHS = {
+    0.28: "ijltf.,:;/ '|![]",
+    0.34: "r()-`\"",
+    0.56: "abcdeghknopqsuvxyz0123456789_LJ$#?+=<>~",
+    0.95: "mwMW%",
+    1.02: "@",
+}  # fmt: skip
+"""The greatest width of letters in the figures' font, in font sizes."""
+
+_BOLD = 1.12
+"""How much wider bold letters are, at most on average."""
+
 _SCALE = 2.0
 """Pixels of a PNG per pixel of a figure."""
 
 
+_MAX_LINES = 3
+"""Of a text in a title; of a longer one, the middle is left out."""
+
+
 def title(text: str, lines: Sequence[str], width: float, *, size: int) -> Spec:
-    """A title with further lines below it, cut off at a width in pixels."""
-    return {"text": text, "subtitle": list(lines), "fontSize": size, "limit": width, "offset": 8}
+    """A title with further lines below it, all broken at a width in pixels."""
+    below = [part for line in lines for part in wrapped(line, width / FONT_SIZE)]
+    # Bold letters are wider.
+    return {"text": wrapped(text, width / size / _BOLD), "subtitle": below, "fontSize": size, "limit": width, "offset": 8}
+
+
+def wrapped(text: str, width: float) -> list[str]:
+    """The lines of a text, none wider than `width` font sizes: broken after spaces and the separators of paths, else anywhere."""
+    lines, room = [""], width
+    for piece in re.findall(r"[^ /_-]*[ /_-]|[^ /_-]+", text):
+        if sum(map(_width, piece.rstrip())) > room and lines[-1]:
+            lines.append("")
+            room = width
+        for letter in piece:
+            if _width(letter) > room and letter != " ":
+                lines.append("")
+                room = width
+            lines[-1] += letter
+            room -= _width(letter)
+    if len(lines) > _MAX_LINES:
+        # The end of a path is its file's name.
+        lines = [f"{lines[0][:-2]}…", *lines[1 - _MAX_LINES :]]
+    return [line.rstrip() for line in lines]
+
+
+def _width(letter: str) -> float:
+    """The width of a letter of the figures' font, or more, in font sizes."""
+    return next((width for width, letters in _WIDTHS.items() if letter in letters), 0.78 if letter.isascii() else 1.0)
 
 
 class Figure:

@@ -11,6 +11,7 @@ from msaa_lint.experiments.study.points import KINDS
 
 from .escape import display
 from .figure import GRID, Figure, Spec, title
+from .study_panels import abbreviation
 
 _COLUMNS = 6
 """The exact picture, and five techniques."""
@@ -41,9 +42,8 @@ def crops_figure(scene: str, crops: Crops) -> Spec:
     )
     left, top = crops.corner
     place = f"pixels {left} to {left + width - 1} from the left, {top} to {top + height - 1} from the top"
-    figure.add(
-        [panel], title(display(scene), [f"{place}: where {short_name(crops.pictures[0][0])} differs most"], columns * _SIDE, size=13)
-    )
+    lines = [f"{place}: where {short_name(crops.pictures[0][0])} differs most", *abbreviation(technique for technique, _ in crops.pictures)]
+    figure.add([panel], title(display(scene), lines, columns * (_SIDE + _GAP), size=13))
     return figure.spec()
 
 

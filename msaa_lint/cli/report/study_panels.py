@@ -1,13 +1,14 @@
 """What the figures of a study show: a panel for each scene and cost of shading, with the points that have a place in it."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any, NamedTuple
 
+from msaa_lint.experiments.study.crops import short_name
 from msaa_lint.experiments.study.measures import ERROR
 from msaa_lint.experiments.study.outcome import SceneSummary, Study
 from msaa_lint.experiments.study.pareto import tie
-from msaa_lint.experiments.study.points import MSAA, Point, Technique
+from msaa_lint.experiments.study.points import MSAA, SAMPLE_SHADING, Point, Technique
 from msaa_lint.experiments.study.shading import NONE, Shading
 
 from .escape import display
@@ -71,6 +72,15 @@ class Panel(NamedTuple):
         if self.base is not None:
             lines.append(f"1x takes {self.base:.3g} ms")
         return title(display(self.scene.name), lines, width, size=11)
+
+
+def abbreviation(techniques: Iterable[Technique]) -> list[str]:
+    """What the short name of sample shading means, by the one of the techniques of which the fewest samples are shaded; nothing where none
+    has such a name."""
+    shaded = sorted(
+        (technique for technique in techniques if technique.kind == SAMPLE_SHADING), key=lambda each: each.shaded / each.samples
+    )
+    return [f"{short_name(each)}: {each.samples} samples, {each.shaded} of them shaded" for each in shaded[:1]]
 
 
 def panels(study: Study) -> list[list[Panel]]:

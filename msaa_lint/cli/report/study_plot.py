@@ -12,7 +12,7 @@ from .escape import display
 from .figure import INK, Figure, Spec, title
 from .labels import Box, Label, Place, around, place_labels
 from .scales import Scale, from_zero, linear_or_log
-from .study_panels import COLUMNS, SOFTWARE, Panel, panels
+from .study_panels import COLUMNS, SOFTWARE, Panel, abbreviation, panels
 from .study_parts import add_parts
 
 KINDS = {
@@ -34,6 +34,9 @@ _ROOMS = ((170.0, 40.0), (200.0, 40.0), (240.0, 60.0), (300.0, 90.0), (380.0, 40
 
 _RADIUS, _AREA = 4.5, 40
 """Half the side of the square that a mark keeps free, and its size in Vega-Lite's terms."""
+
+_AXIS = 40.0
+"""What the vertical axis of the first panel takes at least."""
 
 _PALE = 0.35
 """The opacity of marks that are not on the front."""
@@ -87,7 +90,8 @@ def _add_accuracy(figure: Figure, study: Study, rows: Sequence[Sequence[Panel]])
         lines.append("names in bold: Pareto-optimal in error, samples, and shader invocations; pale marks: not optimal")
     if any(panel.interval(point) for row in rows for panel in row for point in panel.points):
         lines.append("horizontal bars: 95 % intervals of the time")
-    heading = title(f"{name}, {study.size[0]}x{study.size[1]}", lines, columns * width, size=13)
+    lines += abbreviation(point.technique for row in rows for panel in row for point in panel.points)
+    heading = title(f"{name}, {study.size[0]}x{study.size[1]}", lines, columns * width + _AXIS, size=13)
     figure.add(charts, heading, columns=columns, spacing=14)
 
 

@@ -12,7 +12,7 @@ import pytest
 from hypothesis import Phase, example, given
 from hypothesis import strategies as st
 
-from msaa_lint.cli.report.figure import FONT_SIZE, draw
+from msaa_lint.cli.report.figure import FONT_SIZE, draw, wrapped
 from msaa_lint.cli.report.labels import Box, around, place_labels, width_of
 from msaa_lint.cli.report.scales import LINEAR, LOG, SYMLOG, Scale, from_zero, linear_or_log
 from msaa_lint.cli.report.study_plot import plot
@@ -296,8 +296,45 @@ def test_a_specification_has_its_data_and_no_address() -> None:
 def test_names_of_any_length_and_content_are_text(name: str) -> None:
     drawing = Drawing(draw(plot(shaded_study(name)), "svg"))
     shown = [text for text in drawing.texts if text.text == name or (len(name) > 100 and text.text.startswith("nnn"))]
-    assert len(shown) == 6
+    # A long name begins, is left out, and ends.
+    assert len(shown) == (6 if len(name) < 100 else 18)
     assert all(text.box.right <= drawing.width for text in drawing.texts)
+
+
+LONG = "examples/some/very/long/path/to/a/frame_of_an_engine/with-many-passes/FORWARD+MSAA.msaa.yaml"
+
+
+@pytest.mark.parametrize("costs", [1, 2, 3])
+@pytest.mark.parametrize("name", [LONG, "W" * 90 + "_THE END", "many short words in a sentence " * 5 + "and the end"])
+def test_the_end_of_a_long_name_is_shown(name: str, costs: int) -> None:
+    study = shaded_study(name)
+    cost = "a/shader/with_a_long_name.frag"
+    names = [*COSTS][:costs]
+    points = [each._replace(shading=cost if each.shading == "none" else each.shading) for each in study.points if each.shading in names]
+    study = study._replace(points=points, device="a device with a name that is longer than any other one, of a vendor, and a driver 1.2.3")
+    drawing = Drawing(draw(plot(study), "svg"))
+    titles = [text for text in drawing.texts if "role-title" in text.kind]
+    assert not [text.text for text in titles if text.text.endswith("…") and not name.startswith(text.text[:-1])], "nothing is cut off"
+    words = "".join(text.text for text in titles).replace(" ", "")
+    assert words.count(name.replace(" ", "")[-7:]) == 2 * costs and "driver1.2.3" in words and "with_a_long_name.frag" in words
+    assert not list(overlaps([text.box for text in titles]))
+    assert all(text.box.right <= drawing.width for text in titles)
+
+
+@given(st.text(st.characters(min_codepoint=32, max_codepoint=126), max_size=120), st.floats(6, 60))
+def test_lines_are_the_text_and_fit(text: str, width: float) -> None:
+    lines = wrapped(text, width)
+    assert len(lines) <= 3
+    if not any(line.endswith("…") for line in lines):
+        assert "".join(lines).replace(" ", "") == text.replace(" ", "")
+
+
+@pytest.mark.parametrize("weight", ["normal", "bold"])
+def test_letters_are_no_wider_than_the_lines_that_they_are_broken_by(weight: str) -> None:
+    words = [LONG, "shading: medium, 4.15 ms a full screen", "NVIDIA H100 80GB HBM3, 1920x1080", "llvmpipe (LLVM 15.0.6, 256 bits)"]
+    for text in words:
+        for line in wrapped(text, 20 / (1.12 if weight == "bold" else 1)):
+            assert drawn.width_of(line, weight) <= 20
 
 
 def test_names_that_cannot_be_seen_are_escaped() -> None:
