@@ -305,7 +305,7 @@ COMMANDS = {
                 Option("shader", "text", "Fragment shader to time techniques with: .spv or GLSL.", "FILE"),
                 Option("overdraw", "integer", "Draw each triangle this many times.", "N", default="1"),
                 Option("triangle_size", "decimal", "Split triangles until no side is longer than this.", "PIXELS", default="as they are"),
-                Option("repeats", "integer", "Number of rounds in which techniques are timed.", "N", default="15"),
+                Option("repeats", "integer", "Number of rounds in which techniques are timed.", "N", default="15, fewer of slow frames"),
                 Option("budget", "text", "Recommend what adds at most this time to one sample: 0.5ms, 500us.", "TIME", default="1ms"),
             ),
             "Output": (

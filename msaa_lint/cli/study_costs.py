@@ -11,15 +11,18 @@ from msaa_lint.core.finding import Finding
 from msaa_lint.core.quote import quoted
 from msaa_lint.experiments.study.checkpoint import Checkpoint
 from msaa_lint.experiments.study.points import Technique
-from msaa_lint.experiments.study.shading import AS_DESCRIBED, DEFAULT, SHARES, Shading, target
-from msaa_lint.experiments.study.times import CostModel, Costs
-from msaa_lint.linter.study_record import DEFAULT_SHADING, stated_shading
+from msaa_lint.experiments.study.shading import DEFAULT, SHARES, Shading, target
+from msaa_lint.experiments.study.times import REPEATS, CostModel, Costs
+from msaa_lint.linter.study_record import AS_DESCRIBED, DEFAULT_SHADING, stated_shading
 
 from .common import UsageError, warn
 from .options import Arguments
 from .study_subjects import Subject, errors_of
 
 MAX_SHADINGS = 8
+LEAST_FOR_INTERVAL = 6
+"""The rounds from which an interval contains the median with a probability of 95 % (confirm/timing.py)."""
+
 MAX_OVERDRAW = 100
 DEVICE_ALONE = ("shading", "shader", "overdraw", "triangle_size")
 """The options that say how a device draws."""
@@ -115,14 +118,15 @@ def subject_costs(
                 if clock is None:
                     found[subject.input.name] = SubjectCosts(shadings, costs(techniques, shadings, size, model, checkpoint))
                     continue
-                plans = _frame_plans(subject, request, size, clock)
-                notes = plans.notes if plans is not None else ()
-                recorded = bool(arguments.get("record"))
-                shadings = _shadings(subject, request, calibration, stages, size, recorded)
-                if plans is not None and plans.as_described and not request.shader and not recorded:
+                plans = _frame_plans(subject, request, size, clock, built_in="shading" in arguments or "shader" in arguments)
+                if plans is not None and plans.as_described:
                     shadings = [Shading(AS_DESCRIBED)]
+                else:
+                    shadings = _shadings(subject, request, calibration, stages, size, bool(arguments.get("record")))
                 with _source(subject, request, clock, model, stages, plans) as source:
-                    found[subject.input.name] = SubjectCosts(shadings, costs(techniques, shadings, size, source, checkpoint), notes)
+                    timed = costs(techniques, shadings, size, source, checkpoint)
+                notes = (*(plans.notes if plans is not None else ()), *_fewer_rounds(timed, arguments))
+                found[subject.input.name] = SubjectCosts(shadings, timed, notes)
         if clock is None:
             return AllCosts(found)
         return AllCosts(found, clock.name, clock.software, clock.unstable)
@@ -143,8 +147,18 @@ def _shadings(
     return shadings
 
 
-def _frame_plans(subject: Subject, request: TimingRequest, size: tuple[int, int], clock: Any) -> Any:
-    """The plans of a subject's own frame; None for a scene without one, and for a description without passes."""
+def _fewer_rounds(timed: Costs, arguments: Arguments) -> list[str]:
+    """A note if there are fewer rounds than usual."""
+    rounds = max((len(cost.rounds) for cost in timed.values()), default=0)
+    if "repeats" in arguments or not 0 < rounds < REPEATS:
+        return []
+    intervals = "; so few give no interval of 95 %, but that of all" if rounds < LEAST_FOR_INTERVAL else ""
+    return [f"times are medians of {rounds} rounds instead of {REPEATS}, as a round takes long{intervals} (--repeats N takes N)"]
+
+
+def _frame_plans(subject: Subject, request: TimingRequest, size: tuple[int, int], clock: Any, built_in: bool) -> Any:
+    """The plans of a subject's own frame, with `built_in` drawn by built-in shaders; None for a scene without one, and for a description
+    without passes."""
     if subject.frame is None:
         return None
     from msaa_lint.experiments.study.frame_plans import FramePlans, stated_sizes
@@ -153,7 +167,7 @@ def _frame_plans(subject: Subject, request: TimingRequest, size: tuple[int, int]
     sizes = stated._replace(
         overdraw=request.overdraw if request.overdraw > 1 else stated.overdraw, side=request.triangle_size or stated.side
     )
-    plans = FramePlans(subject.frame, subject.file, size, sizes, clock.device)
+    plans = FramePlans(subject.frame, subject.file, size, sizes, clock.device, built_in)
     return plans if plans.base.passes else None
 
 
@@ -191,4 +205,4 @@ def _clock(arguments: Arguments) -> contextlib.AbstractContextManager[Any]:
 
     for text in ignored_paths():
         warn(text)
-    return DeviceClock(arguments["device"], repeats=arguments.get("repeats", 15))
+    return DeviceClock(arguments["device"], repeats=arguments.get("repeats", 0))

@@ -128,7 +128,7 @@ def _drawn(recorder: Recorder, submitter: Submitter, steps: Sequence[Step]) -> f
     for step in steps:
         recorder.step(buffer, step)
     submitter.stop()
-    return submitter.end(buffer, timed=True)
+    return submitter.end(timed=True)
 
 
 __all__ = ["RunOptions", "Session", "devices", "from_json", "run", "segments"]

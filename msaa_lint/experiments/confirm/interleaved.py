@@ -80,7 +80,10 @@ def measure(session: Session, items: Sequence[Item], want: TimingOptions, emit: 
             timer.prepare(each, emit)
         # Always in the same sequence of orders.
         orders = random.Random(1)
+        end = time.monotonic() + want.seconds
         for turn in range(want.rounds):
+            if want.seconds and turn >= want.least_rounds and time.monotonic() >= end:
+                break
             pairs = [(each, number) for each in built for number in range(len(each.works))]
             orders.shuffle(pairs)
             for each, number in pairs:
@@ -116,76 +119,95 @@ def _built(opened: OpenDevice, items: Sequence[Item], shared: SharedImages, emit
 
 
 class _Timer:
-    """Draws frames and measures their time."""
+    """Draws frames and measures their time. Each is recorded once, as that takes longer than many a frame."""
 
     def __init__(self, opened: OpenDevice, workload: Workload) -> None:
         self.vk, self.opened, self.workload = opened.vk, opened, workload
-        self.submitter = Submitter(opened, timed=True)
-        self.source = self.submitter.source
+        self.source = "timestamp" if opened.device.timestamp_bits else "wall"
         self.software = opened.session.device["properties"]["deviceType"] == self.vk.VK_PHYSICAL_DEVICE_TYPE_CPU
-        self.loops: dict[tuple[int, int], int] = {}
+        self.recorded: dict[tuple[int, int], tuple[Submitter, int]] = {}
+        """The commands of an item under one of its costs, and how many frames they draw."""
         self.long: set[tuple[int, int]] = set()
         self.statistics: Any = None
         if opened.session.device["features"].get("pipelineStatisticsQuery"):
             create = self.vk.VkQueryPoolCreateInfo(queryType=PIPELINE_STATISTICS, queryCount=1, pipelineStatistics=FRAGMENT_INVOCATIONS)
             self.statistics = self.vk.vkCreateQueryPool(opened.handle, create, None)
 
-    def frame(self, each: _Built, number: int, loops: int = 1) -> float:
-        """The milliseconds of one frame of an item under one of its costs, as the mean of `loops`."""
-        buffer = self.submitter.begin()
-        self.submitter.start()
+    def frame(self, each: _Built, number: int) -> float:
+        """The milliseconds of one frame of an item under one of its costs, as the mean of those that are recorded."""
+        if (each.number, number) not in self.recorded:
+            self._record(each, number, 1)
+        submitter, loops = self.recorded[each.number, number]
+        return submitter.submit(timed=True) / loops
+
+    def _record(self, each: _Built, number: int, loops: int) -> None:
+        """Records some frames of an item under one of its costs, in place of those that were."""
+        submitter, _ = self.recorded.get((each.number, number)) or (Submitter(self.opened, timed=True), 0)
+        self.recorded[each.number, number] = submitter, loops
+        buffer = submitter.begin(once=False)
+        submitter.start()
         for _ in range(loops):
-            recorder = Recorder(each.objects, (self.workload, each.works[number]))
-            recorder.layouts.fence(buffer)
-            for step in each.steps:
-                recorder.step(buffer, step)
-        self.submitter.stop()
-        return self.submitter.end(buffer, timed=True) / loops
+            self._steps(buffer, each, number)
+        submitter.stop()
+        submitter.finish()
+
+    def _steps(self, buffer: Any, each: _Built, number: int) -> None:
+        recorder = Recorder(each.objects, (self.workload, each.works[number]))
+        recorder.layouts.fence(buffer)
+        for step in each.steps:
+            recorder.step(buffer, step)
 
     def warm(self, built: Sequence[_Built], seconds: float, emit: Emit) -> None:
-        """Draws the items until the times of one of them are stable, or for `seconds`. A CPU needs no warming beyond a few frames."""
+        """Draws the first item until its times are stable, or for `seconds`. A CPU needs no warming."""
         first = built[0]
+        if self.software:
+            emit({"event": "warmed", "stable": True})
+            return
         emit({"event": "pass", "pass": first.number})
         end = time.monotonic() + seconds
         before, stable = 0.0, False
         while not stable and time.monotonic() < end:
-            group = median(self.frame(first, 0) for _ in range(3 if self.software else GROUP))
+            group = median(self.frame(first, 0) for _ in range(GROUP))
             stable = abs(group - before) < STEADY * group
             before = group
-        emit({"event": "warmed", "stable": stable or self.software})
+        emit({"event": "warmed", "stable": stable})
 
     def prepare(self, each: _Built, emit: Emit) -> None:
-        """Draws an item under each cost once or twice, decides how often a frame is repeated, and counts its invocations."""
+        """Counts the invocations of an item. On a GPU, draws it under each cost twice, and decides how often a frame is repeated."""
         emit({"event": "pass", "pass": each.number})
         for number in range(len(each.works)):
-            if not self.software:
-                self.frame(each, number)
+            if self.software:
+                break
+            self.frame(each, number)
             span = self.frame(each, number)
             if span > LONG:
                 self.long.add((each.number, number))
-            self.loops[each.number, number] = 1 if self.software or span <= 0 else min(max(int(MIN_SPAN / span) + 1, 1), MAX_LOOPS)
+            if 0 < span < MIN_SPAN:
+                self._record(each, number, min(int(MIN_SPAN / span) + 1, MAX_LOOPS))
         if self.statistics is not None:
             emit({"event": "invocations", "pass": each.number, "count": self._invocations(each)})
 
     def times(self, each: _Built, number: int, frames: int) -> Iterator[float]:
-        """The milliseconds of some frames in succession, after one that is not counted."""
-        loops, is_long = self.loops[each.number, number], (each.number, number) in self.long
+        """The milliseconds of some frames in succession, on a GPU after one that is not counted; of one frame if it is long."""
+        is_long = (each.number, number) in self.long
         if not (self.software or is_long):
-            self.frame(each, number, loops)
+            self.frame(each, number)
         for _ in range(1 if is_long else frames):
-            yield round(self.frame(each, number, loops), 6)
+            ms = self.frame(each, number)
+            yield round(ms, 6)
+            if ms > LONG:
+                break
 
     def _invocations(self, each: _Built) -> int:
         vk, handle = self.vk, self.opened.handle
-        buffer = self.submitter.begin()
+        submitter = Submitter(self.opened)
+        buffer = submitter.begin()
         vk.vkCmdResetQueryPool(buffer, self.statistics, 0, 1)
-        recorder = Recorder(each.objects, (self.workload, each.works[0]))
-        recorder.layouts.fence(buffer)
         vk.vkCmdBeginQuery(buffer, self.statistics, 0, 0)
-        for step in each.steps:
-            recorder.step(buffer, step)
+        self._steps(buffer, each, 0)
         vk.vkCmdEndQuery(buffer, self.statistics, 0)
-        self.submitter.end(buffer)
+        submitter.end()
+        submitter.close()
         read = vk.ffi.new("uint64_t[1]")
         # VK_QUERY_RESULT_64_BIT and VK_QUERY_RESULT_WAIT_BIT.
         vk.vkGetQueryPoolResults(handle, self.statistics, 0, 1, 8, read, 8, 3)
@@ -195,4 +217,5 @@ class _Timer:
         """Destroys its objects."""
         if self.statistics is not None:
             self.vk.vkDestroyQueryPool(self.opened.handle, self.statistics, None)
-        self.submitter.close()
+        for submitter, _ in self.recorded.values():
+            submitter.close()

@@ -161,7 +161,7 @@ class Session:
 
 
 class OpenDevice:
-    """A logical device and the objects that live as long as it: the command pool, shader modules, layouts."""
+    """A logical device and the objects that live as long as it: shader modules, layouts."""
 
     def __init__(self, session: Session, special: tuple[str, ...], without: tuple[str, ...]) -> None:
         self.vk = vk = session.vk
@@ -177,8 +177,6 @@ class OpenDevice:
         self.device.__enter__()
         self.handle = self.device.handle
         self.queue = self.device.queue
-        pool = vk.VkCommandPoolCreateInfo(queueFamilyIndex=self.device.family)
-        self.pool = vk.vkCreateCommandPool(self.handle, pool, None)
         self.memory = vk.vkGetPhysicalDeviceMemoryProperties(session.physical)
         self.modules: dict[Any, Any] = {}
         self.resources: DeviceObjects | None = None
@@ -317,7 +315,6 @@ class OpenDevice:
         if self._vertices is not None:
             vk.vkDestroyBuffer(self.handle, self._vertices[0], None)
             vk.vkFreeMemory(self.handle, self._vertices[1], None)
-        vk.vkDestroyCommandPool(self.handle, self.pool, None)
         self.device.__exit__(None, None, None)
 
 

@@ -75,7 +75,7 @@ def bring_back(recorder: Recorder, submitter: Submitter, folder: str, emit: Emit
         layers = vk.VkImageSubresourceLayers(aspectMask=aspect, mipLevel=0, baseArrayLayer=0, layerCount=image.layers)
         region = vk.VkBufferImageCopy(imageSubresource=layers, imageExtent=vk.VkExtent3D(image.width, image.height, 1))
         vk.vkCmdCopyImageToBuffer(buffer, built.image(number), SOURCE_LAYOUT, target.handle, 1, [region])
-    submitter.end(buffer)
+    submitter.end()
     for number, aspect, target in taken:
         image = built.plan.images[number]
         stencil = aspect == STENCIL and image.aspects != STENCIL
@@ -106,7 +106,7 @@ def bring_samples(recorder: Recorder, submitter: Submitter, number: int, folder:
     descriptor: Any = recorder.descriptor(set_layout, number, target.handle)
     vk.vkCmdBindDescriptorSets(buffer, 1, layout, 0, 1, [descriptor], 0, None)
     vk.vkCmdDispatch(buffer, -(-image.width // 8), -(-image.height // 8), 1)
-    submitter.end(buffer)
+    submitter.end()
     path = os.path.join(folder, f"{number}-samples.raw")
     target.write_to(path)
     target.close()

@@ -141,7 +141,7 @@ class ShaderResources(DeviceObjects):
                 regions = [_region(vk, image, level, layer) for level in range(image.levels) for layer in range(image.layers)]
                 vk.vkCmdCopyBufferToImage(buffer, source, created, TARGET_LAYOUT, len(regions), regions)
             self._transition(buffer, created, image, TARGET_LAYOUT, GENERAL_LAYOUT if image.usage & STORAGE else READ_LAYOUT)
-            submitter.end(buffer)
+            submitter.end()
         finally:
             submitter.close()
             staging.close()

@@ -14,12 +14,14 @@ FOREVER = 0xFFFFFFFFFFFFFFFF
 
 
 class Submitter:
-    """Submits one command buffer at a time."""
+    """One command buffer, which is submitted once or several times. Submitting waits for it."""
 
     def __init__(self, opened: OpenDevice, timed: bool = False) -> None:
         self.opened = opened
         self.vk = vk = opened.vk
-        allocate = vk.VkCommandBufferAllocateInfo(commandPool=opened.pool, level=0, commandBufferCount=1)
+        # A pool of its own, which is reset whenever the buffer is recorded.
+        self.pool = vk.vkCreateCommandPool(opened.handle, vk.VkCommandPoolCreateInfo(queueFamilyIndex=opened.device.family), None)
+        allocate = vk.VkCommandBufferAllocateInfo(commandPool=self.pool, level=0, commandBufferCount=1)
         self.buffer = vk.vkAllocateCommandBuffers(opened.handle, allocate)[0]
         self.fence = vk.vkCreateFence(opened.handle, vk.VkFenceCreateInfo(), None)
         self.queries: Any = None
@@ -29,10 +31,10 @@ class Submitter:
         self.mask = (1 << opened.device.timestamp_bits) - 1
         self.period: float = opened.session.device["properties"]["limits"]["timestampPeriod"]
 
-    def begin(self) -> Any:
-        """A command buffer to record into."""
-        self.vk.vkResetCommandPool(self.opened.handle, self.opened.pool, 0)
-        self.vk.vkBeginCommandBuffer(self.buffer, self.vk.VkCommandBufferBeginInfo(flags=1))
+    def begin(self, once: bool = True) -> Any:
+        """The command buffer, empty, to record into; `once` says that it is submitted only once."""
+        self.vk.vkResetCommandPool(self.opened.handle, self.pool, 0)
+        self.vk.vkBeginCommandBuffer(self.buffer, self.vk.VkCommandBufferBeginInfo(flags=int(once)))
         if self.queries is not None:
             self.vk.vkCmdResetQueryPool(self.buffer, self.queries, 0, 2)
         return self.buffer
@@ -47,13 +49,21 @@ class Submitter:
         if self.queries is not None:
             self.vk.vkCmdWriteTimestamp(self.buffer, BOTTOM, self.queries, 1)
 
-    def end(self, buffer: Any, timed: bool = False) -> float:
-        """Submits and waits. Returns the milliseconds between `start` and `stop`, or those of submitting and waiting if the device has no
-        timestamps."""
+    def end(self, timed: bool = False) -> float:
+        """Ends recording, and submits."""
+        self.finish()
+        return self.submit(timed)
+
+    def finish(self) -> None:
+        """Ends recording."""
+        self.vk.vkEndCommandBuffer(self.buffer)
+
+    def submit(self, timed: bool = False) -> float:
+        """Submits what was recorded, and waits. Returns the milliseconds between `start` and `stop`, or those of submitting and waiting if
+        the device has no timestamps."""
         vk, opened = self.vk, self.opened
-        vk.vkEndCommandBuffer(buffer)
         before = time.perf_counter()
-        vk.vkQueueSubmit(opened.queue, 1, [vk.VkSubmitInfo(pCommandBuffers=[buffer])], self.fence)
+        vk.vkQueueSubmit(opened.queue, 1, [vk.VkSubmitInfo(pCommandBuffers=[self.buffer])], self.fence)
         vk.vkWaitForFences(opened.handle, 1, [self.fence], 1, FOREVER)
         passed = (time.perf_counter() - before) * 1000
         vk.vkResetFences(opened.handle, 1, [self.fence])
@@ -71,4 +81,5 @@ class Submitter:
         vk.vkDestroyFence(handle, self.fence, None)
         if self.queries is not None:
             vk.vkDestroyQueryPool(handle, self.queries, None)
-        vk.vkFreeCommandBuffers(handle, self.opened.pool, 1, [self.buffer])
+        # Frees the command buffer too.
+        vk.vkDestroyCommandPool(handle, self.pool, None)

@@ -27,11 +27,14 @@ class Item(NamedTuple):
 
 
 class TimingOptions(NamedTuple):
-    """The options of a request: the number of `rounds`, of `frames` of each item in a round, and of seconds after which warming ends."""
+    """The options of a request: the number of `rounds`, of `frames` of each item in a round, and of seconds after which warming ends.
+    After `seconds`, if not 0, there are no more rounds, once there are `least_rounds`."""
 
     rounds: int
     frames: int = 3
     warm_seconds: float = 3.0
+    seconds: float = 0.0
+    least_rounds: int = 3
 
 
 class TimedItem(NamedTuple):
@@ -50,6 +53,11 @@ class TimedRun(NamedTuple):
     items: Sequence[TimedItem]
     source: str
     stable: bool
+
+    @property
+    def rounds(self) -> int:
+        """The number of rounds; 0 without times."""
+        return max((len(times) for item in self.items for times in item.times), default=0)
 
 
 class TimedCollector:

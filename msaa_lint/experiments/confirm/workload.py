@@ -100,7 +100,7 @@ class Workload(DeviceObjects):
         )
         vk.vkCmdCopyBufferToImage(buffer, source, image, TARGET_LAYOUT, 1, [region])
         self._barrier(buffer, image, (TARGET_LAYOUT, 0x1000, TRANSFER), (READ_LAYOUT, 0x20, SHADERS | COLOR_OUTPUT))
-        submitter.end(buffer)
+        submitter.end()
         submitter.close()
         vk.vkDestroyBuffer(self.opened.handle, source, None)
         vk.vkFreeMemory(self.opened.handle, memory, None)

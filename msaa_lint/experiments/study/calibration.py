@@ -16,14 +16,18 @@ from .shading import NONE, Shading, calibrated, target
 from .technique_frames import frame_of
 from .times import DeviceClock
 
-ROUNDS = 9
-PROBE = 256
+QUICK_ROUNDS, ROUNDS = 3, 9
+"""Rounds of the first guesses, and of the last ones."""
+
+QUICK_GUESSES = 2
+
+PROBE, SOFTWARE_PROBE = 256, 16
 """Operations of the first guess of a calibration."""
 
-CLOSE = 0.02
-"""A calibrated time may differ from its target by this share."""
+CLOSE, SOFTWARE_CLOSE = 0.02, 0.2
+"""A calibrated time may differ from its target by this share. On a CPU, the time of a single operation is a large share of one."""
 
-MAX_GUESSES = 8
+MAX_GUESSES, MAX_SOFTWARE_GUESSES = 8, 3
 
 MAX_FETCHES = 0.9
 """The largest share of a cost that texture fetches take: where they take more, there are fewer of them."""
@@ -62,33 +66,45 @@ class Calibration:
 
     def _calibrate(self, names: Sequence[str], size: tuple[int, int]) -> list[Shading]:
         targets = [target(name, size) for name in names]
-        tried = [each.shading if each.added_ms in (None, 0.0) else each.shading._replace(operations=PROBE) for each in targets]
+        software = self.clock.software
+        probe, close, guesses = (SOFTWARE_PROBE, SOFTWARE_CLOSE, MAX_SOFTWARE_GUESSES) if software else (PROBE, CLOSE, MAX_GUESSES)
+        tried = [each.shading if each.added_ms in (None, 0.0) else each.shading._replace(operations=probe) for each in targets]
+        found: list[tuple[float, float]] | None = None
         with _full_screen(self.clock, size) as plan:
-            for guess in range(MAX_GUESSES):
-                bare = [shading._replace(operations=0) for shading in tried]
-                run = self.clock.time([(plan, [Shading(NONE), *bare, *tried])], ROUNDS)
-                (item,) = run.items
-                if item.reason:
-                    return [each.shading for each in targets]
-                none, *medians = [median(times) for times in item.times]
-                fetching, added = medians[: len(targets)], [time - none for time in medians[len(targets) :]]
+            for guess in range(guesses):
+                rounds = QUICK_ROUNDS if software or guess < QUICK_GUESSES else ROUNDS
+                found = self._added(plan, tried, rounds)
+                if found is None:
+                    break
                 next_tried = []
-                for each, shading, time, fetches in zip(targets, tried, added, fetching, strict=True):
-                    next_tried.append(_next_guess(each.added_ms, shading, time, fetches - none))
-                if guess == MAX_GUESSES - 1 or next_tried == tried:
+                for each, shading, (added, fetches) in zip(targets, tried, found, strict=True):
+                    is_close = not each.added_ms or abs(added - each.added_ms) <= close * each.added_ms
+                    next_tried.append(shading if is_close else _next_guess(each.added_ms or 0.0, shading, added, fetches, probe))
+                if guess == guesses - 1 or (next_tried == tried and (software or rounds == ROUNDS)):
                     break
                 tried = next_tried
-        return [calibrated(shading, time, size) for shading, time in zip(tried, added, strict=True)]
+        if found is None:
+            return [each.shading for each in targets]
+        return [calibrated(shading, added, size) for shading, (added, _) in zip(tried, found, strict=True)]
+
+    def _added(self, plan: Any, shadings: Sequence[Shading], rounds: int) -> list[tuple[float, float]] | None:
+        """The milliseconds that each cost adds to a plan, and that its texture fetches add; None if it cannot be timed."""
+        works = [shading._replace(name=NONE) for shading in shadings]
+        # Each only once: several costs may have the same fetches, or none.
+        timed = list(dict.fromkeys([Shading(NONE), *(work._replace(operations=0) for work in works), *works]))
+        (item,) = self.clock.time([(plan, timed)], rounds).items
+        if item.reason:
+            return None
+        medians = dict(zip(timed, map(median, item.times), strict=True))
+        none = medians[Shading(NONE)]
+        return [(medians[work] - none, medians[work._replace(operations=0)] - none) for work in works]
 
 
-def _next_guess(wanted_ms: float | None, shading: Shading, added_ms: float, fetches_ms: float) -> Shading:
-    """The cost with the operations that would add the wanted time, where each takes as long as those of the last guess; the same where it
-    is close enough."""
-    if not wanted_ms or abs(added_ms - wanted_ms) <= CLOSE * wanted_ms:
-        return shading
+def _next_guess(wanted_ms: float, shading: Shading, added_ms: float, fetches_ms: float, probe: int) -> Shading:
+    """The cost with the operations that would add the wanted time, where each takes as long as those of the last guess."""
     if shading.fetches and fetches_ms > MAX_FETCHES * wanted_ms:
         fetches = int(shading.fetches * MAX_FETCHES * wanted_ms / fetches_ms)
-        return shading._replace(operations=PROBE, fetches=fetches, footprint=shading.footprint if fetches else 0)
+        return shading._replace(operations=probe, fetches=fetches, footprint=shading.footprint if fetches else 0)
     rate = (added_ms - fetches_ms) / shading.operations
     limit = min(GROWTH * shading.operations, MAX_OPERATIONS)
     operations = limit if rate <= 0 else min(round((wanted_ms - fetches_ms) / rate), limit)

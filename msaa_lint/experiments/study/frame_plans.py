@@ -59,24 +59,39 @@ class FramePlans:
     of those that the description states.
 
     `passes` are the numbers of the passes to which techniques apply, and `notes` say what is assumed. `as_described` says that all draws of
-    these passes have fragment shaders of the frame, so that a cost of shading does not apply. Built-in shaders stand in for those that a
-    `device` (confirm/opening.py) does not support.
+    these passes have fragment shaders of the frame, so that a cost of shading does not apply; with `built_in`, built-in shaders draw these
+    passes instead, and one applies. Built-in shaders also stand in for those that a `device` (confirm/opening.py) does not support.
     """
 
     def __init__(
-        self, frame: Frame, file: str, size: tuple[int, int], sizes: Sizes | None = None, device: Mapping[str, Any] | None = None
+        self,
+        frame: Frame,
+        file: str,
+        size: tuple[int, int],
+        sizes: Sizes | None = None,
+        device: Mapping[str, Any] | None = None,
+        built_in: bool = False,
     ) -> None:
         plan = planning.plan(frame, file)
         plan = supported(plan, device) if device is not None else plan
-        plan = with_meshes(_without_fills(_nearer_as_tested(plan)), sizes or stated_sizes(frame))
+        plan = _without_fills(_nearer_as_tested(plan))
         self.passes = _multisampled_passes(plan)
         self.is_multisampled = bool(self.passes)
         if not self.passes:
             self.passes = _geometry_passes(plan)
-        self.base = resized(plan, size, self.passes)
         drawn = [pipeline for number in self.passes for pipeline in _drawn(plan, number)]
         self.as_described = bool(drawn) and all(pipeline.has_fragment_shader for pipeline in drawn)
-        self.notes = (*plan.defaults, *self._notes(frame))
+        replaced = self.as_described and built_in
+        if replaced:
+            self.as_described = False
+            plan = _with_built_in_shaders(plan, self.passes)
+        plan = with_meshes(plan, sizes or stated_sizes(frame))
+        self.base = resized(plan, size, self.passes)
+        self.notes = (
+            *plan.defaults,
+            *(["the frame's own shaders are replaced by those of a stated cost"] if replaced else []),
+            *self._notes(frame),
+        )
 
     @property
     def triangle_area(self) -> float | None:
@@ -141,6 +156,14 @@ def _drawn(plan: Plan, number: int) -> list[Pipeline]:
     """The pipelines with color that draw in a pass."""
     used = {inner.pipeline for step in plan.steps if step.number == number for inner in step.inner if inner.kind == "draw"}
     return [plan.passes[number].pipelines[index] for index in used if any(plan.passes[number].pipelines[index].numerics)]
+
+
+def _with_built_in_shaders(plan: Plan, passes: Collection[int]) -> Plan:
+    """The plan, some of whose passes have no shaders of the frame."""
+    changed = list(plan.passes)
+    for number in passes:
+        changed[number] = changed[number]._replace(pipelines=tuple(each._replace(stages=()) for each in changed[number].pipelines))
+    return plan._replace(passes=tuple(changed))
 
 
 def described_size(frame: Frame) -> tuple[int, int] | None:

@@ -9,8 +9,10 @@ from hashlib import sha256
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from msaa_lint.linter.study_record import AS_DESCRIBED
+
 from .points import MSAA, SAMPLE_SHADING, Technique
-from .shading import AS_DESCRIBED, NONE, Shading
+from .shading import NONE, Shading
 from .technique_frames import frame_of
 from .time_model import Terms
 from .times import Cost, CostModel, Costs, DeviceClock

@@ -8,9 +8,6 @@ from msaa_lint.frame.description.scalars import SHADING_LEVELS, shading_cost
 
 NONE, LIGHT, MEDIUM, HEAVY = SHADING_LEVELS
 
-AS_DESCRIBED = "as described"
-"""The cost of the fragment shaders of a frame, all of whose draws have one."""
-
 DEFAULT = (NONE, MEDIUM, HEAVY)
 """The costs of a study that names none: bound by fill, balanced, bound by shading."""
 

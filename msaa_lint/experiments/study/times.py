@@ -14,6 +14,18 @@ from .points import Technique
 from .shading import Shading
 from .technique_frames import frame_of
 
+REPEATS = 15
+"""Rounds of a measurement."""
+
+SECONDS, LEAST_ROUNDS = 20.0, 7
+"""Unless the number of repeats is stated, a measurement ends after so many seconds, but has at least so many rounds: of fewer than six, no
+interval contains the median with a probability of 95 %."""
+
+SOFTWARE_SECONDS, LEAST_SOFTWARE_ROUNDS = 8.0, 3
+"""The same for a software driver, whose times decide nothing."""
+
+CALIBRATION_WARM_SECONDS = 1.0
+
 
 class Cost(NamedTuple):
     """The cost of a technique at a size under a cost of shading; None where unknown. `reason` says why a device does not support the
@@ -79,10 +91,11 @@ class DeviceClock:
     """A device whose clock times plans in turn.
 
     `with DeviceClock(name) as clock:`; `name` is a part of the device's name, None for lavapipe if it is installed. Raises the device
-    errors of `confirm` where there is no device. `unstable` says that times had not settled when one was measured.
+    errors of `confirm` where there is no device. `repeats` are the rounds of a measurement; by default REPEATS, or fewer where those take
+    too long. `unstable` says that times had not settled when one was measured.
     """
 
-    def __init__(self, name: str | None = None, *, repeats: int = 15, seconds: float = 60.0) -> None:
+    def __init__(self, name: str | None = None, *, repeats: int = 0, seconds: float = 60.0) -> None:
         from msaa_lint.experiments.confirm.child import Limits
         from msaa_lint.experiments.confirm.session import Session, environment
 
@@ -108,11 +121,17 @@ class DeviceClock:
         self.session.__exit__(kind, value, trace)
 
     def time(self, plans: Sequence[tuple[Any, Sequence[Shading]]], rounds: int = 0) -> Any:
-        """Times plans (confirm/parts.py) in turn, each under costs of shading: a TimedRun (confirm/timed.py). `rounds` is by default the
-        number of repeats."""
+        """Times plans (confirm/parts.py) in turn, each under costs of shading: a TimedRun (confirm/timed.py). `rounds` are those of a
+        calibration; by default, there are as many as repeats, or as fit into the time limit."""
         from msaa_lint.experiments.confirm.timed import Item, TimingOptions, Work
 
         items = [Item(plan, tuple(Work(each.operations, each.fetches, each.footprint) for each in shadings)) for plan, shadings in plans]
-        run = self.session.time(items, TimingOptions(rounds or self.repeats))
+        if rounds:
+            return self.session.time(items, TimingOptions(rounds, warm_seconds=CALIBRATION_WARM_SECONDS))
+        options = TimingOptions(self.repeats or REPEATS)
+        if not self.repeats:
+            seconds, least = (SOFTWARE_SECONDS, LEAST_SOFTWARE_ROUNDS) if self.software else (SECONDS, LEAST_ROUNDS)
+            options = options._replace(seconds=seconds, least_rounds=least)
+        run = self.session.time(items, options)
         self.unstable = self.unstable or not run.stable
         return run

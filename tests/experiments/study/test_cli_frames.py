@@ -62,6 +62,24 @@ def test_a_frame_with_shaders_has_their_cost(tmp_path: Path) -> None:
     assert all(point["time_ms"] > 0 and point["shading_ms"] == 0 for point in data["points"])
 
 
+def test_a_stated_cost_replaces_the_shaders_of_a_frame(tmp_path: Path) -> None:
+    data = studied(tmp_path, str(EXAMPLES / "lit/forward.msaa.yaml"), *ON_LAVAPIPE, "--techniques", "msaa", "--shading", "none,2000ops")
+    names = [(point["name"], point["shading"]) for point in data["points"]]
+    assert names == [("1x", "none"), ("4x", "none"), ("1x", "2000ops"), ("4x", "2000ops")]
+    assert "the frame's own shaders are replaced by those of a stated cost" in data["scenes"][0]["assumed"]
+    assert all((point["shading_ms"] > 0) == (point["shading"] == "2000ops") for point in data["points"])
+
+
+def test_a_slow_frame_has_fewer_rounds_and_says_so(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("msaa_lint.experiments.study.times.SOFTWARE_SECONDS", 1e-6)
+    options = ("--device", "llvmpipe", "--shading", "none", "--techniques", "msaa")
+    (scene,) = studied(tmp_path, "wires", *options)["scenes"]
+    assert scene["assumed"] == [
+        "times are medians of 3 rounds instead of 15, as a round takes long; so few give no interval of 95 %, but that of all"
+        " (--repeats N takes N)"
+    ]
+
+
 def test_a_technique_that_a_frame_cannot_have_says_why(tmp_path: Path) -> None:
     (tmp_path / "frame.msaa.yaml").write_text(
         "images: {c: {format: R8G8B8A8_UNORM, samples: 1, extent: {width: 64, height: 64}}}\n"
