@@ -7,7 +7,7 @@ from typing import Any
 
 from msaa_lint.experiments.study.crops import short_name
 from msaa_lint.experiments.study.points import MSAA, Point, Technique
-from msaa_lint.experiments.study.shading import AS_DESCRIBED
+from msaa_lint.linter.study_record import AS_DESCRIBED
 
 from .figure import INK, Figure, title
 from .study_panels import Panel

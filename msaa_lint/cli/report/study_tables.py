@@ -13,7 +13,7 @@ from rich.text import Text
 from msaa_lint.experiments.study.outcome import SceneSummary, Study
 from msaa_lint.experiments.study.pareto import has_time, tie
 from msaa_lint.experiments.study.points import Point, Technique
-from msaa_lint.experiments.study.shading import AS_DESCRIBED
+from msaa_lint.linter.study_record import AS_DESCRIBED
 
 from . import Options, Write
 from .escape import display
