@@ -25,6 +25,8 @@ _MAX_HEADING = 12
 """Cells in a line of a heading that holds a name."""
 
 _MAX_DECIMALS = 6
+_EXACT_MS = 0.05
+"""Times with half-widths below this have two decimals at least."""
 
 
 class _Figures(NamedTuple):
@@ -81,8 +83,8 @@ _Column = tuple[Column, Mapping[Technique, str]]
 
 
 def row_name(technique: Technique) -> str:
-    """The name of a technique, as short as a table needs it: `4x, half shaded`."""
-    return technique.name.replace(" of them", "")
+    """The name of a technique, as short as a table needs it: `8x, quarter shaded`."""
+    return technique.name.replace(" of them", "").replace(", a ", ", ")
 
 
 def print_errors(study: Study, scene: SceneSummary, out: Write, options: Options) -> list[str]:
@@ -141,7 +143,7 @@ def _time_columns(points: Sequence[Point], decimals: int) -> list[_Column]:
     marks = {point.technique: MARK * point.best + TIE * (point.technique in ties) for point in points}
     figures = [
         _Figures(_heading(points[0].shading, "ms"), lambda point: figure(point.time_ms, f".{decimals}f")),
-        _Figures("±", lambda point: _half_width(point, decimals)),
+        _Figures("±", lambda point: _interval(point, decimals)),
     ]
     known = _columns([each for each in figures if _is_known(each, points)], points)
     return [(Column(""), marks), *known] if any(marks.values()) else known
@@ -180,9 +182,12 @@ def _heading(name: str, unit: str) -> str:
 
 
 def _decimals(points: Sequence[Point]) -> int:
-    """The decimals with which the shortest of the times has three significant digits."""
-    shortest = min((point.time_ms for point in points if point.time_ms is not None and has_time(point)), default=1.0)
-    return min(max(2 - math.floor(math.log10(shortest)), 0), _MAX_DECIMALS)
+    """The decimals with which the shortest of the times has three significant digits; two where all intervals are narrower than these
+    show."""
+    times = [point.time_ms for point in points if point.time_ms is not None and has_time(point)]
+    widths = [_half_width(point) for point in points]
+    exact = all(width is not None and width < _EXACT_MS for width in widths)
+    return min(max(2 - math.floor(math.log10(min(times, default=1.0))), 2 if exact else 0), _MAX_DECIMALS)
 
 
 def _ties_with_shorter(points: Sequence[Point]) -> set[Technique]:
@@ -191,13 +196,18 @@ def _ties_with_shorter(points: Sequence[Point]) -> set[Technique]:
     return {longer.technique for shorter, longer in pairwise(ordered) if tie(shorter, longer)}
 
 
-def _half_width(point: Point, decimals: int) -> str:
-    """The distance from a time to the farther bound of its interval; `<0.001` where that is less than the time's digits show."""
+def _half_width(point: Point) -> float | None:
+    """The distance from a time to the farther bound of its interval; None where that is not known."""
     if point.time_ms is None or point.low_ms is None or point.high_ms is None:
-        return "-"
+        return None
     width = max(point.time_ms - point.low_ms, point.high_ms - point.time_ms)
-    least = 10.0**-decimals
-    return "-" if not math.isfinite(width) else f"<{least:.{decimals}f}" if 0 <= width < least else f"{width:.{decimals}f}"
+    return width if math.isfinite(width) else None
+
+
+def _interval(point: Point, decimals: int) -> str:
+    """The half-width of an interval; `<0.001` where that is less than the time's digits show."""
+    width, least = _half_width(point), 10.0**-decimals
+    return "-" if width is None else f"<{least:.{decimals}f}" if 0 <= width < least else f"{width:.{decimals}f}"
 
 
 def _is_known(figures: _Figures, points: Sequence[Point]) -> bool:

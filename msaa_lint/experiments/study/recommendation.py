@@ -96,7 +96,8 @@ def _less(measure: Measure, one: Point, other: Point) -> str:
 def _bounds(added: AddedTime) -> str:
     if not added.ms and added.low_ms == added.high_ms:
         return "nothing"
-    return f"{added.ms:.3g} ms ({added.low_ms:.3g} to {added.high_ms:.3g}, {percent(added.share)})"
+    low, high = f"{added.low_ms:.3g}", f"{added.high_ms:.3g}"
+    return f"{added.ms:.3g} ms ({'' if low == high else f'{low} to {high}, '}{percent(added.share)})"
 
 
 class Worth(NamedTuple):
