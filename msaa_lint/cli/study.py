@@ -20,6 +20,7 @@ from msaa_lint.experiments.confirm.vulkan_errors import Unusable as NoDevice
 from msaa_lint.experiments.study.checkpoint import Checkpoint
 from msaa_lint.experiments.study.outcome import SceneSummary, Study, UntimedTechnique
 from msaa_lint.experiments.study.points import COUNTS, KINDS, MSAA, Point, Technique, techniques
+from msaa_lint.experiments.study.recommendation import DEFAULT_BUDGET_MS
 from msaa_lint.experiments.study.tasks import FailedPoint, Task, Unusable
 
 from .common import (
@@ -45,9 +46,6 @@ from .options import TEXT_FORMATS, Arguments
 from .report.escape import escape
 from .study_costs import AllCosts, subject_costs, timing_request
 from .study_subjects import Subject, subjects
-
-DEFAULT_BUDGET_MS = 1.0
-"""What a technique may add to the time of one sample where no budget is stated: 6 % of a frame at 60 Hz."""
 
 MAX_BUDGET_MS = 1000.0
 

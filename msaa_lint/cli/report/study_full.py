@@ -70,7 +70,7 @@ def _choices(scene: SceneSummary, study: Study) -> Iterator[str]:
     names: dict[str, list[str]] = {}
     for choice in choices:
         names.setdefault(choice.technique.name, []).append(display(choice.shading))
-    limit = "" if study.budget_ms is None else f" within {study.budget_ms:.4g} ms"
+    limit = f" within {study.budget_ms:.4g} ms"
     if len(names) == 1:
         (technique,) = names
         yield f"take {technique}{limit}" + (" under every cost of shading" if len(choices) > 1 else "")

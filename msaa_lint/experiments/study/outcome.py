@@ -8,7 +8,7 @@ from msaa_lint.core.finding import Finding
 from .advice import Advice
 from .measures import ERROR, Measure
 from .points import Point
-from .recommendation import Recommendation
+from .recommendation import DEFAULT_BUDGET_MS, Recommendation
 from .scenes.about import EDGES
 from .shading import Shading
 from .steps import Step
@@ -46,8 +46,7 @@ class Study(NamedTuple):
     `steps`, `recommendations`, and `advice`.
 
     `software` says that the device is a CPU: its times are labelled as such, and advice does not use them. `shadings` are the costs of
-    shading, as calibrated, and `models` the fitted times of the scenes. `budget_ms` is what a technique may add to the time of one sample,
-    None without a budget.
+    shading, as calibrated, and `models` the fitted times of the scenes. `budget_ms` is what a technique may add to the time of one sample.
     """
 
     device: str
@@ -65,7 +64,7 @@ class Study(NamedTuple):
     software: bool = False
     shadings: Sequence[Shading] = ()
     models: Sequence[TimeModel] = ()
-    budget_ms: float | None = None
+    budget_ms: float = DEFAULT_BUDGET_MS
     steps: Sequence[Step] = ()
     recommendations: Sequence[Recommendation] = ()
 

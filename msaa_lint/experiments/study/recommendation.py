@@ -1,4 +1,4 @@
-"""Which technique to take: under a budget the best that fits, else as many steps up as are worth their time."""
+"""Which technique to take: the best that fits a budget; and at which costs of shading steps up are worth their time."""
 
 from __future__ import annotations
 
@@ -7,11 +7,14 @@ from itertools import pairwise
 from typing import NamedTuple
 
 from .measures import Measure
-from .pareto import fastest, has_time, tie
+from .pareto import fastest, has_time
 from .points import MSAA, Point, Technique
 from .shading import Shading
-from .steps import MAX_ADDED, MAX_REMAINING, AddedTime, added_text, added_time, is_enough, percent
+from .steps import MAX_ADDED, AddedTime, added_time, is_enough, percent
 from .time_model import TimeModel
+
+DEFAULT_BUDGET_MS = 1.0
+"""What a technique may add to the time of one sample where no budget is stated: 6 % of a frame at 60 Hz."""
 
 BISECTIONS = 60
 
@@ -33,13 +36,24 @@ class Recommendation(NamedTuple):
         return f"take {self.technique.name}"
 
 
-def recommendation(points: Sequence[Point], measure: Measure, budget_ms: float | None) -> Recommendation | None:
-    """What to take of the points of one scene under one cost of shading; None where one sample, or nothing else, was timed."""
+def recommendation(points: Sequence[Point], measure: Measure, budget_ms: float) -> Recommendation | None:
+    """What to take of the points of one scene under one cost of shading: the least error of those whose added time fits with its upper
+    bound. None where one sample, or nothing else, was timed."""
     timed = [point for point in points if has_time(point) and measure.is_finite(point)]
     one = next((point for point in timed if point.technique == Technique(MSAA, 1)), None)
     if one is None or len(timed) < 2:
         return None
-    return _worth_their_time(timed, one, measure) if budget_ms is None else _within(timed, one, measure, budget_ms)
+    fitting = [point for point in timed if _added(point, one).high_ms <= budget_ms]
+    choice = _front(fitting, measure)[-1]
+    reason = f"every other technique adds more than {budget_ms:.4g} ms"
+    if len(fitting) > 1:
+        reason = f"adds {_bounds(_added(choice, one))} and has the least {measure.name} of the {len(fitting)} that fit"
+    better = [point for point in _front(timed, measure) if measure.rounded(point) < measure.rounded(choice)]
+    following = f"no technique has less {measure.name}"
+    if better:
+        nearest = min(better, key=lambda point: (_added(point, one).high_ms, point.technique))
+        following = f"{nearest.technique.name} has {_less(measure, nearest, choice)} and needs {_added(nearest, one).high_ms:.3g} ms"
+    return Recommendation(one.scene, one.shading, choice.technique, _added(choice, one), reason, following)
 
 
 def _front(points: Sequence[Point], measure: Measure) -> list[Point]:
@@ -51,41 +65,6 @@ def _added(point: Point, one: Point) -> AddedTime:
     added = added_time(point, one)
     assert added is not None
     return AddedTime(0.0, 0.0, 0.0, 0.0, 0.0) if point is one else added
-
-
-def _within(points: Sequence[Point], one: Point, measure: Measure, budget_ms: float) -> Recommendation:
-    """The least error of those whose added time fits with its upper bound."""
-    fitting = [point for point in points if _added(point, one).high_ms <= budget_ms]
-    choice = _front(fitting, measure)[-1]
-    reason = f"every other technique adds more than {budget_ms:.4g} ms"
-    if len(fitting) > 1:
-        reason = f"adds {_bounds(_added(choice, one))} and has the least {measure.name} of the {len(fitting)} that fit"
-    better = [point for point in _front(points, measure) if measure.rounded(point) < measure.rounded(choice)]
-    following = f"no technique has less {measure.name}"
-    if better:
-        nearest = min(better, key=lambda point: (_added(point, one).high_ms, point.technique))
-        following = f"{nearest.technique.name} has {_less(measure, nearest, choice)} and needs {_added(nearest, one).high_ms:.3g} ms"
-    return Recommendation(one.scene, one.shading, choice.technique, _added(choice, one), reason, following)
-
-
-def _worth_their_time(points: Sequence[Point], one: Point, measure: Measure) -> Recommendation:
-    """Up the front from its fastest point, as long as there is a point that removes enough of the error and adds little."""
-    best = _front(points, measure)
-    choice, following = best[0], ""
-    for point in best[1:]:
-        added = added_time(point, choice)
-        if added is None or not is_enough(measure, choice, point):
-            continue
-        if added.low_share <= MAX_ADDED:
-            choice, following = point, ""
-        elif not following:
-            text = added_text(added, tie(point, choice))
-            following = f"{point.technique.name} has {_less(measure, point, choice)} for {text}, more than {percent(MAX_ADDED)[1:]}"
-    limits = f"at least {percent(1 - MAX_REMAINING)[1:]} of the {measure.name} for at most {percent(MAX_ADDED)[1:]} more time"
-    reason = f"no other technique removes {limits}" if choice is best[0] else f"each step up to it removes {limits}"
-    if choice is not one:
-        reason += f"; it has {_less(measure, choice, one)} than {one.technique.name}, and adds {_bounds(_added(choice, one))}"
-    return Recommendation(one.scene, one.shading, choice.technique, _added(choice, one), reason, following or "nothing is worth more time")
 
 
 def _less(measure: Measure, one: Point, other: Point) -> str:

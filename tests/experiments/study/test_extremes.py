@@ -57,7 +57,7 @@ def studies(draw: st.DrawFn) -> Study:
         Study(
             "a device", "", (64, 48), 8, [SceneSummary("edges", "", ())._replace(about=about)], made, [], [], shadings=shadings,
             software=draw(st.booleans()), models=[] if model is None else [model],
-            budget_ms=draw(st.sampled_from([None, 1e-9, 0.5, 1e9])),
+            budget_ms=draw(st.sampled_from([1e-9, 0.5, 1e9])),
         )
     )  # fmt: skip
 
@@ -76,7 +76,7 @@ def test_reports_have_figures_for_any_error_and_time(study: Study) -> None:
     sentences = [line for line in text.splitlines() if re.match(r"^(advice|step|take|[0-9]+x to)", line.strip())]
     assert not any(re.search(r"\b(nan|inf)\b", sentence) for sentence in sentences), sentences
     for choice in study.recommendations:
-        assert study.budget_ms is None or choice.added.high_ms <= study.budget_ms
+        assert choice.added.high_ms <= study.budget_ms
 
 
 @examples(0.3)
