@@ -13,11 +13,10 @@ from typing import Any
 
 from msaa_lint.frame.vulkan.formats import format_of
 
-from .device_images import create_image
+from .device_images import create_image, fill
 from .opening import DeviceObjects, OpenDevice
-from .parts import COLOR, DEPTH, READ_LAYOUT, SAMPLED, STORAGE, TARGET_LAYOUT, TRANSFER_TARGET, UNDEFINED, Descriptor, Image, unpacked
+from .parts import COLOR, DEPTH, READ_LAYOUT, SAMPLED, STORAGE, TRANSFER_TARGET, Descriptor, Image, unpacked
 from .parts import GENERAL as GENERAL_LAYOUT
-from .submit import Submitter
 from .texels import format_name
 
 SAMPLER, COMBINED, SAMPLED_IMAGE, STORAGE_IMAGE, UNIFORM_TEXELS, STORAGE_TEXELS, UNIFORM_BUFFER, STORAGE_BUFFER = range(8)
@@ -28,7 +27,6 @@ IMAGES = (COMBINED, SAMPLED_IMAGE, STORAGE_IMAGE)
 TEXELS = (UNIFORM_TEXELS, STORAGE_TEXELS)
 
 _BUFFER_USAGE = {UNIFORM_TEXELS: 0x4, STORAGE_TEXELS: 0x8, UNIFORM_BUFFER: 0x10, STORAGE_BUFFER: 0x20}
-_STAGING = 0x1
 _NEAR_THE_DEVICE = 0x7
 """VkBufferUsageFlagBits; memory that is device-local, visible to the host, and coherent."""
 
@@ -43,9 +41,6 @@ _TYPES = {0: 0, 4: 0, 2: 2}
 """VkImageType by VkImageViewType; 2D for the others."""
 
 TILE = 32
-COMMANDS = 0x10000
-"""VK_PIPELINE_STAGE_ALL_COMMANDS_BIT."""
-
 LINEAR_FILTER = 0x1000
 """VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT."""
 
@@ -116,44 +111,11 @@ class ShaderResources(DeviceObjects):
         vk = self.vk
         image = _image(descriptor)
         created = create_image(self, image)
-        self._fill(created, image)
+        cleared = bool(image.usage & STORAGE) or image.samples > 1
+        fill(self.opened, created, image, None if cleared else pattern(image), GENERAL_LAYOUT if image.usage & STORAGE else READ_LAYOUT)
         whole = vk.VkImageSubresourceRange(aspectMask=image.aspects, levelCount=image.levels, layerCount=image.layers)
         create = vk.VkImageViewCreateInfo(image=created, viewType=descriptor.view, format=image.format, subresourceRange=whole)
         return self.own(vk.vkDestroyImageView, vk.vkCreateImageView(self.opened.handle, create, None))
-
-    def _fill(self, created: Any, image: Image) -> None:
-        vk, staging = self.vk, DeviceObjects(self.opened)
-        submitter = Submitter(self.opened)
-        try:
-            buffer = submitter.begin()
-            self._transition(buffer, created, image, UNDEFINED, TARGET_LAYOUT)
-            whole = vk.VkImageSubresourceRange(aspectMask=image.aspects, levelCount=image.levels, layerCount=image.layers)
-            if image.usage & STORAGE or image.samples > 1:
-                if image.aspects & DEPTH:
-                    vk.vkCmdClearDepthStencilImage(buffer, created, TARGET_LAYOUT, vk.VkClearDepthStencilValue(0.5, 0), 1, [whole])
-                else:
-                    clear = _clear_value(vk, image)
-                    vk.vkCmdClearColorImage(buffer, created, TARGET_LAYOUT, clear, 1, [whole])
-            else:
-                source, memory = self.opened.buffer(pattern(image), _STAGING)
-                staging.own(vk.vkFreeMemory, memory)
-                staging.own(vk.vkDestroyBuffer, source)
-                regions = [_region(vk, image, level, layer) for level in range(image.levels) for layer in range(image.layers)]
-                vk.vkCmdCopyBufferToImage(buffer, source, created, TARGET_LAYOUT, len(regions), regions)
-            self._transition(buffer, created, image, TARGET_LAYOUT, GENERAL_LAYOUT if image.usage & STORAGE else READ_LAYOUT)
-            submitter.end()
-        finally:
-            submitter.close()
-            staging.close()
-
-    def _transition(self, buffer: Any, created: Any, image: Image, before: int, after: int) -> None:
-        vk = self.vk
-        whole = vk.VkImageSubresourceRange(aspectMask=image.aspects, levelCount=image.levels, layerCount=image.layers)
-        barrier = vk.VkImageMemoryBarrier(
-            srcAccessMask=0x1000 if before else 0, dstAccessMask=0x18000, oldLayout=before, newLayout=after,
-            srcQueueFamilyIndex=0xFFFFFFFF, dstQueueFamilyIndex=0xFFFFFFFF, image=created, subresourceRange=whole,
-        )  # fmt: skip
-        vk.vkCmdPipelineBarrier(buffer, COMMANDS, COMMANDS, 0, 0, None, 0, None, 1, [barrier])
 
 
 FORMAT_D32 = 126
@@ -210,18 +172,3 @@ def texel(format: int) -> bytes:
         return b"".join(struct.pack("=e" if bits == 16 else "=f", 0.5) for bits in widths)
     value = 1 if described.numeric in ("SINT", "UINT") else 0
     return b"".join((value or 1 << bits - 2).to_bytes(bits // 8, "little") for bits in widths)
-
-
-def _clear_value(vk: Any, image: Image) -> Any:
-    if image.numeric in ("SINT", "UINT"):
-        return vk.VkClearColorValue(**{"uint32" if image.numeric == "UINT" else "int32": [1] * 4})
-    return vk.VkClearColorValue(float32=[0.5] * 4)
-
-
-def _region(vk: Any, image: Image, level: int, layer: int) -> Any:
-    return vk.VkBufferImageCopy(
-        bufferRowLength=image.width,
-        bufferImageHeight=image.height,
-        imageSubresource=vk.VkImageSubresourceLayers(aspectMask=image.aspects, mipLevel=level, baseArrayLayer=layer, layerCount=1),
-        imageExtent=vk.VkExtent3D(max(image.width >> level, 1), max(image.height >> level, 1), max(image.depth >> level, 1)),
-    )

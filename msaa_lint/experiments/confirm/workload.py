@@ -6,10 +6,10 @@ import random
 import struct
 from typing import Any
 
-from .layouts import COLOR_OUTPUT, SHADERS, TRANSFER
+from .device_images import create_image, fill
 from .opening import DeviceObjects, OpenDevice
-from .parts import COLOR, READ_LAYOUT, SAMPLED, TARGET_LAYOUT, TRANSFER_TARGET, UNDEFINED
-from .submit import Submitter
+from .parts import COLOR, READ_LAYOUT, SAMPLED, TRANSFER_TARGET, Descriptor, Image
+from .shader_resources import SAMPLER, resources
 from .timed import Work
 
 TEXEL = 4
@@ -18,9 +18,6 @@ TEXEL = 4
 FORMAT = 37
 
 MIN_SIDE = 16
-
-SOURCE_BUFFER = 0x1
-"""VK_BUFFER_USAGE_TRANSFER_SRC_BIT."""
 
 
 def side(footprint: int) -> int:
@@ -60,9 +57,7 @@ class Workload(DeviceObjects):
         self.own(vk.vkDestroyDescriptorPool, pool)
         layouts = [self.opened.layout("shaded")[1]]
         descriptor_set = vk.vkAllocateDescriptorSets(handle, vk.VkDescriptorSetAllocateInfo(descriptorPool=pool, pSetLayouts=layouts))[0]
-        sampler = self.own(
-            vk.vkDestroySampler, vk.vkCreateSampler(handle, vk.VkSamplerCreateInfo(magFilter=1, minFilter=1, maxLod=0.0), None)
-        )
+        sampler = resources(self.opened).sampler(Descriptor(0, 0, SAMPLER))
         image = vk.VkDescriptorImageInfo(sampler=sampler, imageView=self._texture(texels), imageLayout=READ_LAYOUT)
         write = vk.VkWriteDescriptorSet(dstSet=descriptor_set, dstBinding=0, descriptorCount=1, descriptorType=1, pImageInfo=[image])
         vk.vkUpdateDescriptorSets(handle, 1, [write], 0, None)
@@ -70,47 +65,10 @@ class Workload(DeviceObjects):
 
     def _texture(self, texels: int) -> Any:
         """A view of a texture of random texels, which no hardware compresses."""
-        vk, handle = self.vk, self.opened.handle
-        create = vk.VkImageCreateInfo(
-            imageType=1, format=FORMAT, extent=vk.VkExtent3D(texels, texels, 1), mipLevels=1, arrayLayers=1, samples=1,
-            usage=SAMPLED | TRANSFER_TARGET,
-        )  # fmt: skip
-        image = vk.vkCreateImage(handle, create, None)
-        needs = vk.vkGetImageMemoryRequirements(handle, image)
-        kind = self.opened.memory_type(needs.memoryTypeBits, 0x1)
-        memory = self.own(
-            vk.vkFreeMemory, vk.vkAllocateMemory(handle, vk.VkMemoryAllocateInfo(allocationSize=needs.size, memoryTypeIndex=kind), None)
-        )
-        self.own(vk.vkDestroyImage, image)
-        vk.vkBindImageMemory(handle, image, memory, 0)
-        self._fill(image, texels)
-        whole = vk.VkImageSubresourceRange(aspectMask=COLOR, levelCount=1, layerCount=1)
-        view = vk.VkImageViewCreateInfo(image=image, viewType=1, format=FORMAT, subresourceRange=whole)
-        return self.own(vk.vkDestroyImageView, vk.vkCreateImageView(handle, view, None))
-
-    def _fill(self, image: Any, texels: int) -> None:
         vk = self.vk
-        data = random.Random(texels).randbytes(texels * texels * TEXEL)
-        source, memory = self.opened.buffer(data, SOURCE_BUFFER)
-        submitter = Submitter(self.opened)
-        buffer = submitter.begin()
-        self._barrier(buffer, image, (UNDEFINED, 0, 0x1), (TARGET_LAYOUT, 0x1000, TRANSFER))
-        region = vk.VkBufferImageCopy(
-            imageSubresource=vk.VkImageSubresourceLayers(aspectMask=COLOR, layerCount=1), imageExtent=vk.VkExtent3D(texels, texels, 1)
-        )
-        vk.vkCmdCopyBufferToImage(buffer, source, image, TARGET_LAYOUT, 1, [region])
-        self._barrier(buffer, image, (TARGET_LAYOUT, 0x1000, TRANSFER), (READ_LAYOUT, 0x20, SHADERS | COLOR_OUTPUT))
-        submitter.end()
-        submitter.close()
-        vk.vkDestroyBuffer(self.opened.handle, source, None)
-        vk.vkFreeMemory(self.opened.handle, memory, None)
-
-    def _barrier(self, buffer: Any, image: Any, before: tuple[int, int, int], after: tuple[int, int, int]) -> None:
-        """A transition between two states: layout, accesses, and stages."""
-        vk = self.vk
+        image = Image("", FORMAT, 1, SAMPLED | TRANSFER_TARGET, texels, texels, 1, 1, 1, 1, 0, 0, False, COLOR, "UNORM", TEXEL)
+        created = create_image(self, image)
+        fill(self.opened, created, image, random.Random(texels).randbytes(texels * texels * TEXEL), READ_LAYOUT)
         whole = vk.VkImageSubresourceRange(aspectMask=COLOR, levelCount=1, layerCount=1)
-        barrier = vk.VkImageMemoryBarrier(
-            srcAccessMask=before[1], dstAccessMask=after[1], oldLayout=before[0], newLayout=after[0], srcQueueFamilyIndex=0xFFFFFFFF,
-            dstQueueFamilyIndex=0xFFFFFFFF, image=image, subresourceRange=whole,
-        )  # fmt: skip
-        vk.vkCmdPipelineBarrier(buffer, before[2], after[2], 0, 0, None, 0, None, 1, [barrier])
+        view = vk.VkImageViewCreateInfo(image=created, viewType=1, format=FORMAT, subresourceRange=whole)
+        return self.own(vk.vkDestroyImageView, vk.vkCreateImageView(self.opened.handle, view, None))

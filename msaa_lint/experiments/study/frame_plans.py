@@ -30,7 +30,7 @@ from msaa_lint.experiments.confirm.shader_support import supported
 from msaa_lint.frame.description.models import ReadImage, WriteImage
 from msaa_lint.frame.facts.frame import Frame
 
-from .plan_samples import attached, multisampled, supersampled
+from .plan_samples import attached, multisampled, supersampled, unresolved
 from .points import SAMPLE_SHADING, SSAA, Technique
 
 GREATER = (4, 6)
@@ -135,7 +135,7 @@ class FramePlans:
         if side > 1:
             plan = supersampled(plan, self.passes, side)
         whole = self._shaded(plan, technique)
-        return FramePlan(whole, _unresolved(whole, self.passes))
+        return FramePlan(whole, unresolved(whole, self.passes))
 
     def _shaded(self, plan: Plan, technique: Technique) -> Plan:
         """The plan with sample shading on its pipelines if the technique has it, and with shading of a cost where they have no shader."""
@@ -260,16 +260,3 @@ def _clears(frame_pass: Pass) -> bool:
         return all(rendered.load != LOAD for rendered in frame_pass.rendered if rendered.role == "color" and rendered.image != NONE)
     references = [reference for subpass in frame_pass.subpasses for reference in subpass.colors if reference.attachment != NONE]
     return all(frame_pass.attachments[reference.attachment].load != LOAD for reference in references)
-
-
-def _unresolved(plan: Plan, passes: Collection[int]) -> Plan | None:
-    """The plan without the resolves of some passes and of commands, and without scaling down; None where it has none."""
-    changed = list(plan.passes)
-    for number in passes:
-        each = changed[number]
-        rendered = tuple(target._replace(mode=0, resolve_image=NONE) for target in each.rendered)
-        subpasses = tuple(subpass._replace(resolves=(), depth_resolve=(), depth_mode=0, stencil_mode=0) for subpass in each.subpasses)
-        changed[number] = each._replace(rendered=rendered, subpasses=subpasses)
-    steps = tuple(step for step in plan.steps if step.kind != "resolve" and (step.kind != "blit" or step.number not in passes))
-    bare = plan._replace(passes=tuple(changed), steps=steps)
-    return bare if bare != plan else None

@@ -261,3 +261,16 @@ def _left_for_drawing(frame_pass: Pass, images: Sequence[Image]) -> tuple[Attach
         loads = LOAD in (attachment.load, attachment.stencil_load)
         changed.append(attachment._replace(initial=layout if loads else UNDEFINED, final=layout, stencil_initial=NONE, stencil_final=NONE))
     return tuple(changed)
+
+
+def unresolved(plan: Plan, passes: Collection[int]) -> Plan | None:
+    """The plan without the resolves of some passes and of commands, and without scaling down; None where it has none."""
+    changed = list(plan.passes)
+    for number in passes:
+        each = changed[number]
+        rendered = tuple(target._replace(mode=0, resolve_image=NONE) for target in each.rendered)
+        subpasses = tuple(subpass._replace(resolves=(), depth_resolve=(), depth_mode=0, stencil_mode=0) for subpass in each.subpasses)
+        changed[number] = each._replace(rendered=rendered, subpasses=subpasses)
+    steps = tuple(step for step in plan.steps if step.kind != "resolve" and (step.kind != "blit" or step.number not in passes))
+    bare = plan._replace(passes=tuple(changed), steps=steps)
+    return bare if bare != plan else None

@@ -164,9 +164,11 @@ class SceneClock:
     def _scene_plans(self, technique: Technique, size: tuple[int, int]) -> TechniquePlans:
         from msaa_lint.experiments.confirm import plan
 
+        from .plan_samples import unresolved
+
         frame = frame_of(technique, *size, hdr=self.model.hdr, depth=self.model.depth)
         whole = shaded(plan.plan(frame)._replace(vertices=self._path))
-        return TechniquePlans(whole, unresolved(whole))
+        return TechniquePlans(whole, unresolved(whole, range(len(whole.passes))))
 
 
 _WHOLE, _BARE, _OWN = "whole", "bare", "own"
@@ -209,18 +211,6 @@ def own_shaders(plan: Any, stages: tuple[Any, ...]) -> Any:
 def _with_pipelines(plan: Any, change: Callable[[Any], Any]) -> Any:
     passes = (each._replace(pipelines=tuple(map(change, each.pipelines))) for each in plan.passes)
     return plan._replace(passes=tuple(passes))
-
-
-def unresolved(plan: Any) -> Any:
-    """A plan without its resolves and blits; None where it has none."""
-    from msaa_lint.experiments.confirm.parts import NONE as NOTHING
-
-    kept = tuple(step for step in plan.steps if step.kind not in ("resolve", "blit"))
-    passes = tuple(
-        each._replace(rendered=tuple(target._replace(mode=0, resolve_image=NOTHING) for target in each.rendered)) for each in plan.passes
-    )
-    bare = plan._replace(steps=kept, passes=passes)
-    return bare if bare != plan else None
 
 
 def plan_gigabytes(plan: Any) -> tuple[float, float]:
