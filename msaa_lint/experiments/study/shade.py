@@ -40,10 +40,11 @@ def shade(
     """
     if scene.shade is None:
         return np.take(colors, batch.triangle, axis=0)[:, None]
-    shaded = np.empty((len(batch.triangle), len(at), 4), np.float32)
+    # The colors of an invocation are next to each other in memory: they are written at once, and moved at once to their samples.
+    shaded = np.empty((len(at), len(batch.triangle), 4), np.float32)
     for number, (x, y) in enumerate(at):
         column, row = (batch.x + x) / grid, (batch.y + y) / grid
         if moved is not None:
             column, row = column - moved[:, 0], row - moved[:, 1]
-        shaded[:, number] = scene.shade(batch.triangle, column, row)
-    return shaded
+        shaded[number] = scene.shade(batch.triangle, column, row)
+    return shaded.transpose(1, 0, 2)

@@ -125,7 +125,7 @@ class Simulator:
         """Cleared samples."""
         color = np.empty((self.samples, pixels, 4), np.float32)
         background = np.asarray(self.scene.background, np.float32)
-        color[:] = background if self.store is None else self.store[1](background)
+        _pack(color)[:] = _pack(background if self.store is None else self.store[1](background))
         depth = stencil = None
         if self.has("depth-test"):
             clear = effects.clear_depth(self.scene.settings.get("depth-test", "LESS"))
@@ -150,14 +150,16 @@ class Simulator:
             planes = depth_planes(triangles.corners / SUBPIXELS, self.scene.depths[triangles.triangle])
         drawing = Drawing(self.samples, self.pixel_locations, self.sample_groups, self.scene.settings, planes)
         motion = np.array([(part.dx, part.dy) for part in parts])
+        moves = self.scene.shade is not None and bool(motion.any())
         pixel = drawn.y.astype(np.intp) * width + drawn.x
         number_of, in_scene = triangles.triangle.astype(np.int32), -scene_to_stack.astype(np.int32)
         for which in _batches(pixel, drawn.triangle):
             number = drawn.triangle[which]
-            shift = in_scene[0] if len(parts) == 1 else in_scene[triangles.part[number]].T
+            part = 0 if len(parts) == 1 else triangles.part[number]
+            shift = in_scene[part].T
             batch = Batch(number_of[number], pixel[which], drawn.x[which] + shift[0], drawn.y[which] + shift[1], drawn.mask[which])
             batch.plane = number
-            moved = motion[triangles.part[number]] if motion.any() else None
+            moved = np.broadcast_to(motion[part], (len(number), 2)) if moves else None
             with self.times.stage(effects.SAMPLE_SHADING):
                 batch.color = shade(self.scene, batch, self.shading_positions, grid, self.colors, moved)
             for name, stage in self.fragment_stages:
@@ -229,8 +231,10 @@ class Simulator:
 
 
 def _pack(color: Floats) -> NDArray[np.complex128]:
-    """Colors (..., 4) as (...), each in one number of the same size, which NumPy moves faster."""
-    texels: NDArray[np.complex128] = np.ascontiguousarray(color).view(np.complex128)[..., 0]
+    """Colors (..., 4) as (...), each in one number of the same size, which NumPy moves faster; in the same memory if a color's
+    components are adjacent."""
+    adjacent = color if color.strides[-1] == color.itemsize else np.ascontiguousarray(color)
+    texels: NDArray[np.complex128] = adjacent.view(np.complex128)[..., 0]
     return texels
 
 

@@ -28,10 +28,10 @@ def zone_plate(width: int, height: int, display: Display | None = None) -> Scene
     triangles = shapes.triangles([shapes.rectangle(0, 0, width, height)])
 
     def shade(triangle: NDArray[np.int32], x: Floats, y: Floats) -> Floats:
-        value = 0.5 + 0.5 * np.cos(k * ((x - x0) ** 2 + (y - y0) ** 2))
-        color = np.ones((*value.shape, 4))
-        color[..., :3] = value[..., None]
-        return color
+        phase = np.asarray(k * ((x - x0) ** 2 + (y - y0) ** 2))
+        color = np.ones((4, *phase.shape))
+        color[:3] = 0.5 + 0.5 * np.cos(phase, out=phase)
+        return np.moveaxis(color, 0, -1)
 
     def exact(view: View) -> Truth:
         across, wave_x = _wave(k, [(part.left, part.dx) for part in view.parts], view.parts[0].width, width)
