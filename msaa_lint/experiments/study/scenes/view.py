@@ -63,15 +63,15 @@ class Snapped(NamedTuple):
 def snapped(triangles: Floats, parts: Sequence[Part], grid: int = 1, bits: int = 8) -> Snapped:
     """Those of a scene's triangles (T, 3, 2) that are near parts of one size, snapped to 2^-bits pixels of a picture rendered `grid` times
     as wide and as high. A moved scene is snapped after it has moved, as on a device."""
-    low, high = triangles.min(axis=1, initial=np.inf), triangles.max(axis=1, initial=-np.inf)
+    low, high = _bounds(triangles)
     motion = np.array([(part.dx, part.dy) for part in parts])
     # Snapping moves corners by at most half a pixel.
     margin = 1 + float(np.abs(motion).max())
     near: dict[tuple[int, int], NDArray[np.intp]] = {}
     for left, top, width, height, _, _ in parts:
         if (left, top) not in near:
-            begin, end = (left - margin, top - margin), (left + width + margin, top + height + margin)
-            near[left, top] = np.flatnonzero(((low < end) & (high > begin)).all(axis=1))
+            across = (low[0] < left + width + margin) & (high[0] > left - margin)
+            near[left, top] = np.flatnonzero(across & (low[1] < top + height + margin) & (high[1] > top - margin))
     lists = [near[part.left, part.top] for part in parts]
     triangle = np.concatenate(lists)
     number = np.repeat(np.arange(len(parts)), [len(each) for each in lists])
@@ -79,6 +79,20 @@ def snapped(triangles: Floats, parts: Sequence[Part], grid: int = 1, bits: int =
     if motion.any():
         corners = corners + motion[number][:, None]
     return Snapped(parts, triangle, number, snap.snapped(corners * grid, bits), grid)
+
+
+def _bounds(triangles: Floats) -> tuple[Floats, Floats]:
+    """The least and the greatest coordinates of triangles (T, 3, 2), each (2, T). The last ones are cached, for all parts of a scene."""
+    for cached, low, high in _BOUNDS:
+        if cached is triangles:
+            return low, high
+    a, b, c = (np.ascontiguousarray(triangles[:, corner].T) for corner in range(3))
+    low, high = np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
+    _BOUNDS[:] = [(triangles, low, high)]
+    return low, high
+
+
+_BOUNDS: list[tuple[Floats, Floats, Floats]] = []
 
 
 def whole(triangles: Floats, width: int, height: int) -> View:
