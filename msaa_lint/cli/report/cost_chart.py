@@ -76,7 +76,8 @@ def chart(bars: Sequence[Bar], heading: str, subheading: str, cost: FrameCost) -
     y = altair.Y("row:O", axis=None, scale=altair.Scale(domain=list(range(rows[-1] + 1 if rows else 1)), paddingInner=0.25))
 
     def x(field: str) -> Any:
-        axis = altair.Axis(labelExpr="format(datum.value, ',~f')", tickCount=6)
+        # The bars have figures beside them, which lines would cross.
+        axis = altair.Axis(labelExpr="format(datum.value, ',~f')", tickCount=6, grid=False)
         return altair.X(field, type="quantitative", title=units, scale=altair.Scale(domain=[0, longest], nice=False), axis=axis)
 
     color = altair.Color(

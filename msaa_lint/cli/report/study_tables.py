@@ -42,7 +42,9 @@ def figure(value: float | None, digits: str) -> str:
         return "-"
     if math.isinf(value):
         return "exact" if value > 0 else "-"
-    return format(value, digits if abs(value) < 1e7 else ".3g")
+    text = format(value, digits if abs(value) < 1e7 else ".3g")
+    # What is rounded to zero has no sign of its own.
+    return text.replace("-", "+") if "+" in digits and not float(text) else text
 
 
 def _count(value: int | None) -> str:

@@ -217,6 +217,8 @@ def test_what_is_no_number_or_infinite_is_null() -> None:
     assert math.copysign(1, found["bias"]) == 1
     shown = printed(as_text, study(points=[odd]), Options(width=160))
     assert "exact" in shown
+    below = printed(as_text, study(points=[odd._replace(bias=-0.00004)]), Options(width=160))
+    assert "+0.0000" in below and "-0.0000" not in below
 
 
 def test_without_a_device_no_time_is_shown_as_one() -> None:
