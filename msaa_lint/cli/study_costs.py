@@ -123,10 +123,14 @@ def subject_costs(
                     shadings = [Shading(AS_DESCRIBED)]
                 else:
                     shadings = _shadings(subject, request, calibration, stages, size, bool(arguments.get("record")))
+                notes = []
+                if plans is not None:
+                    model = CostModel(subject.device, described=subject.frame)
+                    notes += [*plans.notes, _priced(subject.frame)]
                 with _source(subject, request, clock, model, stages, plans) as source:
                     timed = costs(techniques, shadings, size, source, checkpoint)
-                notes = (*(plans.notes if plans is not None else ()), *_fewer_rounds(timed, arguments))
-                found[subject.input.name] = SubjectCosts(shadings, timed, notes)
+                notes += _fewer_rounds(timed, arguments)
+                found[subject.input.name] = SubjectCosts(shadings, timed, tuple(notes))
         if clock is None:
             return AllCosts(found)
         return AllCosts(found, clock.name, clock.software, clock.unstable)
@@ -145,6 +149,15 @@ def _shadings(
     if stages:
         shadings.append(calibration.measured(os.path.basename(request.shader), stages, size))
     return shadings
+
+
+def _priced(frame: Any) -> str:
+    """A note on what the cost model estimates for a frame."""
+    from msaa_lint.experiments.study.frame_plans import described_size
+
+    size = described_size(frame)
+    stated = f", {size[0]}x{size[1]}" if size is not None else ""
+    return f"bytes, power, and memory are those of the frame at its described size{stated}, with a technique's sample count"
 
 
 def _fewer_rounds(timed: Costs, arguments: Arguments) -> list[str]:

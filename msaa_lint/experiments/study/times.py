@@ -8,9 +8,11 @@ from typing import Any, NamedTuple, Protocol
 
 from msaa_lint.frame.cost.amounts import Terms
 from msaa_lint.frame.cost.model import frame_cost
+from msaa_lint.frame.cost.samples import is_multisampled, remove_multisampling, set_samples
 from msaa_lint.frame.devices import DeviceProfile
+from msaa_lint.frame.facts.frame import Frame
 
-from .points import Technique
+from .points import SSAA, Technique
 from .shading import Shading
 from .technique_frames import frame_of
 
@@ -66,20 +68,46 @@ class CostSource(Protocol):
 class CostModel:
     """The cost model alone: bytes, memory and power of a device's traffic with external memory, and no time.
 
-    Traffic is one of many things that determine the time of a frame, so the model does not estimate it.
+    Traffic is one of many things that determine the time of a frame, so the model does not estimate it. With `described`, the traffic is
+    that of a described frame at its own size with a technique's sample count, otherwise that of a single pass.
     """
 
     name = ""
 
-    def __init__(self, device: DeviceProfile | None = None, *, hdr: bool = False, depth: bool = False, fps: float = 60.0) -> None:
-        self.device = device
+    def __init__(
+        self,
+        device: DeviceProfile | None = None,
+        *,
+        hdr: bool = False,
+        depth: bool = False,
+        fps: float = 60.0,
+        described: Frame | None = None,
+    ) -> None:
+        self.device, self.described = device, described
         self.hdr, self.depth, self.fps = hdr, depth, fps
 
     def of(self, technique: Technique, width: int, height: int) -> Cost:
         """Bytes per frame, milliwatts, MiB."""
+        if self.described is not None:
+            return self._of_described(self.described, technique)
         frame = frame_of(technique, width, height, hdr=self.hdr, depth=self.depth, fps=self.fps)
         total = frame_cost(frame, self.device, Terms(fps=self.fps)).total
         return Cost(None, round(total.traffic_mb_per_s * 1e6 / self.fps), total.milliwatts, total.memory_mib)
+
+    def _of_described(self, described: Frame, technique: Technique) -> Cost:
+        """The same of a described frame; unknown for supersampling and for samples that it does not have, as its description has no images
+        for them, and where it leaves out what traffic depends on."""
+        frame = Frame(described.document)
+        if technique.kind == SSAA or (technique.samples > 1 and not is_multisampled(frame)):
+            return Cost()
+        if technique.samples == 1:
+            remove_multisampling(frame)
+        else:
+            set_samples(frame, technique.samples)
+        found = frame_cost(frame, self.device)
+        if found.unknown:
+            return Cost()
+        return Cost(None, round(found.total.traffic_mb_per_s * 1e6 / found.fps), found.total.milliwatts, found.total.memory_mib)
 
     def costs(self, techniques: Sequence[Technique], shadings: Sequence[Shading], size: tuple[int, int]) -> Costs:
         """The same under each cost of shading."""

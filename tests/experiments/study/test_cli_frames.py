@@ -37,7 +37,8 @@ def test_a_forward_frame_is_timed_as_it_is(tmp_path: Path) -> None:
     the passes of the techniques alone."""
     data = studied(tmp_path, str(EXAMPLES / "phone/forward.msaa.yaml"), *ON_LAVAPIPE, "--shading", "none,200ops")
     (scene,) = data["scenes"]
-    assert scene["assumed"] == ["the techniques apply to scene"]
+    priced = "bytes, power, and memory are those of the frame at its described size, 1080x2400, with a technique's sample count"
+    assert scene["assumed"] == ["the techniques apply to scene", priced]
     assert scene["says"].startswith("what the description calls for: mesh (triangles have ")
     assert (data["untimed"], data["failed"], data["errors"]) == ([], [], [])
     points = {(point["name"], point["shading"]): point for point in data["points"]}
@@ -53,6 +54,18 @@ def test_a_capture_is_timed_as_it_is(tmp_path: Path) -> None:
     (scene,) = data["scenes"]
     assert any(note.startswith("the techniques apply to ") for note in scene["assumed"])
     assert [(point["name"], point["time_ms"] is not None) for point in data["points"]] == [("1x", True), ("4x", True)]
+
+
+def test_the_bytes_of_a_frame_are_those_of_its_passes(tmp_path: Path) -> None:
+    """What `cost` says of the frame as written is what a study says of its sample count; supersampling is not described."""
+    path = str(EXAMPLES / "phone/forward.msaa.yaml")
+    data = studied(tmp_path, path, *ON_LAVAPIPE, "--shading", "none")
+    done = run(tmp_path, "cost", path, "--isolated", "--output", "json")
+    total = json.loads(done.stdout)["total"]
+    points = {point["name"]: point for point in data["points"]}
+    assert points["4x"]["milliwatts"] == pytest.approx(total["milliwatts"], abs=0.01)
+    assert points["4x"]["bytes_per_frame"] == pytest.approx((total["read_mb_per_s"] + total["write_mb_per_s"]) * 1e6 / 60)
+    assert points["SSAA 2x2"]["bytes_per_frame"] is None
 
 
 def test_a_frame_with_shaders_has_their_cost(tmp_path: Path) -> None:
