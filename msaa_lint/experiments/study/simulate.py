@@ -30,6 +30,9 @@ T = TypeVar("T", bound=np.generic)
 BAND_SAMPLES = 1 << 19
 """Approximate number of samples in a band: 8 MiB of color."""
 
+BAND_MIN_DENSITY = 4
+"""Bands with fewer samples per pixel than this are no higher than with this many: their exact pictures take most of the memory."""
+
 BAND_ROWS = 16
 """The height of a band is a multiple of this where more rows fit: exact pictures are made of tiles of as many rows."""
 
@@ -99,7 +102,7 @@ class Simulator:
     def bands(self) -> Iterator[Part]:
         """The picture in bands of rows."""
         width, height = self.scene.width, self.scene.height
-        step = max(BAND_SAMPLES // (width * self.grid * self.grid * self.samples), 1)
+        step = max(BAND_SAMPLES // (width * max(self.grid * self.grid * self.samples, BAND_MIN_DENSITY)), 1)
         if step > BAND_ROWS:
             step -= step % BAND_ROWS
         for top in range(0, height, step):
