@@ -6,9 +6,7 @@ lavapipe's time is by its own clock, of a pass that clears, draws and resolves; 
 
 from __future__ import annotations
 
-import os
 import sys
-import tempfile
 import time
 
 import numpy as np
@@ -18,8 +16,11 @@ from msaa_lint.experiments.study.coverage import rows
 from msaa_lint.experiments.study.fragments import fragments
 from msaa_lint.experiments.study.locations import SUBPIXELS, standard
 from msaa_lint.experiments.study.points import MSAA, Technique
-from msaa_lint.experiments.study.scene_timing import clip
-from msaa_lint.experiments.study.times import DeviceClock
+from msaa_lint.experiments.study.scene_timing import SceneClock
+from msaa_lint.experiments.study.scenes import area, shapes
+from msaa_lint.experiments.study.scenes.scene import WHITE, Scene
+from msaa_lint.experiments.study.shading import Shading
+from msaa_lint.experiments.study.times import CostModel, DeviceClock
 
 
 def simulate(triangles: np.ndarray, samples: int, rounds: int) -> float:
@@ -36,15 +37,17 @@ def main() -> int:
     """Measures and prints."""
     rounds = int(sys.argv[1]) if len(sys.argv) > 1 else 7
     print("| scene | samples | simulation, ms | lavapipe, ms | ratio |\n|---|---:|---:|---:|---:|")
-    with tempfile.TemporaryDirectory() as folder, DeviceClock(None, repeats=rounds) as clock:
+    techniques, none = [Technique(MSAA, samples) for samples in (1, 4)], Shading("none")
+    with DeviceClock(None, repeats=rounds) as clock:
         for name, triangles in (("one large triangle", LARGE), ("20,000 small triangles", small())):
-            path = os.path.join(folder, name)
-            clip(triangles / SUBPIXELS, WIDTH, HEIGHT).tofile(path)
-            for samples in (1, 4):
-                own = simulate(triangles, samples, rounds)
-                device = clock.of(Technique(MSAA, samples), WIDTH, HEIGHT, path).time_ms
+            colors = shapes.uniform_colors(len(triangles), WHITE)
+            scene = Scene(WIDTH, HEIGHT, triangles / SUBPIXELS, colors, area.disjoint(colors))
+            with SceneClock(clock, scene, CostModel()) as source:
+                costs = source.costs(techniques, [none], (WIDTH, HEIGHT))
+            for technique in techniques:
+                own, device = simulate(triangles, technique.samples, rounds), costs[technique, none.name].time_ms
                 assert device is not None, clock.name
-                print(f"| {name} | {samples} | {own:.1f} | {device:.1f} | {own / device:.2f} |")
+                print(f"| {name} | {technique.samples} | {own:.1f} | {device:.1f} | {own / device:.2f} |")
     return 0
 
 
