@@ -157,7 +157,9 @@ def _summary(study: Study) -> Iterator[str]:
             if scene.measure != ERROR:
                 yield f"{display(scene.name)} is about {', '.join(scene.about)}: its techniques are compared by {scene.measure.name}"
         model = f" for {display(study.model)}" if study.model else ""
-        yield f"bytes, power, and memory: the cost model{model}, with samples kept on the tile"
+        # Only frames that are timed have assumptions.
+        own = "; those of a timed frame are of its own passes" if any(scene.assumed for scene in study.scenes) else ""
+        yield f"bytes, power, and memory: the cost model{model}, with samples kept on the tile{own}"
     names: dict[str, list[str]] = {}
     for untimed in study.untimed:
         names.setdefault(untimed.reason, []).append(untimed.name)
