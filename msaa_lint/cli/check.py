@@ -185,6 +185,7 @@ def _render(format: str, outcome: Outcome, arguments: Arguments, out: IO[str]) -
         show_suppressed=bool(arguments.get("show_suppressed")),
         fail_confidence=outcome.settings.fail_confidence,
         explain_undecided=bool(arguments.get("explain_undecided")),
+        docs_url=outcome.settings.docs_url,
     )
     if arguments.get("statistics") and text and out in (sys.stdout, sys.stderr) and outcome.result.findings:
         from .report import statistics

@@ -16,6 +16,7 @@ from msaa_lint.core.package import VERSION
 from msaa_lint.core.project import resolved
 from msaa_lint.core.quote import quoted
 
+from .hyperlinks import shows_hyperlinks
 from .options import Arguments
 from .progress import capture_progress
 from .report import Options
@@ -286,9 +287,12 @@ def input_options(arguments: Arguments) -> dict[str, Any]:
 
 
 def report_options(arguments: Arguments, out: IO[str], *, color: bool = True, width: int = 80) -> Options:
-    """How to print to a stream: in color only if `color` is true, `width` cells unless COLUMNS or a terminal states another number."""
+    """How to print to a stream: in color and with links only if `color` is true, `width` cells unless COLUMNS or a terminal states another
+    number."""
+    colored = color and use_color(arguments.get("color", "auto"), out.isatty())
     return Options(
-        color=color and use_color(arguments.get("color", "auto"), out.isatty()),
+        color=colored,
+        hyperlinks=colored and shows_hyperlinks(out),
         width=output_width(out, width),
         version=VERSION,
         quiet=bool(arguments.get("quiet")),

@@ -44,6 +44,9 @@ fail-on = "warning"
 # Pages with custom rules, or folders of pages.
 # rules = ["ci/msaa-rules"]
 
+# Where the documentation is, if it is published elsewhere: reports link to its pages of rules.
+# docs-url = "https://example.com/msaa-lint"
+
 # exclude = ["third_party/**"]
 # baseline = "msaa-lint-baseline.json"
 

@@ -22,7 +22,8 @@ class Options(NamedTuple):
     `step_summary` is the file that the GitHub output appends a table to: None uses GITHUB_STEP_SUMMARY, empty writes none.
     `fail_confidence` is the confidence that findings need to fail the run; summaries count those below it. `explain_undecided` lists the
     keys that undecided rules lack. `quiet` leaves out summaries and remarks; `verbose` adds to the text of `confirm` what only msaa-lint
-    reports, and noise of the layer.
+    reports, and noise of the layer. `docs_url` is the address of the documentation, whose pages of rules are linked to (empty: none);
+    `hyperlinks` says that the stream is a terminal that shows text as a link (OSC 8).
     """
 
     color: bool = False
@@ -39,6 +40,8 @@ class Options(NamedTuple):
     explain_undecided: bool = False
     quiet: bool = False
     verbose: bool = False
+    docs_url: str = ""
+    hyperlinks: bool = False
 
 
 def render(name: str, result: Result, out: Write, options: Options) -> None:

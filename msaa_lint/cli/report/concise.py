@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from msaa_lint.core.finding import Finding, Result
+from msaa_lint.linter.rules.reference_links import rule_address
 
 from . import Options, Write
-from .color import BOLD, SEVERITY, paint
+from .color import BOLD, SEVERITY, hyperlink, paint
 from .escape import display
 from .paths import display_path
 from .place import place
@@ -23,8 +24,13 @@ def render(result: Result, out: Write, options: Options) -> None:
 def line(finding: Finding, result: Result, options: Options) -> str:
     """A finding on one line."""
     where = location(finding, result, options)
-    kind = paint(f"{finding.severity}[{display(finding.rule)}]", SEVERITY[finding.severity], options.color)
-    return f"{paint(where, BOLD, options.color)}: {kind} {display(finding.message)} ({display(finding.code)})"
+    return f"{paint(where, BOLD, options.color)}: {kind(finding, options)} {display(finding.message)} ({display(finding.code)})"
+
+
+def kind(finding: Finding, options: Options) -> str:
+    """The severity and the rule of a finding, as a link to the rule's page on a terminal that shows links."""
+    address = rule_address(options.docs_url, finding.code, finding.rule) if options.hyperlinks else ""
+    return paint(f"{finding.severity}[{hyperlink(display(finding.rule), address)}]", SEVERITY[finding.severity], options.color)
 
 
 def location(finding: Finding, result: Result, options: Options) -> str:

@@ -9,7 +9,7 @@ from msaa_lint.core.text.span import Label
 
 from . import Options, Write
 from .color import BOLD, SECONDARY, SEVERITY, paint
-from .concise import location, render_end
+from .concise import kind, location, render_end
 from .escape import display
 from .excerpt import MAX_MARKS, Mark, excerpt
 from .paths import display_path
@@ -27,8 +27,7 @@ def render(result: Result, out: Write, options: Options) -> None:
 
 def paragraph(finding: Finding, result: Result, options: Options, rules: Set[str]) -> str:
     """One finding, without a line end after its last line. `rules` are the names that `msaa-lint rule` knows."""
-    kind = paint(f"{finding.severity}[{display(finding.rule)}]", SEVERITY[finding.severity], options.color)
-    head = f"{kind}{paint(': ' + display(finding.message), BOLD, options.color)}"
+    head = f"{kind(finding, options)}{paint(': ' + display(finding.message), BOLD, options.color)}"
     digits, lines = 1, list[str]()
     source = result.sources.get(finding.file)
     if finding.span is not None and source is not None:

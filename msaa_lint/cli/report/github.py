@@ -7,6 +7,7 @@ import os
 from msaa_lint.core.diagnostics import diagnostic
 from msaa_lint.core.finding import Finding, InputSummary, Result, rank
 from msaa_lint.core.text.source import Source
+from msaa_lint.linter.rules.reference_links import rule_address
 
 from . import Options, Write
 from .escape import display, escape
@@ -64,7 +65,11 @@ def _command(finding: Finding, result: Result, options: Options) -> str:
         properties |= _region(source, finding.span.start, finding.span.end)
     properties["title"] = f"{display(finding.rule)} ({display(finding.code)})"
     remedy = finding.help or (finding.fix.title if finding.fix else "")
-    remarks = (("price" if is_choice(finding) else "cost", price_text(finding)), ("help", display(remedy)))
+    remarks = (
+        ("price" if is_choice(finding) else "cost", price_text(finding)),
+        ("help", display(remedy)),
+        ("docs", rule_address(options.docs_url, finding.code, finding.rule)),
+    )
     lines = [display(finding.message), *(f"{word}: {text}" for word, text in remarks if text)]
     joined = ",".join(f"{name}={_property(str(value))}" for name, value in properties.items())
     return f"::{_LEVEL[finding.severity]} {joined}::{_data(chr(10).join(lines))}"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from msaa_lint.core.finding import Finding, Result
+from msaa_lint.linter.rules.reference_links import rule_address
 
 from . import Options, Write
 from .data import write_list
@@ -31,6 +32,7 @@ def _issue(finding: Finding, name: str, result: Result, options: Options) -> dic
     else:
         location["lines"] = {"begin": 1}
     price = price_text(finding)
+    address = rule_address(options.docs_url, finding.code, finding.rule)
     return {
         # GitLab does not show check_name.
         "description": f"{display(finding.rule)}: {display(finding.message)}" + (f" ({price})" if price else ""),
@@ -38,4 +40,6 @@ def _issue(finding: Finding, name: str, result: Result, options: Options) -> dic
         "fingerprint": name,
         "severity": _SEVERITY[finding.severity],
         "location": location,
+        # Of Code Climate's format, which GitLab's is a part of.
+        **({"content": {"body": f"[{display(finding.rule)}]({address})"}} if address else {}),
     }

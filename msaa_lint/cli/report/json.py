@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from msaa_lint.core.finding import CaptureSummary, Finding, Fix, InputSummary, Result, Saving, Suppressed, Undecided, Unread
 from msaa_lint.core.text.span import Label, Span
+from msaa_lint.linter.rules.reference_links import rule_address
 
 from . import Options, Write
 from .data import Json, head, text, write_object
@@ -40,6 +41,7 @@ def _finding(finding: Finding, result: Result, options: Options) -> Json:
     return {
         "rule": text(finding.rule),
         "code": text(finding.code),
+        "url": rule_address(options.docs_url, finding.code, finding.rule) or None,
         "severity": finding.severity,
         "confidence": finding.confidence,
         "message": text(finding.message),

@@ -6,6 +6,7 @@ import re
 from collections.abc import Callable, Iterator
 
 from msaa_lint.core.finding import Finding, Result, rank
+from msaa_lint.linter.rules.reference_links import rule_address
 
 from . import Options, Write
 from .escape import display
@@ -37,7 +38,7 @@ def render(result: Result, out: Write, options: Options) -> None:
     out(lines)
     left -= len(lines) + 200
     rules = {rule.name for rule in result.rules}
-    plain = options._replace(color=False, width=100)
+    plain = options._replace(color=False, hyperlinks=False, width=100)
     for done, finding in enumerate(_by_severity(result)):
         details = _details(finding, paragraph(finding, result, plain, rules), result, options)
         if len(details) > left:
@@ -52,8 +53,12 @@ def table(result: Result, options: Options, room: int, size: Callable[[str], int
     room -= size(_TABLE_HEAD) + 100
     yield _TABLE_HEAD
     for done, finding in enumerate(_by_severity(result)):
-        cells = (finding.severity, display(finding.rule), _where(finding, result, options), display(finding.message), price_text(finding))
-        line = f"| {' | '.join(escape_markdown(cell) for cell in cells)} |\n"
+        texts = (finding.severity, display(finding.rule), _where(finding, result, options), display(finding.message), price_text(finding))
+        cells = list(map(escape_markdown, texts))
+        address = rule_address(options.docs_url, finding.code, finding.rule)
+        if address:
+            cells[1] = f"[{cells[1]}](<{address}>)"
+        line = f"| {' | '.join(cells)} |\n"
         room -= size(line)
         if room < 0:
             yield f"\n{plural(len(result.findings) - done, 'more finding')} not shown.\n"

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 from msaa_lint.core.diagnostics import DIAGNOSTICS
 from msaa_lint.core.finding import Finding, Fix, InputSummary, Result, RuleInfo, Suppressed, rank
 from msaa_lint.core.text.span import Span
-from msaa_lint.linter.rules.reference_links import link
+from msaa_lint.linter.rules.reference_links import link, rule_address
 
 from . import Options, Write
 from .data import dump, write_list
@@ -61,7 +61,7 @@ def render(result: Result, out: Write, options: Options) -> None:
         driver[key] = options.version
     out(f'{{\n"$schema": {dump(SCHEMA)},\n"version": "2.1.0",\n"runs": [{{\n')
     out(f'"tool": {{"driver": {{{dump(driver)[1:-1]}, "rules": ')
-    write_list(map(_descriptor, rules), out)
+    write_list((_descriptor(rule, options) for rule in rules), out)
     out("}},\n")
     out('"columnKind": "unicodeCodePoints",\n')
     out(f'"invocations": [{dump(_invocation(result, options, len(numbered) - len(results)))}],\n"results": ')
@@ -91,11 +91,13 @@ def _rules(result: Result, findings: Sequence[Finding]) -> list[RuleInfo]:
     return [rules[code] for code in sorted(rules)]
 
 
-def _descriptor(rule: RuleInfo) -> dict[str, object]:
+def _descriptor(rule: RuleInfo, options: Options) -> dict[str, object]:
     summary = display(rule.summary) or display(rule.name).replace("-", " ").capitalize() or display(rule.code)
     page = escape_lines(rule.markdown.strip()) or summary
+    address = rule_address(options.docs_url, rule.code, rule.name)
     links = [(display(reference), link(reference)) for reference in rule.references]
-    references = "\n".join(f"- {_linked(reference, address)}" for reference, address in links if reference not in page)
+    listed = [_linked(reference, page_address) for reference, page_address in links if reference not in page]
+    references = "\n".join(f"- {text}" for text in [*([f"[Documentation]({address})"] if address else []), *listed])
     tags = ["msaa", "vulkan", *_family(rule)]
     descriptor: dict[str, object] = {
         "id": display(rule.code),
@@ -111,9 +113,9 @@ def _descriptor(rule: RuleInfo) -> dict[str, object]:
             "tags": tags,
         },
     }
-    addresses = [address for _, address in links if address]
-    if addresses:
-        descriptor["helpUri"] = addresses[0]
+    help_uri = next(filter(None, [address, *(page_address for _, page_address in links)]), "")
+    if help_uri:
+        descriptor["helpUri"] = help_uri
     return descriptor
 
 

@@ -1,4 +1,5 @@
-"""The public pages that the references of rules name: a rule page cites a source in words, and this table knows where it is published."""
+"""The public pages of rules, and those that their references name: a rule page cites a source in words, and a table knows where it is
+published."""
 
 from __future__ import annotations
 
@@ -58,3 +59,12 @@ def link(reference: str) -> str:
         if found:
             return found.expand(page)
     return ""
+
+
+def rule_address(docs_url: str, code: str, name: str) -> str:
+    """The address of the page of a rule on the site of the documentation, whose address is `docs_url`.
+
+    Empty if that is, and for what has no page there: the user's own rules, whose codes cannot begin with MSAA, and diagnostics (9xx).
+    """
+    has_page = re.match("MSAA[0-8]", code) and re.fullmatch("[a-z0-9-]+", name)
+    return f"{docs_url}/rules/{name}/" if docs_url and has_page else ""

@@ -29,6 +29,10 @@ MAX_FINDINGS = 50
 """Of one file."""
 
 SELECTOR = re.compile(r"[A-Za-z][A-Za-z0-9-]{0,99}\Z")
+WEB_ADDRESS = re.compile(r"https?://[A-Za-z0-9][A-Za-z0-9.-]*(:[0-9]{1,5})?(/[A-Za-z0-9._~!$&'()*+,;=:@%-]*)*")
+"""Of a site or folder: no user name, query, or fragment, so that a page's path can follow it."""
+
+MAX_ADDRESS = 500
 _TYPE_NAMES = {str: "a string", bool: "a boolean", int: "a number", float: "a number", list: "a list", dict: "a table"}
 
 Path = tuple[str | int, ...]
@@ -229,6 +233,18 @@ class TableReader:
             return None
         return self.project_path(path, text)
 
+    def docs_url(self, path: Path, value: Any) -> str | None:
+        """The address of a site, without a slash at its end; empty for no links."""
+        expected = "the address of the documentation, such as https://example.com/msaa-lint"
+        if value == "":
+            return ""
+        text = self.string(path, value, expected)
+        if text is None or (len(text) <= MAX_ADDRESS and WEB_ADDRESS.fullmatch(text)):
+            return text and text.rstrip("/")
+        hint = f"expected {expected}, of at most {MAX_ADDRESS} characters, without user name, query, and fragment; or an empty string"
+        self.problem(path, f"{quoted(text)} is not an http or https address", hint)
+        return None
+
     def flag(self, path: Path, value: Any) -> bool | None:
         return bool(value) if self.has_type(path, value, bool, "true or false") else None
 
@@ -309,5 +325,6 @@ KEYS: dict[str, Callable[[TableReader, Path, Any], Any]] = {
     "limits": TableReader.limits,
     "source": TableReader.source,
     "output": TableReader.outputs,
+    "docs-url": TableReader.docs_url,
 }
 """The method that reads each key; None from it leaves the key unset."""

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from msaa_lint.core.diagnostics import diagnostic
 from msaa_lint.core.finding import Finding
 from msaa_lint.core.globs import Glob
+from msaa_lint.core.package import DOCUMENTATION
 from msaa_lint.core.project import project_root
 
 if TYPE_CHECKING:
@@ -60,7 +61,8 @@ class Settings(NamedTuple):
 
     Results: `fail_on` is the lowest severity that makes the exit code 1, and `fail_on_cost` the cost that does (50MB/s); both count only
     findings with a confidence of at least `fail_confidence`. `min_severity` is the lowest severity to report, `output` the output formats
-    (empty: the command's default), `baseline` the path of the baseline.
+    (empty: the command's default), `baseline` the path of the baseline. `docs_url` is the address of the documentation, without a slash at
+    its end, whose pages of rules reports link to (empty: no links).
 
     Inputs: files that match `exclude` are not linted. In folders, only files that match `include` are (empty: files with the usual
     endings and files that contain a frame), and with `respect_gitignore` none that .gitignore ignores. `strict_inputs` makes an input
@@ -90,6 +92,7 @@ class Settings(NamedTuple):
     source: Mapping[str, bool | int | str] = {}
     limits: Mapping[str, int] = {}
     output: tuple[str, ...] = ()
+    docs_url: str = DOCUMENTATION
     root: str = ""
     command_line: Choice = Choice()
     origin: Mapping[tuple[str, ...], Origin] = {}
