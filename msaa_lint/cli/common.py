@@ -138,7 +138,7 @@ def _unwind_on_signals() -> dict[int, Any]:
 
 def parse_outputs(texts: Sequence[str], formats: Sequence[str], example: str) -> list[Target]:
     """The targets that values of `--output` name. UsageError for an unknown format, and if two go to standard output; `example` is a value
-    with a file."""
+    with a file, and if the extra `html` is not installed but needed."""
     targets = []
     for text in texts:
         name, equals, path = text.partition("=")
@@ -147,6 +147,8 @@ def parse_outputs(texts: Sequence[str], formats: Sequence[str], example: str) ->
 
             raise UsageError(f"unknown output format {quoted(name)}: {near_or_all(name, formats)}")
         targets.append(Target(name, path if equals and path not in ("", "-", "/dev/stdout") else None))
+    if find_spec("jinja2") is None and any(target.format == "html" for target in targets):
+        raise UsageError(needs_extra("--output html", "html"))
     if sum(target.path is None for target in targets) > 1:
         raise UsageError(f"only one output can go to standard output; write the others to files, as in --output {example}")
     return targets
@@ -311,8 +313,8 @@ def output_width(out: IO[str], width: int = 80) -> int:
 
 
 def report_module(command: str, format: str) -> Any:
-    """The module that prints a command's result in a format. It is imported only if it prints: tables take rich."""
-    return import_module(f".report.{command}_{format}", __package__)
+    """The module that prints a command's result in a format. It is imported only if it prints: tables take rich, pages jinja2."""
+    return import_module(f".report.html.{command}" if format == "html" else f".report.{command}_{format}", __package__)
 
 
 def use_color(mode: str, terminal: bool) -> bool:
