@@ -53,6 +53,14 @@ def check(arguments: Arguments) -> int:
 
 
 def _check(arguments: Arguments) -> int:
+    if arguments.get("watch"):
+        from .watch import watch
+
+        return watch(arguments, request(arguments), _check_once)
+    return _check_once(arguments)
+
+
+def _check_once(arguments: Arguments) -> int:
     targets = parse_outputs(arguments.get("output", ()), OUTPUT_FORMATS, EXAMPLE)
     refuse_inputs([target.path for target in targets], arguments["paths"])
     fallback = "full" if sys.stdout.isatty() else "concise"

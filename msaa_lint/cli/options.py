@@ -189,6 +189,7 @@ COMMANDS = {
                 _output(*OUTPUT_FORMATS, default="full; concise in a pipe"),
                 Option("sort", "choice", "Order of the findings.", "ORDER", choices=("place", "price"), default="place"),
                 Option("statistics", "flag", "Print counts and costs by rule instead of findings."),
+                Option("watch", "flag", "Check again whenever an input, the configuration, or a rule page changes (extra `watch`)."),
                 Option("explain_undecided", "flag", "List what to add to the input for each rule that it does not decide."),
                 _COLOR,
             ),

@@ -18,7 +18,7 @@ from .file_types import BINARY, CAPTURES, DATA, DESCRIPTIONS, INPUT, NEAR, OTHER
 from .ignore_files import IgnoreFiles, above
 
 MAX_DEPTH = 64
-_SKIPPED = frozenset({"node_modules", "bower_components", "__pycache__", "__pypackages__", "site-packages", "venv", "CVS"})
+SKIPPED_FOLDERS = frozenset({"node_modules", "bower_components", "__pycache__", "__pypackages__", "site-packages", "venv", "CVS"})
 _OUTPUTS = (".json", ".sarif", ".xml", ".md")
 """Endings of files that msaa-lint may have written and that are not inputs; other files are not opened to see."""
 
@@ -230,7 +230,7 @@ class _Walk:
             # Without the `./` that joining `.` would give: globs and names do not have it.
             path = entry.name if folder.path == os.curdir else os.path.join(folder.path, entry.name)
             if entry.is_dir(follow_symlinks=False):
-                if entry.name.startswith(".") or entry.name in _SKIPPED:
+                if entry.name.startswith(".") or entry.name in SKIPPED_FOLDERS:
                     self.skip(path, "a folder that is hidden or of tools")
                 elif excluding(path, settings.exclude, folder=True):
                     self.skip(path, "excluded")
