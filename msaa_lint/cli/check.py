@@ -25,6 +25,7 @@ from .common import (
     overrides,
     parse_outputs,
     refuse_inputs,
+    report_module,
     report_options,
     run_command,
     use_color,
@@ -134,7 +135,6 @@ def request(arguments: Arguments, targets: Sequence[Target] = (), fallback: str 
         **input_options(arguments),
         overrides=settings,
         ignores=not arguments.get("no_ignores"),
-        full_rules=any(target.format == "sarif" for target in targets),
         formats=[*(target.format for target in targets), *(["statistics"] if arguments.get("statistics") else [])],
         fallback=fallback,
         by_price=arguments.get("sort") == "price",
@@ -203,5 +203,7 @@ def _render(format: str, outcome: Outcome, arguments: Arguments, out: IO[str]) -
             if finding.fatal:
                 print(line(finding, outcome.result, options), file=sys.stderr)
         statistics.render(outcome.result, out.write, options._replace(width=output_width(out)))
+    elif format == "html":
+        report_module("check", format).render(outcome.result, out.write, options, outcome.frames)
     else:
         render(format, outcome.result, out.write, options._replace(statistics=bool(arguments.get("statistics"))))

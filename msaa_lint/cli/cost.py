@@ -53,7 +53,8 @@ def _cost(arguments: Arguments) -> int:
     chart = arguments.get("chart")
     if chart is not None:
         figure_format(chart, "--chart")
-    request = Request(**input_options(arguments), overrides=overrides(arguments))
+    formats = [target.format for target in targets]
+    request = Request(**input_options(arguments), overrides=overrides(arguments), formats=formats)
     result = run_costs(request, terms, counts)
     comparison = None if arguments.get("each") else _comparison(result, request)
     for text in result.notes:

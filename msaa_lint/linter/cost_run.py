@@ -8,11 +8,8 @@ from typing import NamedTuple
 from msaa_lint.core.finding import Result
 from msaa_lint.frame.cost.amounts import Terms
 from msaa_lint.frame.cost.input_cost import CostedFrame
-from msaa_lint.frame.cost.model import frame_cost
-from msaa_lint.frame.cost.variants import variants
-from msaa_lint.frame.facts.frame import Frame
 
-from .fixes.fixer import FixResult
+from .costed_frames import costed_frames
 from .input_summary import input_summary
 from .results import DocumentResult, FileResult, can_try_fixes
 from .savings import Trials
@@ -54,7 +51,7 @@ def _frames(workspace: Workspace, path: str, terms: Terms, counts: Sequence[int]
     file = workspace.open(path)
     if file is None:
         return []
-    result = file.lint()
+    result = file.lint(prices="html" in workspace.request.formats)
     errors = [finding for finding in result.findings if finding.fatal]
     workspace.findings.extend(errors)
     if result.source is None:
@@ -67,7 +64,7 @@ def _frames(workspace: Workspace, path: str, terms: Terms, counts: Sequence[int]
     trials = _trials(file, result) if not errors and can_try_fixes(result) else None
     if not can_try_fixes(result):
         notes.append(f"{result.file} is too large to try fixes: costs are those of the frame as written")
-    return [_costed(result, document, trials, terms, counts) for document in documents]
+    return costed_frames(result, documents, trials, terms, counts)
 
 
 def _valid_documents(result: FileResult) -> list[DocumentResult]:
@@ -86,27 +83,3 @@ def _trials(file: InputFile, result: FileResult) -> Trials | None:
 
     description, lint = file.description(result)
     return try_fixes(description, lint, file.fixable(result))
-
-
-def _costed(result: FileResult, document: DocumentResult, trials: Trials | None, terms: Terms, counts: Sequence[int]) -> CostedFrame:
-    """The costs of one document: as written, after its fixes, and with other sample counts, after the same fixes."""
-    cost = frame_cost(Frame(document.document), document.device, terms)
-    written = variants(document.document, document.device, terms, counts)
-    frame = CostedFrame(result.file, document.number, len(result.documents), cost, written)
-    if trials is None:
-        return frame
-    safe, everything = _document(trials.safe, document), _document(trials.all, document)
-    if everything is None:
-        return frame
-    return frame._replace(
-        safely_fixed=frame_cost(Frame(safe.document), safe.device, terms) if safe is not None else None,
-        fixed=frame_cost(Frame(everything.document), everything.device, terms),
-        fixed_variants=variants(everything.document, everything.device, terms, counts),
-    )
-
-
-def _document(fixes: FixResult, document: DocumentResult) -> DocumentResult | None:
-    """A document after fixes; None if nothing of its input is fixed."""
-    if not fixes.fixed_findings:
-        return None
-    return next((fixed for fixed in fixes.result.documents if fixed.number == document.number), None)

@@ -19,15 +19,21 @@ from .source_programs import ProgramInput
 from .workspace import InputFile, Request, Workspace
 
 if TYPE_CHECKING:
+    from msaa_lint.frame.cost.input_cost import CostedFrame
+
     from .fixes.file_fixes import FixedText
     from .program_runs import ProgramRuns
+    from .savings import Trials
     from .suppress.baseline import Baseline
 
 Progress = Callable[[int, int, str], None]
 """Called before each input with the number of inputs done, the number of all inputs, and the input's path."""
 
-PRICED_FORMATS = frozenset({"full", "json", "sarif", "github", "gitlab", "junit", "markdown", "statistics"})
+PRICED_FORMATS = frozenset({"full", "json", "sarif", "github", "gitlab", "junit", "markdown", "statistics", "html"})
 """The outputs that show prices; for the others prices are not computed."""
+
+RULE_PAGE_FORMATS = frozenset({"sarif", "html"})
+"""The outputs that contain the pages of rules."""
 
 SUMMARIZED_FORMATS = PRICED_FORMATS - {"gitlab", "junit"} | {"concise"}
 """The outputs that say what fixes save; for the others fixes are not tried."""
@@ -37,7 +43,8 @@ class Outcome(NamedTuple):
     """The result of a run.
 
     `settings` are those of the current folder, with the outputs and thresholds; `notes` are lines for standard error. `fixed` has the
-    fixed text of each input, `failing` by file what fixes save of the findings that can fail the run.
+    fixed text of each input, `failing` by file what fixes save of the findings that can fail the run. `frames` are the frames of the
+    inputs with their costs, if an output shows them.
     """
 
     result: Result
@@ -45,6 +52,7 @@ class Outcome(NamedTuple):
     notes: Sequence[str]
     fixed: "Sequence[FixedText]" = ()
     failing: Mapping[str, Savings] = {}
+    frames: "Sequence[CostedFrame]" = ()
 
 
 def run(request: Request, progress: Progress | None = None) -> Outcome:
@@ -62,6 +70,9 @@ class _Run:
         limited = self.settings.fail_on_cost is not None
         self.with_prices = request.by_price or limited or not PRICED_FORMATS.isdisjoint(outputs)
         self.with_savings = limited or request.fix is not None or not SUMMARIZED_FORMATS.isdisjoint(outputs)
+        self.with_frames = "html" in outputs
+        self.with_pages = request.full_rules or not RULE_PAGE_FORMATS.isdisjoint(outputs)
+        self.frames: list[CostedFrame] = []
         self.findings: list[Finding] = []
         self.undecided: list[Undecided] = []
         self.suppressed: list[Suppressed] = []
@@ -120,7 +131,7 @@ class _Run:
         if self.request.by_price:
             findings.sort(key=_highest_price)
         current = self.workspace.current
-        rules = rule_infos(current.engine.registry, current.selection.for_file(os.curdir), self.request.full_rules)
+        rules = rule_infos(current.engine.registry, current.selection.for_file(os.curdir), self.with_pages)
         result = Result(
             findings,
             self.undecided,
@@ -133,7 +144,7 @@ class _Run:
             [self.summaries[file] for file in files],
             self.untried,
         )
-        return Outcome(result, self.settings, notes, self.fixed, self.failing)
+        return Outcome(result, self.settings, notes, self.fixed, self.failing, self.frames)
 
     def _program_runs(self, programs: Sequence[ProgramInput]) -> "ProgramRuns | None":
         """The results for programs; None if there are none."""
@@ -147,6 +158,9 @@ class _Run:
         """What the result for an input depends on besides its content and settings; None if it has other effects, or depends on other
         inputs."""
         if self.request.fix is not None or self.settings.fail_on_cost is not None or self.request.log or self.request.traceback:
+            return None
+        if self.with_frames:
+            # The cache does not hold frames.
             return None
         return repr((self.with_prices, self.with_savings, self.request.ignores, self.settings.min_severity))
 
@@ -214,10 +228,20 @@ class _Run:
         findings = [found for found in map(file.resolved.selection.settle, result.findings) if found is not None]
         part = RunPart(diagnostics, findings, result.undecided, result.suppressed, summaries, sources)
         if not self.with_savings or all(found.fix is None for found in findings):
-            return part
+            return self._with_frames(part, result, None)
         if can_try_fixes(result) or self.settings.fail_on_cost is not None:
             return self._try_fixes(file, result, part)
-        return part._replace(untried={result.file: not isinstance(file.data, bytes)})
+        return self._with_frames(part._replace(untried={result.file: not isinstance(file.data, bytes)}), result, None)
+
+    def _with_frames(self, part: RunPart, result: FileResult, trials: "Trials | None") -> RunPart:
+        """Adds the frames of an input with their costs, if a report shows them; none of an input with errors."""
+        if not self.with_frames or any(finding.fatal for finding in result.findings):
+            return part
+        from msaa_lint.frame.cost.amounts import Terms
+
+        from .costed_frames import costed_frames
+
+        return part._replace(frames=costed_frames(result, result.documents, trials, Terms(), (1,)))
 
     def _add(self, part: RunPart) -> None:
         """Adds what an input adds to the result of the run, after the baseline."""
@@ -233,6 +257,7 @@ class _Run:
         self.savings.update(part.savings)
         self.failing.update(part.failing)
         self.untried.update(part.untried)
+        self.frames.extend(part.frames)
 
     def _try_fixes(self, file: InputFile, result: FileResult, part: RunPart) -> RunPart:
         """Determines what fixes of an input save, and adds to its findings the reasons why fixes are not made."""
@@ -243,6 +268,7 @@ class _Run:
         fixable = file.fixable(result)
         trials = try_fixes(description, lint, fixable)
         part = part._replace(savings={result.file: savings(description, trials, self.with_prices, converted)})
+        part = self._with_frames(part, result, trials)
         if self.settings.fail_on_cost is not None:
             findings, _ = self._apply_baseline(part.findings)
             failing = {finding_kind(found) for found in findings if is_confident(found, self.settings.fail_confidence)}

@@ -1,10 +1,13 @@
 """What one input, or the files of a program, add to the result of a run."""
 
 from collections.abc import Mapping, Sequence
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from msaa_lint.core.finding import Finding, InputSummary, Savings, Suppressed, Undecided
 from msaa_lint.core.text.source import Source
+
+if TYPE_CHECKING:
+    from msaa_lint.frame.cost.input_cost import CostedFrame
 
 
 class RunPart(NamedTuple):
@@ -12,7 +15,7 @@ class RunPart(NamedTuple):
 
     `findings` are those after settings and before the baseline, which does not apply to `diagnostics`. `sources` has the texts that
     reports show. `savings`, `failing`, and `untried` are by file. `problems` and `failed` are the findings about files that cannot be
-    read, and these files.
+    read, and these files. `frames` are the frames with their costs, if a report shows them.
     """
 
     diagnostics: Sequence[Finding] = ()
@@ -26,3 +29,4 @@ class RunPart(NamedTuple):
     untried: Mapping[str, bool] = {}
     problems: Sequence[Finding] = ()
     failed: frozenset[str] = frozenset()
+    frames: "Sequence[CostedFrame]" = ()

@@ -48,4 +48,4 @@ def render(name: str, result: Result, out: Write, options: Options) -> None:
     """Prints `result` in the format called `name`, with the module of that name. ValueError for an unknown format."""
     if name not in OUTPUT_FORMATS:
         raise ValueError(f"unknown output format {name!r}: use one of {', '.join(OUTPUT_FORMATS)}")
-    import_module(f".{name}", __name__).render(result, out, options)
+    import_module(".html.check" if name == "html" else f".{name}", __name__).render(result, out, options)

@@ -18,7 +18,8 @@ _MAX_LINES_BETWEEN = 4
 _MIN_WIDTH = 30
 _MAX_LINE = 4096
 
-_Row = list[tuple[str, str]]  # pieces of a line, each with its style
+_Row = list[tuple[str, str]]
+"""The pieces of a line, each with its style."""
 
 
 class Mark(NamedTuple):
@@ -43,6 +44,12 @@ class _Arm(NamedTuple):
 def excerpt(source: Source, marks: Sequence[Mark], width: int, color: bool) -> tuple[int, list[str]]:
     """The number of cells that line numbers take, and the lines with the `marks` (at least one). Without the texts of the marks, no line is
     wider than `width` cells (0: no limit)."""
+    digits, rows = excerpt_rows(source, marks, width)
+    return digits, ["".join(paint(text, style, color) for text, style in row) for row in rows]
+
+
+def excerpt_rows(source: Source, marks: Sequence[Mark], width: int) -> tuple[int, list[_Row]]:
+    """`excerpt`, with the lines as pieces of text with their styles."""
     text = source.text
     singles: dict[int, list[Mark]] = {}
     arms: dict[int, list[_Arm]] = {}
@@ -72,7 +79,7 @@ def excerpt(source: Source, marks: Sequence[Mark], width: int, color: bool) -> t
             rows.append([(f"{CUT:<{digits + 3}}", SECONDARY), *_bars(margin)])
         before = line
         rows += _line(text, line, starts[line], singles.get(line, []), arms.get(line, []), digits, margin, room)
-    return digits, [_joined(row, color) for row in rows]
+    return digits, list(map(_joined, rows))
 
 
 def _add_between(text: str, first: int, last: int, starts: dict[int, int]) -> None:
@@ -164,9 +171,9 @@ def _bars(margin: Sequence[str]) -> _Row:
     return [piece for style in margin for piece in (("|" if style else " ", style), (" ", ""))]
 
 
-def _joined(row: _Row, color: bool) -> str:
+def _joined(row: _Row) -> _Row:
+    """The row with neighbors of one style as one piece, without spaces at its end."""
     while row and not row[-1][0].rstrip():
         row = row[:-1]
     row[-1] = (row[-1][0].rstrip(), row[-1][1])
-    groups = groupby(row, key=itemgetter(1))
-    return "".join(paint("".join(piece for piece, _ in pieces), style, color) for style, pieces in groups)
+    return [("".join(piece for piece, _ in pieces), style) for style, pieces in groupby(row, key=itemgetter(1))]

@@ -37,7 +37,7 @@ def paragraph(finding: Finding, result: Result, options: Options, rules: Set[str
     equals = paint(f"{indent} =", SECONDARY, options.color)
     notes = [f"{equals} {paint(f'{word}:', BOLD, options.color)} {text}" for word, text in remarks(finding, rules)]
     arrow = paint(f"{indent}-->", SECONDARY, options.color)
-    others = [line for file, labels in _elsewhere(finding).items() for line in _excerpt_of(file, labels, digits, result, options)]
+    others = [line for file, labels in elsewhere(finding).items() for line in _excerpt_of(file, labels, digits, result, options)]
     return "\n".join([head, f"{arrow} {location(finding, result, options)}", *lines, *others, bar, *notes])
 
 
@@ -52,7 +52,7 @@ def marks(finding: Finding) -> list[Mark]:
     return [primary, *(Mark(*span, "; ".join(parts), SECONDARY, False) for span, parts in texts.items())]
 
 
-def _elsewhere(finding: Finding) -> dict[str, list[Label]]:
+def elsewhere(finding: Finding) -> dict[str, list[Label]]:
     """The labels in other files, by file."""
     labels: dict[str, list[Label]] = {}
     for label in finding.labels:

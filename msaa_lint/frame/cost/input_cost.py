@@ -5,8 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
+from msaa_lint.core.finding import Finding
+
 from .amounts import Amount, FrameCost
 from .compare import Comparison, compare
+from .graph import FrameGraph
 from .variants import Variant
 
 
@@ -44,6 +47,8 @@ class CostedFrame(NamedTuple):
 
     `safely_fixed` is its cost after `--fix`, and `fixed` after `--fix --unsafe-fixes`, None if they fix nothing of the input;
     `fixed_variants` are other sample counts after the latter. `number` is the index of its document in the input, of `documents`.
+    `graph` and `fixed_graph` are those of `cost` and `fixed`; `fixed_findings` are the findings, with their prices, that the fixes of
+    `fixed` remove.
     """
 
     file: str
@@ -54,6 +59,9 @@ class CostedFrame(NamedTuple):
     safely_fixed: FrameCost | None = None
     fixed: FrameCost | None = None
     fixed_variants: Sequence[Variant] = ()
+    graph: FrameGraph | None = None
+    fixed_graph: FrameGraph | None = None
+    fixed_findings: Sequence[Finding] = ()
 
     @property
     def states(self) -> list[tuple[str, FrameCost]]:
