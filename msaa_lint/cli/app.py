@@ -39,12 +39,15 @@ class _TableCommand(TyperCommand):
 
     def collect_usage_pieces(self, ctx: Any) -> list[str]:
         paths = self.table.paths
+        if paths.max == 0:
+            return ["[OPTIONS]"]
         return ["[OPTIONS]", paths.metavar if paths.min and not self.table.standalone else f"[{paths.metavar}]"]
 
     def format_options(self, ctx: Any, formatter: Any) -> None:
         paths = self.table.paths
-        with formatter.section("Arguments"):
-            formatter.write_dl([(paths.metavar, paths.help + _values(paths.choices))])
+        if paths.max != 0:
+            with formatter.section("Arguments"):
+                formatter.write_dl([(paths.metavar, paths.help + _values(paths.choices))])
         for heading, options in self.table.groups.items():
             with formatter.section(heading):
                 formatter.write_dl([_help_row(option) for option in options])
@@ -65,7 +68,7 @@ def _values(choices: tuple[str, ...], default: str = "") -> str:
 def _add_command(name: str, command: Command) -> None:
     """Adds a command of `COMMANDS` to the application."""
     paths = typer.Argument(metavar=command.paths.metavar, autocompletion=_completion(command.paths.values, command.paths.choices))
-    parameters = [_parameter("paths", list[str] | None, paths)]
+    parameters = [_parameter("paths", list[str] | None, paths)] if command.paths.max != 0 else []
     for option in command.options:
         if option.name != "help":
             flags = filter(None, (option.flag, option.short))

@@ -119,7 +119,8 @@ def _check(name: str, command: Command, arguments: Arguments) -> None:
         flags = "".join(f", or `--{flag.replace('_', '-')}`" for flag in command.standalone)
         raise UsageError(f"`{name}` needs an argument: write `msaa-lint {name} {paths.metavar}`{flags}")
     if paths.max is not None and len(stated) > paths.max:
-        raise UsageError(f"unexpected argument {quoted(stated[paths.max])}: `{name}` takes only one {paths.metavar}")
+        takes = f"takes only one {paths.metavar}" if paths.max else "takes no arguments"
+        raise UsageError(f"unexpected argument {quoted(stated[paths.max])}: `{name}` {takes}")
     for word in stated if paths.choices else ():
         if word not in paths.choices:
             raise UsageError(f"unknown argument {quoted(word)} of `{name}`: {_near_or_all(word, paths.choices)}")

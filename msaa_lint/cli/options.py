@@ -399,6 +399,16 @@ COMMANDS = {
         {"Options": GLOBAL},
         Paths("WHICH", "The description format (the default), or the JSON of `check` or `cost`.", 0, 1, SCHEMAS),
     ),
+    "lsp": Command(
+        """Run the language server, for editors.""",
+        {
+            "Options": (
+                Option("stdio", "flag", "Communicate over standard input and output: the default, and the only way."),
+                *GLOBAL,
+            ),
+        },
+        Paths("", "", 0, 0),
+    ),
     "baseline": Command(
         """Record the current findings, so that only new ones are reported.""",
         {

@@ -94,13 +94,14 @@ def kind_of(path: str) -> str:
             return INPUT if _VULKAN.search(data) else OTHER
         if path.lower().endswith((".xml", ".jsonl", ".foz", *CAPTURES)) or own_output(data) is not None:
             return OTHER
-        kind = _kind_of_text(data)
+        kind = kind_of_text(data)
         if kind == NEAR and len(data) == HEAD_BYTES:
-            kind = _kind_of_text(data + file.read(MAX_BYTES - HEAD_BYTES))
+            kind = kind_of_text(data + file.read(MAX_BYTES - HEAD_BYTES))
         return kind
 
 
-def _kind_of_text(data: bytes) -> str:
+def kind_of_text(data: bytes) -> str:
+    """Whether the text of a data file is a description, as `kind_of`."""
     encoding = "utf-16" if data[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8-sig"
     text = data.decode(encoding, "replace")
     if not _has_key(text):

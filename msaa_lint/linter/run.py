@@ -26,6 +26,9 @@ if TYPE_CHECKING:
     from .savings import Trials
     from .suppress.baseline import Baseline
 
+Results = Callable[[InputFile, FileResult], None]
+"""Called with each input that was linted, and its result."""
+
 Progress = Callable[[int, int, str], None]
 """Called before each input with the number of inputs done, the number of all inputs, and the input's path."""
 
@@ -55,14 +58,15 @@ class Outcome(NamedTuple):
     frames: "Sequence[CostedFrame]" = ()
 
 
-def run(request: Request, progress: Progress | None = None) -> Outcome:
+def run(request: Request, progress: Progress | None = None, results: Results | None = None) -> Outcome:
     """Lints every input of a request. A problem of an input, a rule page or the configuration is a finding, never an exception."""
-    return _Run(request).run(progress)
+    return _Run(request, results).run(progress)
 
 
 class _Run:
-    def __init__(self, request: Request) -> None:
+    def __init__(self, request: Request, results: Results | None) -> None:
         self.request = request
+        self.results = results
         self.workspace = Workspace(request)
         self.settings = self.workspace.current.settings
         self.baseline = self._load_baseline()
@@ -180,6 +184,8 @@ class _Run:
             self.notes.extend(file.data.notes)
         if self.request.fix is not None:
             result = self._fix(file, result)
+        if self.results is not None:
+            self.results(file, result)
         return self._part(file, result)
 
     def _fix(self, file: InputFile, result: FileResult) -> FileResult:

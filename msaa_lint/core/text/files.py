@@ -1,9 +1,16 @@
-"""Opens files: as named by the command line, or as named by content, which may come from a stranger."""
+"""Opens files: as named by the command line, or as named by content, which may come from a stranger.
+
+An editor has texts that are not yet saved: within `with_buffers`, they take the place of their files.
+"""
 
 from __future__ import annotations
 
+import io
 import os
 import stat
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from contextvars import ContextVar
 from typing import BinaryIO
 
 from msaa_lint.core.project import real_path
@@ -21,7 +28,26 @@ _KINDS = {
 # O_NONBLOCK: opening a pipe must not wait for a writer.
 _FLAGS = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_CLOEXEC", 0) | getattr(os, "O_BINARY", 0)
 _NO_LINK = getattr(os, "O_NOFOLLOW", 0)
+_buffers: ContextVar[Mapping[str, bytes]] = ContextVar("buffers")
 _FOLDER = getattr(os, "O_PATH", os.O_RDONLY) | getattr(os, "O_DIRECTORY", 0) | getattr(os, "O_CLOEXEC", 0)
+
+
+@contextmanager
+def with_buffers(buffers: Mapping[str, bytes]) -> Iterator[None]:
+    """Makes this thread read `buffers`, by real path, in place of the files."""
+    token = _buffers.set(buffers)
+    try:
+        yield
+    finally:
+        _buffers.reset(token)
+
+
+def _buffer(path: str, project: str | None) -> bytes | None:
+    """The unsaved text of a file, if it has one. Raises Outside."""
+    buffers = _buffers.get({})
+    if not buffers:
+        return None
+    return buffers.get(os.path.realpath(path) if project is None else real_path(path, project))
 
 
 def open_file(path: str, project: str | None) -> tuple[BinaryIO, int | None]:
@@ -32,6 +58,9 @@ def open_file(path: str, project: str | None) -> tuple[BinaryIO, int | None]:
     what is there.
     """
     try:
+        unsaved = _buffer(path, project)
+        if unsaved is not None:
+            return io.BytesIO(unsaved), len(unsaved)
         descriptor = _open_named(path) if project is None else _open_inside(path, project)
     except ValueError as error:
         raise OSError(f"invalid file name: {error}") from None
@@ -54,6 +83,9 @@ def open_file(path: str, project: str | None) -> tuple[BinaryIO, int | None]:
 
 def open_entry(path: str) -> BinaryIO:
     """A regular file, according to the listing of its folder, open for reading; a link is not followed. Raises OSError."""
+    unsaved = _buffer(path, None)
+    if unsaved is not None:
+        return io.BytesIO(unsaved)
     file = open(os.open(path, _FLAGS | _NO_LINK), "rb")  # noqa: SIM115 - the caller closes it
     try:
         _check_regular(os.fstat(file.fileno()).st_mode)
