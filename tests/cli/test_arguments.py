@@ -77,7 +77,8 @@ WRONG = [
     ("check a --fail-on \udcff", "unknown value `\\udcff` of `--fail-on`: expected one of note, warning, error"),
     (
         "\x1b]0;x",
-        "unknown command `\\x1b]0;x`: expected one of check, cost, confirm, study, rule, device, facts, convert, schema, lsp, baseline, init",
+        "unknown command `\\x1b]0;x`: expected one of check, cost, confirm, study, rule, device, facts, convert, schema, lsp, "
+        "baseline, init",
     ),
     ("cost a --budget 2500", "invalid power `2500` in `--budget`: a unit is missing; write 2500mW or 2.5W"),
     ("cost a --budget 50MB/s", "invalid power `50MB/s` in `--budget`: unknown unit `MB/s`; expected one of mW, W"),
