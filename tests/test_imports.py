@@ -25,7 +25,7 @@ HEAVY = frozenset({
     "importlib.resources", "inspect", "jsonschema", "logging", "multiprocessing", "numpy", "pathlib", "pathspec", "pydantic",
     "pydantic_core", "rich", "shellingham", "socket", "sqlite3", "ssl", "subprocess", "tempfile", "tomllib", "tree_sitter",
     "tree_sitter_c", "tree_sitter_cpp", "tree_sitter_glsl", "tree_sitter_swift", "typer", "unicodedata", "urllib", "vulkan", "xml",
-    "msaa_lint.cli.app", "msaa_lint.frame.description.pydantic_models",
+    "msaa_lint.cli.app", "msaa_lint.frame.description.pydantic_models", "msaa_lint.frame.description.reference",
     "msaa_lint.frame.facts.metal", "msaa_lint.frame.metal", "msaa_lint.frame.spirv",
     "msaa_lint.input.code", "msaa_lint.input.compression", "msaa_lint.input.converters",
     "msaa_lint.input.impeller", "msaa_lint.input.readers.metal",

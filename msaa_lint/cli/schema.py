@@ -5,15 +5,19 @@ from __future__ import annotations
 import json
 import os
 import re
+from typing import Any
 
 from msaa_lint.frame.description.models import Description
 from msaa_lint.frame.description.pydantic_models import ENUMERANT, FLAGS, model_of
+from msaa_lint.frame.description.reference.enumerants import ENUMERANTS
 from msaa_lint.frame.metal import names as metal
 from msaa_lint.frame.vulkan.enums import BITLESS, ENUMS, PREFIXES, VALUES
 from msaa_lint.frame.vulkan.names import VENDORS
 
 from .common import run_command
 from .options import Arguments
+
+_KINDS = {"array": "a list", "object": "a mapping", "string": "text", "integer": "a number", "number": "a number", "null": "null"}
 
 
 def schema(arguments: Arguments) -> int:
@@ -40,7 +44,6 @@ def description_schema() -> dict[str, object]:
     """The JSON Schema of a description, from the models."""
     enums: dict[str, object] = {}
     root = _with_enums(model_of(Description).model_json_schema(), enums)
-    assert isinstance(root, dict)
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "$id": "urn:msaa-lint:description-v1",
@@ -50,23 +53,39 @@ def description_schema() -> dict[str, object]:
     }
 
 
-def _with_enums(node: object, enums: dict[str, object]) -> object:
+def _with_enums(node: Any, enums: dict[str, object]) -> Any:
     """A schema with references to its enums, whose definitions it adds to `enums`."""
     if isinstance(node, list):
         return [_with_enums(item, enums) for item in node]
     if not isinstance(node, dict):
         return node
+    rest = {name: _with_enums(value, enums) for name, value in node.items() if name not in (FLAGS, ENUMERANT)}
     if FLAGS in node:
         enum = node[FLAGS]
         enums[f"{enum}Flags"] = {"type": "string", "pattern": joined(enum)}
-        return {"$ref": f"#/$defs/{enum}Flags"}
+        return {"$ref": f"#/$defs/{enum}Flags", **rest}
     if ENUMERANT in node:
         enum = node[ENUMERANT]
-        # An editor completes the short names and accepts the others.
-        short = VALUES[enum] if enum in VALUES else metal.ENUMS[enum]
-        enums[enum] = {"anyOf": [{"enum": list(short)}, {"type": "string", "pattern": f"^{spellings(enum)}$"}]}
-        return {"$ref": f"#/$defs/{enum}"}
-    return {name: _with_enums(value, enums) for name, value in node.items()}
+        enums[enum] = _enum_schema(enum)
+        return {"$ref": f"#/$defs/{enum}", **rest}
+    if "title" in rest and "anyOf" in rest:
+        rest["anyOf"] = [_titled(arm, rest["title"]) for arm in rest["anyOf"]]
+    return rest
+
+
+def _titled(arm: dict[str, object], title: str) -> dict[str, object]:
+    """One of several forms of a value, with a title of its own: the YAML language server takes forms without one for the same."""
+    kind = arm.get("type", "integer" if "enum" in arm or "const" in arm else None)
+    return {**arm, "title": f"{title}, as {_KINDS[kind]}"} if isinstance(kind, str) and "title" not in arm else arm
+
+
+def _enum_schema(enum: str) -> dict[str, object]:
+    """The schema of an enumerant: an editor completes the short names, with their descriptions, and accepts the other spellings."""
+    names = list(VALUES[enum] if enum in VALUES else metal.ENUMS[enum])
+    short: dict[str, object] = {"enum": names}
+    if enum in ENUMERANTS:
+        short["enumDescriptions"] = [ENUMERANTS[enum].get(name, "") for name in names]
+    return {"anyOf": [short, {"type": "string", "pattern": f"^{spellings(enum)}$"}]}
 
 
 def spellings(enum: str) -> str:

@@ -13,7 +13,7 @@ from collections.abc import Callable
 from functools import cache, reduce
 from operator import or_
 from types import GenericAlias
-from typing import Annotated, Any, Literal, get_args, get_type_hints
+from typing import Annotated, Any, Literal
 
 from annotated_types import Ge, Gt, Le, MaxLen
 from pydantic import (
@@ -39,6 +39,7 @@ from pydantic_core import CoreSchema
 from .members import MAX_UINT32
 from .models import AttachmentReference, Command
 from .record import Record
+from .reference.lookup import STRUCTURES, key_text
 from .scalars import (
     EXTERNAL,
     MAX_SHADING,
@@ -117,21 +118,16 @@ def model_of(kind: type[Record]) -> type[Structure]:
         absent = getattr(kind, name, None)
         if absent is None and shape[0] not in ("null", "slot"):
             annotation = annotation | None
-        members[name] = (annotation, Field(default=absent, description=_description(kind, name)))
+        text = key_text(kind, name)
+        markdown: JsonSchema = {"markdownDescription": text.markdown}
+        members[name] = (annotation, Field(default=absent, title=text.title, description=text.description, json_schema_extra=markdown))
     base = OneCommand if issubclass(kind, Command) else Structure
     with warnings.catch_warnings():
         # `copy` is a method of every model, and the name of a command of Metal's.
         warnings.simplefilter("ignore", UserWarning)
-        return create_model(kind.__name__, __base__=base, __doc__=inspect.getdoc(kind), **members)
-
-
-def _description(kind: type[Record], name: str) -> str | None:
-    """What a schema says about a member: a text in its type."""
-    if issubclass(kind, Command):
-        return None
-    annotation = get_type_hints(kind, include_extras=True)[name]
-    texts = (text for arm in get_args(annotation) for text in getattr(arm, "__metadata__", ()) if isinstance(text, str))
-    return next(texts, None)
+        model = create_model(kind.__name__, __base__=base, __doc__=(inspect.getdoc(kind) or "").partition("\n\n")[0], **members)
+    model.model_config["title"] = STRUCTURES[kind.__name__].title
+    return model
 
 
 def type_of(shape: Shape) -> Any:

@@ -129,14 +129,14 @@ class Scene(Record):
     edges: bool | None = None
     depth: Literal["STANDARD", "REVERSED"] | None = None
     color: Literal["LDR", "HDR"] | None = None
-    peak: Annotated[PositiveNumber, "The brightest value, in units of display white."] | None = None
+    peak: PositiveNumber | None = None
     depthResolveWants: Literal["ANY", "NEAREST", "FARTHEST"] | None = None
     toneMapping: Literal["AFTER_RESOLVE", "IN_PASS", "NONE"] | None = None
     alphaTest: bool | None = None
     textureDetail: bool | None = None
-    overdraw: Annotated[PositiveNumber, "How many triangles of a pass cover a pixel, on average."] | None = None
-    triangleSize: Annotated[PositiveNumber, "The longest side of a triangle, in pixels, on average."] | None = None
-    shading: Annotated[ShadingCost, "What a fragment shader invocation costs: the study's --shading."] | None = None
+    overdraw: PositiveNumber | None = None
+    triangleSize: PositiveNumber | None = None
+    shading: ShadingCost | None = None
 
 
 SampleCountLimit = Literal[

@@ -244,9 +244,7 @@ class RasterizationState(Record):
     depthBiasEnable: bool | None = None
 
 
-Specialization = Annotated[
-    dict[str, float | bool], ("numbered", ("either", ("number", False), ("bool",))), "The values of the specialization constants by id."
-]
+Specialization = Annotated[dict[str, float | bool], ("numbered", ("either", ("number", False), ("bool",)))]
 
 
 class ShaderStage(Record):
