@@ -35,7 +35,7 @@ INPUT_FORMATS = (
 """The names in `readers.FORMATS`, `readers.CAPTURES`, and `file_types.LANGUAGES`, so that help and errors import no reader."""
 
 COST_FORMATS = ("full", "json", "markdown", "html")
-TEXT_FORMATS = ("full", "json")
+TEXT_FORMATS = ("full", "json", "html")
 """The values of `--output` of `confirm` and `study`."""
 
 SCHEMAS = ("description", "json-v1", "cost-v1")

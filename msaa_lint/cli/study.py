@@ -99,9 +99,10 @@ def parse_options(arguments: Arguments) -> StudyOptions:
         raise UsageError("--samples and --techniques leave nothing to measure: sample shading needs a count above 1")
     if "plot" in arguments:
         figure_format(arguments["plot"], "--plot")
-    for option in ("plot", "crops"):
-        if option in arguments:
-            require_figures(f"--{option}")
+    targets = parse_outputs(arguments.get("output", ()), TEXT_FORMATS, "json=study.json") or [Target("full", None)]
+    drawn = ["--output html"] if any(target.format == "html" for target in targets) else []
+    for option in (*(f"--{name}" for name in ("plot", "crops") if name in arguments), *drawn):
+        require_figures(option)
     if "budget" in arguments and "device" not in arguments:
         raise UsageError("--budget needs times: name the GPU that measures them with `--device NAME`")
     if "budget" in arguments and Technique(MSAA, 1) not in chosen:
@@ -111,7 +112,7 @@ def parse_options(arguments: Arguments) -> StudyOptions:
     if arguments.get("flip") and find_spec("flip_evaluator") is None:
         raise UsageError(needs_extra("--flip", "flip"))
     return StudyOptions(
-        parse_outputs(arguments.get("output", ()), TEXT_FORMATS, "json=study.json") or [Target("full", None)],
+        targets,
         chosen,
         parse_size(arguments["size"], MAX_RENDER_SIDE) if "size" in arguments else None,
         int(arguments.get("bits", 8)),

@@ -80,7 +80,7 @@ def _add_accuracy(figure: Figure, study: Study, rows: Sequence[Sequence[Panel]])
     beside = columns // costs
     for group in (rows[start : start + beside] for start in range(0, len(rows), beside)):
         for row, axes, labels in _with_room(group, width):
-            charts += [_chart(panel, axes, labels[n], figure, first=n == 0) for n, panel in enumerate(row)]
+            charts += [chart_of(panel, axes, labels[n], figure, first=n == 0) for n, panel in enumerate(row)]
     lines = [SOFTWARE] if study.software else []
     added = "Error against added time on a software driver" if study.software else "Error against added time"
     name = f"{added}: {display(study.device)}" if study.device else "Error against samples (no times measured)"
@@ -98,21 +98,22 @@ def _add_accuracy(figure: Figure, study: Study, rows: Sequence[Sequence[Panel]])
 def _with_room(rows: Sequence[Sequence[Panel]], width: float) -> list[tuple[Sequence[Panel], Axes, list[list[Label | None]]]]:
     """The axes of rows of panels, all as high as their labels need, and the labels."""
     for height, reach in _ROOMS:
-        axes = [_axes(row, width, height) for row in rows]
-        labels = [[_labels(panel, of_row, reach) for panel in row] for row, of_row in zip(rows, axes, strict=True)]
+        axes = [axes_of(row, width, height) for row in rows]
+        labels = [[labels_of(panel, of_row, reach) for panel in row] for row, of_row in zip(rows, axes, strict=True)]
         if all(label is not None for of_row in labels for of_panel in of_row for label in of_panel):
             break
     return list(zip(rows, axes, labels, strict=True))
 
 
-def _axes(row: Sequence[Panel], width: float, height: float) -> Axes:
+def axes_of(row: Sequence[Panel], width: float, height: float) -> Axes:
+    """The axes that have room for the points of all panels of a row."""
     places = [panel.place(point) for panel in row for point in panel.points]
     costs = [x for x, _ in places] + [time for panel in row for point in panel.points for time in panel.interval(point) or ()]
     related = any(panel.base is not None for panel in row)
     return Axes(from_zero(costs) if related else linear_or_log(costs), linear_or_log([y for _, y in places], _NARROW), width, height)
 
 
-def _labels(panel: Panel, axes: Axes, reach: float) -> list[Label | None]:
+def labels_of(panel: Panel, axes: Axes, reach: float) -> list[Label | None]:
     """The labels of a panel's points. Those of the front are the first to choose."""
     order = sorted(range(len(panel.points)), key=lambda n: (not panel.points[n].best, panel.place(panel.points[n])))
     places = [axes.pixels(*panel.place(panel.points[n])) for n in order]
@@ -130,7 +131,7 @@ def _labels(panel: Panel, axes: Axes, reach: float) -> list[Label | None]:
     return [found[n] for n in range(len(order))]
 
 
-def _chart(panel: Panel, axes: Axes, labels: Sequence[Label | None], figure: Figure, *, first: bool) -> Any:
+def chart_of(panel: Panel, axes: Axes, labels: Sequence[Label | None], figure: Figure, *, first: bool) -> Any:
     """One panel. The first one of a row has the labels of the vertical axis."""
     import altair
 
@@ -145,8 +146,7 @@ def _chart(panel: Panel, axes: Axes, labels: Sequence[Label | None], figure: Fig
     def y(field: str) -> Any:
         return altair.Y(field, type="quantitative", scale=altair.Scale(**axes.y.spec()), axis=altair.Axis(**y_axis))
 
-    rows = _rows(panel)
-    names = _names(panel, axes, labels)
+    front, intervals, leaders, rows, optimal, others = layer_rows(panel, axes, labels)
     kinds = [name for name, _, _ in KINDS.values()]
     color = altair.Color("kind:N", scale=altair.Scale(domain=kinds, range=[color for _, color, _ in KINDS.values()]))
     shape = altair.Shape("kind:N", scale=altair.Scale(domain=kinds, range=[shape for _, _, shape in KINDS.values()]))
@@ -156,24 +156,32 @@ def _chart(panel: Panel, axes: Axes, labels: Sequence[Label | None], figure: Fig
         if any(field in row for row in rows)
     ]
     layers = [
-        figure.chart([{"x": x, "y": y} for x, y in panel.front])
-        .mark_line(interpolate="step-after", color=INK, strokeWidth=1.2)
-        .encode(x("x"), y("y")),
-        figure.chart([row for row in rows if "low" in row]).mark_rule(color=INK, strokeWidth=1).encode(x("low"), y("y"), x2="high"),
-        figure.chart([row for row in names if "end_x" in row])
-        .mark_rule(color="#888888", strokeWidth=0.6, aria=False)
-        .encode(x("x"), y("y"), x2="end_x", y2="end_y"),
+        figure.chart(front).mark_line(interpolate="step-after", color=INK, strokeWidth=1.2).encode(x("x"), y("y")),
+        figure.chart(intervals).mark_rule(color=INK, strokeWidth=1).encode(x("low"), y("y"), x2="high"),
+        figure.chart(leaders).mark_rule(color="#888888", strokeWidth=0.6, aria=False).encode(x("x"), y("y"), x2="end_x", y2="end_y"),
         figure.chart(rows)
         .mark_point(filled=True, size=_AREA, opacity=1, stroke=INK, strokeWidth=0.6)
         .encode(x("x"), y("y"), color=color, shape=shape, fillOpacity=altair.FillOpacity("opacity:Q", scale=None), tooltip=tooltip),
         *(
-            figure.chart([row for row in names if row["best"] is best])
-            .mark_text(fontWeight="bold" if best else "normal", aria=False)
-            .encode(x("label_x"), y("label_y"), text="name:N")
-            for best in (True, False)
+            figure.chart(names).mark_text(fontWeight=weight, aria=False).encode(x("label_x"), y("label_y"), text="name:N")
+            for names, weight in ((optimal, "bold"), (others, "normal"))
         ),
     ]
     return altair.layer(*layers).properties(width=axes.width, height=axes.height, title=panel.heading(axes.width))
+
+
+def layer_rows(panel: Panel, axes: Axes, labels: Sequence[Label | None]) -> list[list[dict[str, Any]]]:
+    """What Vega-Lite draws in each layer of a panel, from the back: the front, the intervals of times, the lines from labels to points, the
+    points, the labels of the Pareto-optimal ones, and the other labels."""
+    rows, names = _rows(panel), _names(panel, axes, labels)
+    return [
+        [{"x": x, "y": y} for x, y in panel.front],
+        [row for row in rows if "low" in row],
+        [row for row in names if "end_x" in row],
+        rows,
+        [row for row in names if row["best"]],
+        [row for row in names if not row["best"]],
+    ]
 
 
 _TOOLTIPS = {"technique": "technique", "error": "error", "time": "time, ms", "least": "at least, ms", "most": "at most, ms"}

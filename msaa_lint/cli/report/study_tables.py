@@ -90,40 +90,42 @@ def row_name(technique: Technique) -> str:
 
 
 def print_errors(study: Study, scene: SceneSummary, out: Write, options: Options) -> list[str]:
-    """Prints the errors, traffic, memory, and invocations of a scene's techniques, which are the same under every cost of shading, in one
-    table; returns the names of the columns for which the output is too narrow. Without times of a GPU, the Pareto-optimal techniques are
-    marked."""
+    """Prints the table of errors; returns the names of the columns for which the output is too narrow."""
+    columns = _error_columns(study, scene)
+    optional = [figures for figures in _LEFT_OUT if figures in columns]
+    layouts = ([error_table(study, scene, 1, optional[:number])] for number in range(len(optional) + 1))
+    chosen = print_tables(out, options, [error_table(study, scene)], *layouts)
+    return [figures.title.replace("\n", " ") for figures in optional[: max(chosen - 1, 0)]]
+
+
+def error_table(study: Study, scene: SceneSummary, gap: int = 2, left_out: Sequence[_Figures] = ()) -> Table:
+    """The errors, traffic, memory, and invocations of a scene's techniques, which are the same under every cost of shading. Without times
+    of a GPU, the Pareto-optimal techniques are marked."""
     points = study.of(scene.name, study.shading_names(scene.name)[0])
     best = set() if has_times(points) and not study.software else {point.technique for point in points if point.best}
-    columns = [figures for figures in _ERRORS if _is_known(figures, points)]
-    optional = [figures for figures in _LEFT_OUT if figures in columns]
+    marks = [(Column(""), dict.fromkeys(best, MARK))] if best else []
+    shown = [figures for figures in _error_columns(study, scene) if figures not in left_out]
+    if not scene.coverage:
+        shown = [figures._replace(title=figures.title.replace("edges", "color")) for figures in shown]
+    return _table(points, [*marks, *_columns(shown, points)], gap, best)
 
-    def layout(gap: int, left_out: Sequence[_Figures]) -> list[Table]:
-        marks = [(Column(""), dict.fromkeys(best, MARK))] if best else []
-        shown = [figures for figures in columns if figures not in left_out]
-        if not scene.coverage:
-            shown = [figures._replace(title=figures.title.replace("edges", "color")) for figures in shown]
-        return [_table(points, [*marks, *_columns(shown, points)], gap, best)]
 
-    chosen = print_tables(out, options, layout(2, ()), *(layout(1, optional[:number]) for number in range(len(optional) + 1)))
-    return [figures.title.replace("\n", " ") for figures in optional[: max(chosen - 1, 0)]]
+def _error_columns(study: Study, scene: SceneSummary) -> list[_Figures]:
+    points = study.of(scene.name, study.shading_names(scene.name)[0])
+    return [figures for figures in _ERRORS if _is_known(figures, points)]
 
 
 def print_times(study: Study, scene: SceneSummary, out: Write, options: Options) -> bool:
     """Prints the times of a scene's techniques, a group of columns for each cost of shading, and the parts of these times; returns whether
     it shows what shading takes under each cost."""
-    groups = [points for name in study.shading_names(scene.name) if has_times(points := study.of(scene.name, name))]
-    if study.software:
-        groups = [[point._replace(best=False) for point in points] for points in groups]
-    best = {point.technique for point in groups[0] if point.best} if len(groups) == 1 else set()
+    groups, best = _timed_groups(study, scene)
 
     def table(gap: int, *parts: Sequence[_Column], kind: str = TEXT) -> Table:
         return _table(groups[0], [column for part in parts for column in part], gap, best, kind)
 
     fill, shading = _fill_columns(groups), [column for points in groups for column in _shading_columns(points)]
     times = [_time_columns(points, _decimals(points)) for points in groups]
-    related = [[*columns, *_ratio_columns(points)] for columns, points in zip(times, groups, strict=True)]
-    together = [[table(2, *related, fill, shading)], [table(1, *related, fill, shading)], [table(1, *times, fill, shading)]]
+    together = [[time_table(study, scene)], [time_table(study, scene, 1)], [table(1, *times, fill, shading)]]
     parts = [table(1, fill, shading)] if fill or shading else []
     apart = [
         [*(table(1, *times[start : start + number]) for start in range(0, len(times), number)), *parts]
@@ -132,6 +134,22 @@ def print_times(study: Study, scene: SceneSummary, out: Write, options: Options)
     folded = [table(1, *times, kind=SHORT), *parts]
     chosen = print_tables(out, options, *together, [table(1, *times, fill)], apart[0], folded, *apart[1:])
     return not shading or chosen != len(together)
+
+
+def time_table(study: Study, scene: SceneSummary, gap: int = 2) -> Table:
+    """The times of a scene's techniques in full: under each cost of shading with their intervals and ratios, and their parts."""
+    groups, best = _timed_groups(study, scene)
+    related = [[*_time_columns(points, _decimals(points)), *_ratio_columns(points)] for points in groups]
+    columns = [*(column for of_cost in related for column in of_cost), *_fill_columns(groups)]
+    return _table(groups[0], [*columns, *(column for points in groups for column in _shading_columns(points))], gap, best)
+
+
+def _timed_groups(study: Study, scene: SceneSummary) -> tuple[list[list[Point]], set[Technique]]:
+    """The points by cost of shading, and the Pareto-optimal techniques where there is a single one."""
+    groups = [points for name in study.shading_names(scene.name) if has_times(points := study.of(scene.name, name))]
+    if study.software:
+        groups = [[point._replace(best=False) for point in points] for points in groups]
+    return groups, {point.technique for point in groups[0] if point.best} if len(groups) == 1 else set()
 
 
 def has_times(points: Sequence[Point]) -> bool:
