@@ -134,3 +134,11 @@ def draw(spec: Spec, format: str) -> bytes:
     if format == "png":
         return vl_convert.vegalite_to_png(spec, scale=_SCALE, allowed_base_urls=[])
     return vl_convert.vegalite_to_svg(spec, allowed_base_urls=[]).encode()
+
+
+def vega_bundle() -> str:
+    """The script with which a page draws specifications: Vega, Vega-Lite, and Vega-Embed, with the interpreter of expressions that a
+    Content-Security-Policy without `unsafe-eval` needs."""
+    import vl_convert
+
+    return str(vl_convert.javascript_bundle())

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from base64 import b64encode
 from collections.abc import Mapping, Sequence
-from functools import cache
 from typing import Any
 
 from markupsafe import Markup
 
-from ..figure import Spec, draw
+from ..figure import Spec, draw, vega_bundle
 from .page import asset
 
 Rows = list[dict[str, Any]]
@@ -32,20 +31,12 @@ class PageFigures:
     @property
     def scripts(self) -> tuple[str, ...]:
         """Vega, once, and what draws the figures with it; nothing for a page without figures."""
-        return (vega(), asset("vega.js")) if self.data else ()
+        return (vega_bundle(), asset("vega.js")) if self.data else ()
 
 
 def data_url(data: bytes, kind: str) -> Markup:
     """A file inside the page: letters and digits, of which nothing is escaped or cut."""
     return Markup(f"data:{kind};base64,{b64encode(data).decode()}")
-
-
-@cache
-def vega() -> str:
-    """Vega, Vega-Lite, and Vega-Embed, with the interpreter of expressions that a Content-Security-Policy without `unsafe-eval` needs."""
-    import vl_convert
-
-    return str(vl_convert.javascript_bundle())
 
 
 def columns(rows: Rows) -> dict[str, list[Any]]:
