@@ -56,8 +56,6 @@ def _predicted_points(study: Study, scene: str, model: TimeModel, shading: Shadi
     for point in study.of(scene, study.shading_names(scene)[0]):
         time = model.predict(point.technique, shading.nanoseconds or 0.0)
         if time is not None:
-            times = {"time_ms": time.time_ms, "low_ms": time.low_ms, "high_ms": time.high_ms}
-            points.append(
-                point._replace(shading="", rounds=(), ratio=None, fill_ms=None, shading_ms=None, resolve_ms=None, **times)
-            )  # fmt: skip
+            apart = point._replace(shading="", rounds=(), ratio=None, fill_ms=None, shading_ms=None, resolve_ms=None)
+            points.append(apart._replace(time_ms=time.time_ms, low_ms=time.low_ms, high_ms=time.high_ms))
     return points
