@@ -141,4 +141,4 @@ def vega_bundle() -> str:
     Content-Security-Policy without `unsafe-eval` needs."""
     import vl_convert
 
-    return str(vl_convert.javascript_bundle(None))
+    return str(vl_convert.javascript_bundle("window.vegaEmbed = vegaEmbed;"))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from itertools import pairwise
+from typing import Any
 
 import pytest
 
@@ -50,6 +51,6 @@ def test_a_technique_without_times_has_no_prediction() -> None:
 
 
 @pytest.mark.parametrize("other", [{"models": []}, {"software": True}, {"shadings": ()}])
-def test_without_a_model_of_a_gpu_nothing_is_predicted(other: dict[str, object]) -> None:
+def test_without_a_model_of_a_gpu_nothing_is_predicted(other: dict[str, Any]) -> None:
     assert predictions(gpu_study()._replace(**other), "edges") == []
     assert predictions(gpu_study(), "another") == []

@@ -54,7 +54,7 @@ def test_figures_are_drawn_without_a_complaint(browser: Browser, report: Path) -
 
 def test_one_bundle_of_vega_however_many_figures(tmp_path: Path, report: Path) -> None:
     text = report.read_text()
-    assert len(re.findall("vegaEmbed=", text)) == 1
+    assert len(re.findall("window.vegaEmbed=", text)) == 1
     assert len(text) < 1_900_000
     policy = re.search(r'Content-Security-Policy" content="([^"]*)"', text)
     assert policy is not None and "unsafe" not in policy[1] and "default-src &#39;none&#39;" in policy[1]
