@@ -17,11 +17,11 @@ from markdown_it import MarkdownIt
 from msaa_lint.cli.options import COMMANDS
 from tests.paths import ROOT
 
-PAGES = tuple(
-    path.relative_to(ROOT).as_posix()
-    for pattern in ("README.md", "CONTRIBUTING.md", "docs/*.md", "examples/README.md", "examples/*/README.md", "rules/README.md")
-    for path in sorted(ROOT.glob(pattern))
+_PATTERNS = (
+    *("README.md", "CONTRIBUTING.md", "docs/*.md", "docs/guides/*.md"),
+    *("examples/README.md", "examples/*/README.md", "rules/README.md"),
 )
+PAGES = tuple(path.relative_to(ROOT).as_posix() for pattern in _PATTERNS for path in sorted(ROOT.glob(pattern)))
 COMMAND = re.compile(r"(?:[A-Z_]+=\S+ )*(?:msaa-lint|python3?|sh|pip|apt|git) (?!-$)\S.*")
 """Inline code that is a command."""
 FILE_NAME = re.compile(r"(?:#|//) ([\w./-]+\.\w+)\n")
@@ -84,6 +84,8 @@ def _not_run(command: str) -> str:
         return "inline: a script of the repository, or another tool"
     if PLACEHOLDER.search(command):
         return "inline: with a placeholder"
+    if "--watch" in command:
+        return "inline: runs until it is interrupted"
     _, name, *words = command.split()
     if not words:
         return "inline: the name of a command"
