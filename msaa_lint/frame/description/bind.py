@@ -196,7 +196,7 @@ class Binder(ValueBinder):
     def either(self, shapes: tuple[Shape, ...], node: Node, path: str, key: str, head: Span | None) -> Any:
         """A value by the first shape that is of its kind."""
         for shape in shapes:
-            if _fits(shape, node):
+            if fits(shape, node):
                 return self.value(shape, node, path, key, head)
         self.mismatch(node, path, " or ".join(_kind_of(shape) for shape in shapes))
         return None
@@ -249,7 +249,7 @@ class Binder(ValueBinder):
         return command if command.body is not None else None
 
 
-def _fits(shape: Shape, node: Node) -> bool:
+def fits(shape: Shape, node: Node) -> bool:
     """Whether a node is of the kind that a shape asks for, whatever its value."""
     kind = shape[0]
     if kind in ("record", "map", "numbered"):

@@ -1,0 +1,110 @@
+"""What a frame costs with another value in place of one that it states."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from msaa_lint.frame.cost.amounts import FrameCost
+from msaa_lint.frame.description.record import Record
+from msaa_lint.frame.description.scalars import enumerant, sample_count
+from msaa_lint.frame.vulkan.formats import format_of
+from msaa_lint.linter.fixes.changes import Change, NoFix
+from msaa_lint.linter.fixes.references import nested_records
+
+from .places import Place
+
+if TYPE_CHECKING:
+    from .view import Costs
+
+_VALUES: dict[str, tuple[str, ...]] = {
+    "VkAttachmentLoadOp": ("LOAD", "CLEAR", "DONT_CARE"),
+    "VkAttachmentStoreOp": ("STORE", "DONT_CARE"),
+    "VkResolveModeFlagBits": ("NONE", "SAMPLE_ZERO", "AVERAGE"),
+    "MTLLoadAction": ("load", "clear", "dontCare"),
+    "MTLStoreAction": ("store", "dontCare", "multisampleResolve", "storeAndMultisampleResolve"),
+    "MTLStorageMode": ("private", "memoryless"),
+}
+"""The values that are compared with the one that is stated."""
+
+_FORMATS = (
+    "R8G8B8A8_UNORM", "A2B10G10R10_UNORM_PACK32", "B10G11R11_UFLOAT_PACK32", "R16G16B16A16_SFLOAT", "D16_UNORM", "D24_UNORM_S8_UINT",
+    "D32_SFLOAT", "D32_SFLOAT_S8_UINT",
+)  # fmt: skip
+_COUNTS = (1, 2, 4, 8)
+_RATES = (30, 60, 120)
+
+MOVING = frozenset({"usage", "memory"})
+"""The flags that decide what memory an image takes."""
+
+
+class Alternatives(NamedTuple):
+    """The value that is stated, and the frame's cost with each of the others in its place."""
+
+    value: str
+    others: tuple[tuple[str, FrameCost], ...]
+
+
+def alternative_costs(costs: Costs, member: Place, place: Place) -> Alternatives | None:
+    """The costs of a frame with other values of a member, or without the flag at a place. None where none of them makes a difference."""
+    assert member.record is not None
+    name = member.path[-1]
+    records = [record for record in _records(costs, member.record) if record.states(name) and _is_at(record, name, member)]
+    if not records:
+        return None
+    found = []
+    for title, action, value in _candidates(member, place):
+        try:
+            cost = costs.prices.cost_with([Change(record, name, action, value) for record in records], None)
+        except NoFix:
+            continue
+        if cost is not None:
+            found.append((title, cost))
+    written = costs.written.total
+    if all(cost.total == written for _, cost in found):
+        return None
+    return Alternatives(place.node.text, tuple(found))
+
+
+def _records(costs: Costs, kind: type[Record]) -> Iterator[Record]:
+    description = costs.result.document.description
+    return (record for record in nested_records(description) if type(record) is kind)
+
+
+def _is_at(record: Record, name: str, member: Place) -> bool:
+    """Whether a record's member is written at a place; an alias of it counts as well."""
+    value = record.spelled[name][1]
+    return member.node.start in (value.start, (value.anchor or value).start)
+
+
+def _candidates(member: Place, place: Place) -> Iterator[tuple[str, str, Any]]:
+    """Other values: their titles, and the changes that state them."""
+    kind, text = member.shape[0], place.node.text
+    if kind == "enum":
+        stated = enumerant(member.shape[1], text)
+        for value in _enumerants(member.shape[1], stated):
+            if value != stated:
+                yield value, "set", value
+    elif kind == "flags" and member.path[-1] in MOVING:
+        flag = enumerant(member.shape[1], text)
+        if flag is not None and member.node.kind == "sequence":
+            yield f"without {flag}", "remove", flag
+    elif kind == "samples":
+        stated_count = sample_count(place.node.value)
+        for count in _COUNTS:
+            if count != stated_count:
+                yield str(count), "set", count
+    elif member.path == ("frame", "fps"):
+        for rate in _RATES:
+            if rate != place.node.value:
+                yield str(rate), "set", float(rate)
+
+
+def _enumerants(enums: str, stated: str | None) -> Sequence[str]:
+    if enums != "VkFormat":
+        return _VALUES.get(enums, ())
+    format = format_of(stated) if stated is not None else None
+    if format is None:
+        return ()
+    is_color = "color" in format.aspects
+    return [name for name in _FORMATS if (other := format_of(name)) is not None and ("color" in other.aspects) == is_color]

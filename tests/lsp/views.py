@@ -1,0 +1,46 @@
+"""Views of texts for the tests of what an editor asks at a position."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from functools import cache
+from pathlib import Path
+
+from msaa_lint.cli.lsp.view import View
+from msaa_lint.core.text.edits import apply
+from msaa_lint.core.text.span import Edit, Span
+from msaa_lint.linter.engine import Engine, LintOptions, load_rules
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+
+OPTIONS = LintOptions(severity=lambda rule, severity, case: severity, prices=True)
+
+
+@cache
+def engine() -> Engine:
+    return Engine(load_rules())
+
+
+def view(text: str, kind: str = "description", path: str = "frame.msaa.yaml") -> View:
+    """The view of a text after it was linted, if it is a description."""
+    result = engine().lint(text.encode(), path, OPTIONS) if kind == "description" else None
+    return View(text, kind, result, engine().registry, result.findings if result is not None else ())
+
+
+def at(text: str, mark: str = "^") -> tuple[str, int]:
+    """The text without its mark, and the offset of it."""
+    offset = text.index(mark)
+    return text[:offset] + text[offset + len(mark) :], offset
+
+
+def descriptions() -> list[Path]:
+    """The examples that are descriptions."""
+    return sorted(EXAMPLES.rglob("*.msaa.yaml"))
+
+
+def edited(text: str, edits: Iterable[Edit]) -> str:
+    return apply(text, list(edits))
+
+
+def texts(text: str, spans: Iterable[Span]) -> list[str]:
+    return [text[span.start : span.end] for span in spans]
