@@ -92,6 +92,20 @@ metal:
     assert "| `multisampleResolve` | 400 (−1,600) |" in said_here
 
 
+def test_a_shorthand() -> None:
+    text = """\
+frame: {width: 1000, height: 1000, fps: 100}
+renderTargets:
+  onscreen:
+    api: vulkan
+    colorFormat: kR8G8B8A8UNormInt
+    sampleCount: k4
+    colorAttachmentConfig: {storageMode: kDeviceTransient, loadAction: kClear, storeAction: kMulti^sampleResolve}
+"""
+    assert "| `kMultisampleResolve` as written | 400 |" in said(text)
+    assert "| `kStoreAndMultisampleResolve` | 2,000 (+1,600) |" in said(text)
+
+
 def test_names_are_escaped() -> None:
     name = "a`|<b>[x](y)"
     text = said(FRAME.replace("color_ms", f"'{name}'").replace(f"image: '{name}'", f"image: ^'{name}'"))

@@ -34,6 +34,9 @@ _FORMATS = (
 _COUNTS = (1, 2, 4, 8)
 _RATES = (30, 60, 120)
 
+MAX_WORDS = 4
+"""Words of a member of a shorthand that are all compared; of counts, of which there are more, the shortest spellings."""
+
 MOVING = frozenset({"usage", "memory"})
 """The flags that decide what memory an image takes."""
 
@@ -47,23 +50,34 @@ class Alternatives(NamedTuple):
 
 def alternative_costs(costs: Costs, member: Place, place: Place) -> Alternatives | None:
     """The costs of a frame with other values of a member, or without the flag at a place. None where none of them makes a difference."""
+    found = list(_expanded(costs, member) if costs.is_expanded else _changed(costs, member, place))
+    if all(cost.total == costs.written.total for _, cost in found):
+        return None
+    return Alternatives(place.node.text, tuple(found))
+
+
+def _changed(costs: Costs, member: Place, place: Place) -> Iterator[tuple[str, FrameCost]]:
+    """The costs with the changes made in the structures that were read."""
     assert member.record is not None
     name = member.path[-1]
     records = [record for record in _records(costs, member.record) if record.states(name) and _is_at(record, name, member)]
-    if not records:
-        return None
-    found = []
-    for title, action, value in _candidates(member, place):
+    for title, action, value in _candidates(member, place) if records else ():
         try:
             cost = costs.prices.cost_with([Change(record, name, action, value) for record in records], None)
         except NoFix:
             continue
         if cost is not None:
-            found.append((title, cost))
-    written = costs.written.total
-    if all(cost.total == written for _, cost in found):
-        return None
-    return Alternatives(place.node.text, tuple(found))
+            yield title, cost
+
+
+def _expanded(costs: Costs, member: Place) -> Iterator[tuple[str, FrameCost]]:
+    """The costs of a shorthand with each other word in its text."""
+    words = member.shape[1] if member.shape[0] == "word" else ()
+    for word in words:
+        if isinstance(word, str) and word != member.node.text and (len(words) <= MAX_WORDS or word.startswith("k") and word[1:].isdigit()):
+            cost = costs.with_text(member.node.span, word)
+            if cost is not None:
+                yield word, cost
 
 
 def _records(costs: Costs, kind: type[Record]) -> Iterator[Record]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
 from msaa_lint.core.text.node import Node
@@ -249,10 +250,10 @@ class _Completer:
     def _pass_of(place: Place) -> str:
         return next((each.path[1] for each in place.ancestors if len(each.path) == 2 and each.path[0] == "renderPasses"), "")
 
-    @property
+    @cached_property
     def names(self) -> Names:
         return names_of(self.marked.roots)
 
-    @property
+    @cached_property
     def _style(self) -> Style:
         return Style(self.text, self.marked.roots)

@@ -179,7 +179,7 @@ def _lines_at(costs: Iterable[PassCost], place: Place) -> Iterator[Line]:
 def _about_part(view: View, start: int) -> list[str]:
     """What the pass or the attachment moves whose key is at a place."""
     costs = costs_at(view, start)
-    if costs is None or costs.result.document.tree is not None:
+    if costs is None or costs.is_expanded:
         return []
     for each in passes(costs):
         if each.head.start == start:

@@ -34,7 +34,7 @@ def hints(view: View, span: Span) -> list[Hint]:
 
 def _hints(view: View) -> Iterator[Hint]:
     for costs in view.costs:
-        if costs.result.document.tree is not None:
+        if costs.is_expanded:
             continue
         cost = costs.written
         for each in passes(costs):

@@ -74,7 +74,6 @@ def image_lines(cost: FrameCost, image: str) -> Iterator[tuple[str, Line]]:
 def costs_at(view: View, offset: int) -> Costs | None:
     """The costs of the document at an offset."""
     for costs in view.costs:
-        node = costs.result.document.description.node
-        if node.start <= offset <= node.end:
+        if costs.root.start <= offset <= costs.root.end:
             return costs
     return None

@@ -8,7 +8,13 @@ from functools import cached_property
 from msaa_lint.core.allowance import Allowance
 from msaa_lint.core.finding import Finding
 from msaa_lint.core.text.node import Limits, Node
+from msaa_lint.core.text.source import Source
+from msaa_lint.core.text.span import Span
+from msaa_lint.core.text.tree import parse
 from msaa_lint.frame.cost.amounts import FrameCost
+from msaa_lint.frame.cost.model import frame_cost
+from msaa_lint.frame.facts.frame import Frame
+from msaa_lint.input import readers
 from msaa_lint.linter.fixes.document_fixes import DocumentFixes
 from msaa_lint.linter.prices import PriceAllowance, Prices
 from msaa_lint.linter.results import DocumentResult, FileResult
@@ -19,15 +25,34 @@ from .recovery import SYNTAX, repaired
 
 
 class Costs:
-    """The cost of one document as written, and after changes of its values."""
+    """The cost of one document as written, and after changes of its values. `root` is the document in the text."""
 
-    def __init__(self, result: DocumentResult) -> None:
+    def __init__(self, result: DocumentResult, root: Node) -> None:
         self.result = result
-        self.prices = Prices(DocumentFixes(result), PriceAllowance(Allowance(), Allowance()))
+        self.root = root
+
+    @property
+    def is_expanded(self) -> bool:
+        """Whether the document is a shorthand, whose structures are not written in the text."""
+        return self.result.document.tree is not None
+
+    @cached_property
+    def prices(self) -> Prices:
+        return Prices(DocumentFixes(self.result), PriceAllowance(Allowance(), Allowance()))
 
     @cached_property
     def written(self) -> FrameCost:
-        return self.prices.cost(None)
+        return frame_cost(Frame(self.result.document), self.result.device)
+
+    def with_text(self, span: Span, new: str) -> FrameCost | None:
+        """The cost with other text at a place; None if the document then has problems."""
+        before = self.result.document.source
+        source = Source(before.name, before.text[: span.start] + new + before.text[span.end :])
+        parsed = parse(source, Limits())
+        if parsed.problems or self.result.number >= len(parsed.documents):
+            return None
+        document = readers.read(source, parsed.documents[self.result.number], self.result.document.format or None)
+        return frame_cost(Frame(document), self.result.device) if not document.problems else None
 
 
 class View:
@@ -60,9 +85,8 @@ class View:
         """The documents of the text, without the lines that cannot be read."""
         if self.kind != "description":
             return []
-        linted = self.result.documents if self.result is not None else ()
-        whole = linted and not any(found.code in SYNTAX for found in self.result.findings) if self.result is not None else False
-        if whole and all(each.document.tree is None for each in linted):
+        linted = self._linted
+        if linted and all(each.document.tree is None for each in linted):
             return [each.document.description.node for each in linted]
         return repaired(self.text, self.limits)
 
@@ -74,5 +98,13 @@ class View:
     @cached_property
     def costs(self) -> Sequence[Costs]:
         """The costs of the documents that were checked."""
-        documents = self.result.documents if self.result is not None and self.kind == "description" else ()
-        return [Costs(result) for result in documents if result.checked and not result.document.problems]
+        linted = [each for each in self._linted if each.number < len(self.roots)]
+        return [Costs(each, self.roots[each.number]) for each in linted if each.checked and not each.document.problems]
+
+    @property
+    def _linted(self) -> Sequence[DocumentResult]:
+        """The documents of the text, if it could be read as a whole: those of a capture are in another text."""
+        result = self.result
+        if result is None or self.kind != "description" or any(found.code in SYNTAX for found in result.findings):
+            return ()
+        return result.documents if all(each.document.source.text == self.text for each in result.documents) else ()
