@@ -36,7 +36,8 @@ def said(text: str, kind: str = "description") -> str:
 
 def test_a_key() -> None:
     text = said(FRAME.replace("storeOp: STORE", "store^Op: STORE", 1))
-    assert "storeOp" in text and "VkAttachmentStoreOp" in text
+    assert text.startswith("**Store operation** `storeOp`")
+    assert "[VkAttachmentDescription2::storeOp](https://" in text and "Value: `VkAttachmentStoreOp`" in text
 
 
 def test_a_store_with_and_without() -> None:
@@ -102,8 +103,8 @@ renderTargets:
     sampleCount: k4
     colorAttachmentConfig: {storageMode: kDeviceTransient, loadAction: kClear, storeAction: kMulti^sampleResolve}
 """
-    assert "| `kMultisampleResolve` as written | 400 |" in said(text)
-    assert "| `kStoreAndMultisampleResolve` | 2,000 (+1,600) |" in said(text)
+    assert "| `kMultisampleResolve` as written | 800 |" in said(text)
+    assert "| `kStoreAndMultisampleResolve` | 2,400 (+1,600) |" in said(text)
 
 
 def test_names_are_escaped() -> None:

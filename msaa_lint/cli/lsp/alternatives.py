@@ -35,7 +35,9 @@ _COUNTS = (1, 2, 4, 8)
 _RATES = (30, 60, 120)
 
 MAX_WORDS = 4
-"""Words of a member of a shorthand that are all compared; of counts, of which there are more, the shortest spellings."""
+"""Words of a member of a shorthand that are all compared; of counts, of which there are more, one spelling each."""
+
+_SHORT_COUNTS = frozenset({"k1", "k2", "k4", "k8"})
 
 MOVING = frozenset({"usage", "memory"})
 """The flags that decide what memory an image takes."""
@@ -73,11 +75,13 @@ def _changed(costs: Costs, member: Place, place: Place) -> Iterator[tuple[str, F
 def _expanded(costs: Costs, member: Place) -> Iterator[tuple[str, FrameCost]]:
     """The costs of a shorthand with each other word in its text."""
     words = member.shape[1] if member.shape[0] == "word" else ()
-    for word in words:
-        if isinstance(word, str) and word != member.node.text and (len(words) <= MAX_WORDS or word.startswith("k") and word[1:].isdigit()):
-            cost = costs.with_text(member.node.span, word)
-            if cost is not None:
-                yield word, cost
+    others = [word for word in words if isinstance(word, str) and word != member.node.text]
+    if len(others) > MAX_WORDS:
+        others = [word for word in others if word in _SHORT_COUNTS]
+    for word in others:
+        cost = costs.with_text(member.node.span, word)
+        if cost is not None:
+            yield word, cost
 
 
 def _records(costs: Costs, kind: type[Record]) -> Iterator[Record]:

@@ -19,6 +19,7 @@ from msaa_lint.linter.rules.registry import Registry
 from msaa_lint.linter.workspace import InputFile, ResolvedSettings
 
 from .positions import Positions
+from .view import View
 
 _MARK = "\ufeff"
 
@@ -64,6 +65,14 @@ class Analysis:
     def registry(self) -> Registry:
         """The rules of its folder."""
         return self.resolved.engine.registry
+
+    @cached_property
+    def view(self) -> View:
+        """What the questions at a position need."""
+        resolved = self.resolved
+        return View(
+            self.source.text, self.kind.value, self.result, self.registry, self.findings, resolved.limits, resolved.settings.docs_url or ""
+        )
 
     @cached_property
     def parsed(self) -> Parsed:

@@ -14,7 +14,7 @@ from . import inlay_hints as hints
 from . import navigation
 from . import rename as renames
 from . import symbols as outline
-from .shape_words import key_documentation
+from .shape_words import enumerant_documentation, key_documentation
 
 if TYPE_CHECKING:
     from .analysis import Analysis
@@ -68,12 +68,12 @@ def completion(analysis: Analysis, position: types.Position, snippets: bool) -> 
 
 def _item(analysis: Analysis, item: completions.Completion, place: types.Range, number: int) -> types.CompletionItem:
     quote = analysis.view.text[item.start : item.start + 1]
-    documentation = types.MarkupContent(types.MarkupKind.Markdown, key_documentation(*item.member)) if item.member is not None else None
+    text = key_documentation(*item.member) if item.member is not None else enumerant_documentation(*item.enumerant or ("", ""))
     return types.CompletionItem(
         item.label,
         kind=_ITEM_KINDS[item.kind],
         detail=item.detail or None,
-        documentation=documentation,
+        documentation=types.MarkupContent(types.MarkupKind.Markdown, text) if text else None,
         sort_text=f"{number:04}",
         # The place that is replaced begins with the quote, and is compared with this.
         filter_text=quote + item.label if quote in ("'", '"') else None,

@@ -27,8 +27,9 @@ KEY, VALUE, ENUMERANT, REFERENCE = "key", "value", "enumerant", "reference"
 class Completion(NamedTuple):
     """One thing that may stand at the cursor.
 
-    `text` replaces the text from `start` to `end`; `$0` in it is where the cursor goes, if `snippet`. `kind` is KEY, VALUE (a number or a boolean), ENUMERANT (a word) or REFERENCE,
-    `detail` a few words, `member` the structure and member whose documentation it has.
+    `text` replaces the text from `start` to `end`; `$0` in it is where the cursor goes, if `snippet`. `kind` is KEY, VALUE (a number or a
+    boolean), ENUMERANT (a word) or REFERENCE, `detail` a few words, `member` the structure and member, or `enumerant` the enum and name,
+    whose documentation it has.
     """
 
     label: str
@@ -39,6 +40,7 @@ class Completion(NamedTuple):
     detail: str = ""
     snippet: bool = False
     member: tuple[type[Record], str] | None = None
+    enumerant: tuple[str, str] | None = None
 
 
 def complete(view: View, offset: int, snippets: bool = False) -> list[Completion]:
@@ -218,7 +220,8 @@ class _Completer:
         for name, text in enumerants(shape[1], self._style, place):
             if text not in present:
                 quoted = f'"{text}"' if alone and self.is_json else text
-                yield self._item(text, ENUMERANT, name if name != text else "", f"[{quoted}]" if alone else None)
+                item = self._item(text, ENUMERANT, name if name != text else "", f"[{quoted}]" if alone else None)
+                yield item._replace(enumerant=(shape[1], name))
 
     def _subpasses(self, member: str, place: Place) -> list[Completion]:
         """The subpasses of the render pass that a pipeline is for."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections import deque
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
@@ -33,6 +34,7 @@ _FACT = re.compile(r"[\w.]*\Z")
 
 _TABLE = re.compile(r"^[ \t]*\[([^\[\]\n]+)\]", re.MULTILINE)
 _KEY = re.compile(r"^[ \t]*([\w-]+)[ \t]*=", re.MULTILINE)
+_PAGE_KEY = re.compile(r"^([\w-]+):", re.MULTILINE)
 _BARE_KEY = re.compile(r"^[ \t]*([\w-]*)\Z", re.MULTILINE)
 _STRING = re.compile(r"""(["']?)([\w.-]*)\Z""")
 
@@ -87,9 +89,7 @@ def _rules(view: View) -> Iterator[Item]:
 def _configuration(view: View, offset: int) -> tuple[int, int, list[Item]]:
     """The keys of a table, or the values of a key."""
     text = view.text[:offset]
-    header = None
-    for header in _TABLE.finditer(text):
-        pass
+    header = _last(_TABLE, text)
     table = header[1].strip().removeprefix("tool.msaa-lint").lstrip(".") if header is not None else ""
     body = text[header.end() if header is not None else 0 :]
     bare = _BARE_KEY.search(body)
@@ -133,7 +133,7 @@ def _rule_page(view: View, offset: int, before: str) -> tuple[int, int, list[Ite
         present = set(re.findall(r"^([\w-]+):", view.text[: max(fence, 0)], re.MULTILINE))
         keys = [(name, f"{name}: ", "") for name in PAGE_KEYS if name not in present]
         return offset - len(key[1]), _word_end(view.text, offset), keys
-    named = re.match(r"\s*(?:-\s+)?([\w-]+):", before) or _last_key(view.text[:offset])
+    named = re.match(r"\s*(?:-\s+)?([\w-]+):", before) or _last(_PAGE_KEY, view.text[:offset])
     name = named[1] if named is not None else ""
     start = offset - len(_FACT.search(before)[0])  # type: ignore[index]
     end = _word_end(view.text, offset)
@@ -147,11 +147,8 @@ def _rule_page(view: View, offset: int, before: str) -> tuple[int, int, list[Ite
     return start, end, [(fact.name, fact.name, f"{fact.type}: {fact.doc}") for fact in facts] if in_text else []
 
 
-def _last_key(text: str) -> re.Match[str] | None:
-    found = None
-    for found in re.finditer(r"^([\w-]+):", text, re.MULTILINE):
-        pass
-    return found
+def _last(pattern: re.Pattern[str], text: str) -> re.Match[str] | None:
+    return next(iter(deque(pattern.finditer(text), maxlen=1)), None)
 
 
 def word_items(kind: str, member: str, place: Place) -> Iterable[tuple[str, str]]:

@@ -100,7 +100,7 @@ def _page_of(view: View, finding: Finding) -> str:
     rule = next((each for each in view.registry.rules if each.code == finding.code), None)
     if rule is not None:
         return _page(view, rule)
-    return f"**{finding.rule}** `{finding.code}`\n\n{escape_markdown(display(finding.message))}"
+    return f"**{finding.rule}** `{finding.code}`\n\n{prose(finding.message)}"
 
 
 # Descriptions.
@@ -160,14 +160,14 @@ def _alternatives_table(view: View, place: Place, member: Place) -> str:
         lines.append(f"| {title} | {' | '.join(figures)} |")
     own = moved(_lines_at(costs.written.passes, place), costs.written)
     moves = f"Moves {figure(own.total)} MB/s, {figure(own.milliwatts)} mW.\n\n" if own.total else ""
-    missing = [escape_markdown(display(text)) for text in costs.written.unknown[:MAX_MISSING]]
+    missing = [prose(text) for text in costs.written.unknown[:MAX_MISSING]]
     unknown = f"\n\nNot counted: {'; '.join(missing)}." if missing else ""
     return f"{moves}The whole frame with it, and with others in its place:\n\n" + "\n".join(lines) + unknown
 
 
 def _with_difference(new: float, old: float) -> str:
     change = new - old
-    return f"{figure(new)} ({'+' if change > 0 else '−'}{figure(abs(change))})" if abs(change) >= 0.005 else figure(new)  # noqa: RUF001
+    return f"{figure(new)} ({'+' if change > 0 else '−'}{figure(abs(change))})" if abs(change) >= 0.005 else figure(new)
 
 
 def _lines_at(costs: Iterable[PassCost], place: Place) -> Iterator[Line]:
@@ -183,15 +183,15 @@ def _about_part(view: View, start: int) -> list[str]:
         return []
     for each in passes(costs):
         if each.head.start == start:
-            cost = each.cost
+            cost, written = each.cost, costs.written
             rows = [
-                f"| {code(line.attachment)} | {line.aspect} | {line.action} | {line.samples} | {figure(moved([line], costs.written).total)} |"
+                f"| {code(line.attachment)} | {line.aspect} | {line.action} | {line.samples} | {figure(moved([line], written).total)} |"
                 for line in cost.lines
             ]
             total = f"{figure(cost.amount.traffic_mb_per_s)} MB/s, {figure(cost.amount.milliwatts)} mW"
             head = "| attachment | aspect | action | samples | MB/s |\n| --- | --- | --- | ---: | ---: |\n"
             table = [head + "\n".join(rows)] if rows else []
-            missing = [f"Not counted: {escape_markdown(display(text))}" for text in cost.unknown]
+            missing = [f"Not counted: {prose(text)}." for text in cost.unknown]
             return [f"This pass moves {total}.", *table, *missing]
         for head_at, _, lines in each.attachments:
             if head_at.start == start:
@@ -216,7 +216,8 @@ def _about_name(view: View, offset: int) -> list[str]:
     if memory is not None and memory.committed is not None:
         lazily = memory.bytes is not None and memory.committed < memory.bytes
         size = f"; {figure(memory.committed / 2**20)} MiB of memory" + (f" of {figure((memory.bytes or 0) / 2**20)} MiB" if lazily else "")
-    said = f"Image {code(image.text)}: {figure(total.read)} MB/s read, {figure(total.write)} MB/s written, {figure(total.milliwatts)} mW{size}."
+    traffic = f"{figure(total.read)} MB/s read, {figure(total.write)} MB/s written, {figure(total.milliwatts)} mW"
+    said = f"Image {code(image.text)}: {traffic}{size}."
     if not lines:
         return [said]
     rows = [
@@ -230,3 +231,11 @@ def code(text: str) -> str:
     """A text of an input as it is, also in a cell of a table: in backquotes, or escaped if it has characters that end them or the cell."""
     shown = display(text)
     return escape_markdown(shown) if not shown or "`" in shown or "|" in shown else f"`{shown}`"
+
+
+def prose(text: str) -> str:
+    """A sentence with texts of an input in it, some of them in backquotes, so that it is shown as it is."""
+    parts = display(text).split("`")
+    if len(parts) % 2 == 0:
+        return escape_markdown("`".join(parts))
+    return "".join(code(part) if n % 2 else escape_markdown(part) for n, part in enumerate(parts))

@@ -13,6 +13,7 @@ from msaa_lint.core.package import VERSION
 from .analysis import Analysis
 from .diagnostics import diagnostics
 from .documents import OpenDocument, folder_of
+from .features import add_features
 from .worker import Worker
 
 
@@ -93,6 +94,7 @@ def create() -> Server:
     def did_close(params: types.DidCloseTextDocumentParams) -> None:
         server.close(params.text_document.uri)
 
+    add_features(server)
     return server
 
 

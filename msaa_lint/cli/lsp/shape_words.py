@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import inspect
-
 from msaa_lint.frame.description.record import Record
+from msaa_lint.frame.description.reference.lookup import enumerant_text, key_text
 from msaa_lint.frame.description.scalars import SHADING_LEVELS, enumerant
 from msaa_lint.frame.description.shapes import Shape
 from msaa_lint.frame.vulkan.enums import PREFIXES
@@ -54,8 +53,9 @@ def shape_words(shape: Shape) -> str:
 
 
 def key_documentation(kind: type[Record], member: str) -> str:
-    """What a member means."""
-    return f"**{member}** of {inspect.getdoc(kind) or kind.__name__}"
+    """What a member means, in Markdown."""
+    text = key_text(kind, member)
+    return f"**{text.title}** `{member}`\n\n{text.markdown}"
 
 
 def value_documentation(place: Place) -> str:
@@ -69,5 +69,10 @@ def value_documentation(place: Place) -> str:
             full = f"{PREFIXES[enum]}{name}" if enum in PREFIXES else f"{enum}.{name}"
             format = format_of(name) if enum == "VkFormat" else None
             size = f", {format.bytes} bytes a {'texel' if format.block == (1, 1, 1) else 'block'}" if format is not None else ""
-            return f"`{full}`{size}"
+            return "\n\n".join(filter(None, (f"`{full}`{size}", enumerant_documentation(enum, name))))
     return ""
+
+
+def enumerant_documentation(enums: str, name: str) -> str:
+    """What a value of one of some enums, which `|` joins, means; empty if there is no text for it."""
+    return next((text for enum in enums.split("|") if enum and (text := enumerant_text(enum, name))), "")

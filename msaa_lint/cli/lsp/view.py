@@ -1,4 +1,4 @@
-"""What the editor's questions about one version of a document have in common: its tree, its names, its costs. Each is made once, if asked."""
+"""What all questions about one version of a document need: its tree, its names, its costs. Each is made once, if asked for."""
 
 from __future__ import annotations
 
