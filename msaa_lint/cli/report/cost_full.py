@@ -10,7 +10,7 @@ from msaa_lint.core.finding import Result
 from msaa_lint.frame.cost.input_cost import CostComparison, CostedFrame
 
 from . import Options, Write, cost_rows
-from .cost_rows import Row, Table, frame_name
+from .cost_rows import Table, frame_name
 from .escape import clip, display, escape
 from .paths import display_path
 from .tables import FIGURE, NAME, Column, print_tables
@@ -18,9 +18,6 @@ from .tables import Table as TextTable
 
 MAX_NAME = 240
 """Code points of a name in a table; JSON has all of it."""
-
-MAX_ROWS = 1000
-"""Rows of a table: nobody reads more, and laying one out takes a millisecond."""
 
 _STYLES = {cost_rows.PASS: "bold", cost_rows.LINE: "", cost_rows.TOTAL: "bold"}
 
@@ -57,19 +54,9 @@ def _print_remarks(remarks: Sequence[tuple[str, str]], out: Write) -> None:
 def _print_table(table: Table, out: Write, options: Options) -> None:
     """Prints a table after an empty line. Where it is too wide, its texts share a column and its headings take several lines."""
     if table.rows:
-        table = table._replace(rows=_limited(table.rows))
+        table = cost_rows.limited(table)
         out("\n")
         print_tables(out, options, [_layout(table, False)], [_layout(table, True)])
-
-
-def _limited(rows: list[Row]) -> list[Row]:
-    """The first rows, the totals, and between them the number of rows that are left out."""
-    if len(rows) <= MAX_ROWS:
-        return rows
-    totals = [row for row in rows[MAX_ROWS:] if row.kind == cost_rows.TOTAL]
-    text = f"and {len(rows) - MAX_ROWS - len(totals)} more rows (--output json has all)"
-    rest = Row(cost_rows.PASS, (text, *("" for _ in rows[0].texts[1:])), tuple("" for _ in rows[0].figures))
-    return [*rows[:MAX_ROWS], rest, *totals]
 
 
 def _layout(table: Table, narrow: bool) -> TextTable:

@@ -22,6 +22,10 @@ FIGURES = ("read MB/s", "write MB/s", "corrected MB/s", "memory MiB", "mW", "bud
 CHANGES = ("old MB/s", "new MB/s", "read MB/s", "write MB/s", "memory MiB", "mW", "traffic")
 
 
+MAX_ROWS = 1000
+"""Rows of a table that a person reads: laying one out in a terminal takes a millisecond."""
+
+
 class Row(NamedTuple):
     """A row: its kind, the texts on its left, and the figures below `FIGURES` or `CHANGES`, empty if unknown or not applicable."""
 
@@ -50,6 +54,17 @@ def frame_tables(frame: CostedFrame) -> list[Table]:
         Table(("the frame",), FIGURES, alternatives(frame)),
         Table(("image", ""), ("in full MiB", "committed MiB"), images(frame.cost)),
     ]
+
+
+def limited(table: Table) -> Table:
+    """A table with its first rows, its totals, and between them the number of rows that are left out."""
+    rows = table.rows
+    if len(rows) <= MAX_ROWS:
+        return table
+    totals = [row for row in rows[MAX_ROWS:] if row.kind == TOTAL]
+    text = f"and {len(rows) - MAX_ROWS - len(totals)} more rows (--output json has all)"
+    rest = Row(PASS, (text, *("" for _ in rows[0].texts[1:])), tuple("" for _ in rows[0].figures))
+    return table._replace(rows=[*rows[:MAX_ROWS], rest, *totals])
 
 
 def totals(frames: Sequence[CostedFrame], names: Sequence[str]) -> Table:

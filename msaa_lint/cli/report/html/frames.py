@@ -13,9 +13,6 @@ from .. import Options, cost_rows
 from ..words import plural
 from . import graph, waterfall
 
-MAX_ROWS = 1000
-"""Rows of a table."""
-
 
 def frame_section(frame: CostedFrame, options: Options, anchors: Mapping[int, str] | None = None) -> dict[str, Any]:
     """What `frame.html` shows of a frame. `anchors` has the fragment of each finding on the page, by its identity."""
@@ -35,7 +32,7 @@ def frame_section(frame: CostedFrame, options: Options, anchors: Mapping[int, st
 def graph_section(frame: FrameGraph, fps: float, state: str) -> dict[str, Any]:
     """A graph and the table that says the same."""
     count = sum(len(each.flows) for each in frame.passes)
-    rows = list(islice(graph.flow_rows(frame), MAX_ROWS))
+    rows = list(islice(graph.flow_rows(frame), cost_rows.MAX_ROWS))
     left_out = f"The table has {len(rows)} of {count} rows; --output json of `msaa-lint cost` has all." if count > len(rows) else ""
     description = f"{plural(len(frame.passes), 'pass')} and {plural(len(frame.images), 'image')}; the table below says the same in words"
     return {"state": state, "drawing": graph.drawing(frame, fps), "rows": rows, "left_out": left_out, "description": description}

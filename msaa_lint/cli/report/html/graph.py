@@ -21,9 +21,9 @@ MAX_IMAGES = 100
 MAX_FLOWS = 16
 """What a graph draws: passes, images, and flows of one pass. The table beside it has the rest."""
 
-_PASS_WIDTH, _LABEL_WIDTH, _COLUMN, _IMAGE_WIDTH = 190, 215, 172, 162
+_PASS_WIDTH, _LABEL_WIDTH, _COLUMN, _IMAGE_WIDTH = 170, 200, 158, 148
 _IMAGE_HEIGHT, _PORT, _GAP, _MARGIN = 40, 27, 18, 8
-_PASS_TEXT, _IMAGE_TEXT = 24, 20
+_PASS_TEXT, _IMAGE_TEXT = 22, 19
 """Characters of names that fit; the title of a box has the whole name."""
 
 
@@ -147,7 +147,7 @@ class _Layout:
         kind = "multisampled" if (image.samples or 1) > 1 else "single"
         detail = _detail(image)
         title = f"{image.name}: {detail}{_memory(image)}"
-        return Box(*box, _cut(image.name, _IMAGE_TEXT), _cut(detail, _IMAGE_TEXT + 4), title, kind)
+        return Box(*box, _cut(image.name, _IMAGE_TEXT), _cut(detail, _IMAGE_TEXT + 2), title, kind)
 
     def _arrow(self, each: GraphPass, flow: Flow, y: int) -> Arrow:
         width = 1.5 if flow.direction == TILE else round(1.5 + 5 * sqrt(flow.bytes / self._largest), 2)
@@ -196,8 +196,10 @@ def _columns(uses: dict[int, list[int]], passes: int) -> dict[int, int]:
 
 
 def _pass_box(each: GraphPass, y: int, height: int) -> Box:
-    words = {"renderPass": "render pass", "rendering": "dynamic rendering", "command": "command"}[each.kind]
+    words = {"renderPass": "render pass", "rendering": "rendering", "command": "command"}[each.kind]
     times = f", {each.times} times" if each.times != 1 else ""
+    size = sum(flow.bytes for flow in each.flows)
+    words += f", {amount(size)}" if size else ""
     title = f"{each.name}: {words}{times}"
     kind = "command" if each.kind == "command" else "pass"
     return Box(_MARGIN, y, _PASS_WIDTH, height, _cut(each.name, _PASS_TEXT), words + times, title, kind)

@@ -70,7 +70,7 @@ def of_comparison(comparison: Comparison) -> list[Bar]:
     steps = [Step(each.name, each.status, each.difference) for each in comparison.passes if each.status != SAME]
     # Passes count the memory of the images that they use, also if others use them: only totals add up.
     steps = [step._replace(change=step.change._replace(memory_mib=0.0)) for step in steps]
-    steps = [*_largest(steps), *_rest(steps, total.difference, "memory of images, and rounding")]
+    steps = [*_largest(steps), *_rest("images", "memory that no pass alone accounts for", steps, total.difference)]
     return _bars(steps, total.old or NOTHING, ("old", ""), [("new", "", total.new or NOTHING)])
 
 
@@ -78,12 +78,14 @@ def _fix_steps(findings: Sequence[Finding], written: Amount, fixed: Amount) -> l
     """The fixes with a price; and what they save together beyond or below the sum of their prices."""
     steps = [Step(each.rule, each.subject, _minus(NOTHING, Amount(*each.price)), each) for each in findings if each.price is not None]
     steps = [step for step in steps if any(step.change)]
-    return [*_largest(steps), *_rest(steps, _minus(fixed, written), "together, fixes save another amount than one by one")]
+    detail = "what several of these fixes save counts once; what only fixes together save, or other rounds of them, counts too"
+    return [*_largest(steps), *_rest("together", detail, steps, _minus(fixed, written))]
 
 
-def _rest(steps: Sequence[Step], difference: Amount, detail: str) -> list[Step]:
+def _rest(name: str, detail: str, steps: Sequence[Step], difference: Amount) -> list[Step]:
+    """What the steps leave of a difference; nothing if they add up."""
     rest = _minus(difference, _sum(step.change for step in steps))
-    return [Step("the rest", detail, rest)] if any(abs(value) >= _EXACT for value in rest) else []
+    return [Step(name, detail, rest)] if any(abs(value) >= _EXACT for value in rest) else []
 
 
 def _largest(steps: Sequence[Step]) -> list[Step]:
