@@ -51,7 +51,8 @@ def _frames(workspace: Workspace, path: str, terms: Terms, counts: Sequence[int]
     file = workspace.open(path)
     if file is None:
         return []
-    result = file.lint(prices="html" in workspace.request.formats)
+    steps = "html" in workspace.request.formats
+    result = file.lint(prices=steps)
     errors = [finding for finding in result.findings if finding.fatal]
     workspace.findings.extend(errors)
     if result.source is None:
@@ -64,7 +65,7 @@ def _frames(workspace: Workspace, path: str, terms: Terms, counts: Sequence[int]
     trials = _trials(file, result) if not errors and can_try_fixes(result) else None
     if not can_try_fixes(result):
         notes.append(f"{result.file} is too large to try fixes: costs are those of the frame as written")
-    return costed_frames(result, documents, trials, terms, counts)
+    return costed_frames(result, documents, trials, terms, counts, steps)
 
 
 def _valid_documents(result: FileResult) -> list[DocumentResult]:

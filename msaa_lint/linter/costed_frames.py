@@ -5,31 +5,51 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 
+from msaa_lint.core.allowance import Allowance
 from msaa_lint.core.finding import Finding
-from msaa_lint.frame.cost.amounts import Terms
+from msaa_lint.frame.cost.amounts import Amount, Terms
 from msaa_lint.frame.cost.graph import frame_graph
-from msaa_lint.frame.cost.input_cost import CostedFrame
+from msaa_lint.frame.cost.input_cost import CostedFrame, FixStep
 from msaa_lint.frame.cost.model import frame_cost
 from msaa_lint.frame.cost.variants import variants
 from msaa_lint.frame.facts.frame import Frame
 
-from .fixes.document_fixes import documents_by_key
+from .fixes.changes import Change, NoFix, StructuralChange, apply_temporarily, distinct
+from .fixes.document_fixes import DocumentFixes, documents_by_key
 from .fixes.fixer import FixResult
+from .prices import FINDING_WEIGHT, MAX_COSTED, MAX_REREAD, PriceAllowance
 from .results import DocumentResult, FileResult, finding_kind, unmerged
 from .rules.rule_runner import finding_key
 from .savings import Trials
 
+MAX_STEPS = 25
+"""Fixes of a frame that have a step of their own."""
+
 
 def costed_frames(
-    result: FileResult, documents: Sequence[DocumentResult], trials: Trials | None, terms: Terms, counts: Sequence[int]
+    result: FileResult,
+    documents: Sequence[DocumentResult],
+    trials: Trials | None,
+    terms: Terms,
+    counts: Sequence[int],
+    steps: bool = False,
 ) -> list[CostedFrame]:
-    """The costs of some documents of an input. `trials` are the fixes of the input, None if there are none to make."""
-    fixed = _fixed_findings(result, trials) if trials is not None else {}
-    return [_costed(result, document, trials, terms, counts, fixed.get(document.number, [])) for document in documents]
+    """The costs of some documents of an input. `trials` are the fixes of the input, None if there are none to make; `steps` also asks for
+    what each fix adds to those before it."""
+    frames = [_costed(result, document, trials, terms, counts) for document in documents]
+    if trials is None or not steps:
+        return frames
+    fixed = _fixed_findings(result, trials)
+    allowance = PriceAllowance(Allowance(MAX_REREAD), Allowance(MAX_COSTED))
+    fixes = [DocumentFixes(document, editable=not result.is_code) for document in documents]
+    return [
+        frame._replace(fix_steps=fix_steps(each, fixed.get(each.result.number, ()), terms, allowance))
+        for frame, each in zip(frames, fixes, strict=True)
+    ]
 
 
 def _fixed_findings(result: FileResult, trials: Trials) -> dict[int, list[Finding]]:
-    """The findings that fixes remove, with the prices that they have in the result, by the number of their document.
+    """The findings that fixes remove, by the number of their document.
 
     One that other fixes have moved is recognized by its rule and subject; those that only appear after other fixes are left out.
     """
@@ -50,9 +70,49 @@ def _fixed_findings(result: FileResult, trials: Trials) -> dict[int, list[Findin
     return fixed
 
 
-def _costed(
-    result: FileResult, document: DocumentResult, trials: Trials | None, terms: Terms, counts: Sequence[int], fixed: Sequence[Finding]
-) -> CostedFrame:
+def fix_steps(fixes: DocumentFixes, findings: Sequence[Finding], terms: Terms, allowance: PriceAllowance) -> list[FixStep]:
+    """What the fix of each finding changes once those before it are made, the most expensive finding first.
+
+    These add up, unlike prices, of which each is that of one fix alone. Only `MAX_STEPS` fixes, and as many as the allowance pays for,
+    have a step.
+    """
+    document = fixes.result.document
+    last = frame_cost(Frame(document), fixes.result.device, terms).total
+    size = Frame(document).structures
+    steps: list[FixStep] = []
+    made: list[Change] = []
+    for finding in sorted(findings, key=_priority)[:MAX_STEPS]:
+        if not allowance.costed.take(FINDING_WEIGHT + size):
+            break
+        try:
+            changes = distinct([*made, *fixes.changes(finding)])
+            total = _total(fixes, changes, terms, allowance)
+        except NoFix:
+            continue
+        if total is not None:
+            steps.append(FixStep(finding, Amount(*(after - before for after, before in zip(total, last, strict=True)))))
+            made, last = changes, total
+    return steps
+
+
+def _priority(finding: Finding) -> tuple[float, float]:
+    price = finding.price
+    return (-price.milliwatts, -price.memory_mib) if price is not None else (0.0, 0.0)
+
+
+def _total(fixes: DocumentFixes, changes: Sequence[Change], terms: Terms, allowance: PriceAllowance) -> Amount | None:
+    """The cost of a document after changes; None if they cannot be made together, or take too long to read."""
+    try:
+        with apply_temporarily(changes):
+            return frame_cost(Frame(fixes.result.document), fixes.result.device, terms).total
+    except StructuralChange:
+        if not allowance.reread.take(len(fixes.result.document.source.text)):
+            return None
+        document = fixes.reread(changes)
+    return frame_cost(Frame(document), fixes.result.device, terms).total if document is not None else None
+
+
+def _costed(result: FileResult, document: DocumentResult, trials: Trials | None, terms: Terms, counts: Sequence[int]) -> CostedFrame:
     """The costs of one document: as written, after its fixes, and with other sample counts, after the same fixes."""
     written = Frame(document.document)
     cost = frame_cost(written, document.device, terms)
@@ -70,7 +130,6 @@ def _costed(
         fixed=fixed_cost,
         fixed_variants=variants(everything.document, everything.device, terms, counts),
         fixed_graph=frame_graph(fixed_frame, fixed_cost),
-        fixed_findings=fixed,
     )
 
 

@@ -247,7 +247,7 @@ class _Run:
 
         from .costed_frames import costed_frames
 
-        return part._replace(frames=costed_frames(result, result.documents, trials, Terms(), (1,)))
+        return part._replace(frames=costed_frames(result, result.documents, trials, Terms(), (1,), steps=True))
 
     def _add(self, part: RunPart) -> None:
         """Adds what an input adds to the result of the run, after the baseline."""

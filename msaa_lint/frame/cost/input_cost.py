@@ -42,13 +42,19 @@ def _sum(amounts: Iterable[Amount]) -> Amount:
     return Amount(*(sum(column) for column in zip(Amount(0.0, 0.0, 0.0, 0.0), *amounts, strict=True)))
 
 
+class FixStep(NamedTuple):
+    """What the fix of a finding changes of a frame's cost after the fixes before it: negative where it saves."""
+
+    finding: Finding
+    change: Amount
+
+
 class CostedFrame(NamedTuple):
     """A frame of an input and its costs: as written, and with other sample counts (`variants`).
 
     `safely_fixed` is its cost after `--fix`, and `fixed` after `--fix --unsafe-fixes`, None if they fix nothing of the input;
     `fixed_variants` are other sample counts after the latter. `number` is the index of its document in the input, of `documents`.
-    `graph` and `fixed_graph` are those of `cost` and `fixed`; `fixed_findings` are the findings, with their prices, that the fixes of
-    `fixed` remove.
+    `graph` and `fixed_graph` are those of `cost` and `fixed`; `fix_steps` lead from `cost` to `fixed`, if they are computed.
     """
 
     file: str
@@ -61,7 +67,7 @@ class CostedFrame(NamedTuple):
     fixed_variants: Sequence[Variant] = ()
     graph: FrameGraph | None = None
     fixed_graph: FrameGraph | None = None
-    fixed_findings: Sequence[Finding] = ()
+    fix_steps: Sequence[FixStep] = ()
 
     @property
     def states(self) -> list[tuple[str, FrameCost]]:

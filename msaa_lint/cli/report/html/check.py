@@ -229,7 +229,8 @@ def _anchors(cards: Sequence[Card]) -> dict[tuple[str, str, str], str]:
 
 
 def _of_frame(frame: CostedFrame, anchors: Mapping[tuple[str, str, str], str]) -> dict[int, str]:
-    keys = {id(finding): (finding.file, finding.code, finding.subject) for finding in frame.fixed_findings}
+    findings = [step.finding for step in frame.fix_steps]
+    keys = {id(finding): (finding.file, finding.code, finding.subject) for finding in findings}
     return {identity: anchors[key] for identity, key in keys.items() if key in anchors}
 
 
@@ -286,7 +287,7 @@ def _page(rule: RuleInfo) -> Markup:
     tokens = markdown.parse(escape_lines(rule.markdown))
     for token in tokens:
         if token.type.startswith("heading"):
-            token.tag = "h4"
+            token.tag = "h3"
     return Markup(markdown.renderer.render(tokens, markdown.options, {}))
 
 

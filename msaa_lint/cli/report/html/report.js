@@ -2,6 +2,15 @@
 // Runs in every report. Without it the page reads the same; only controls (`script-only`) are missing.
 document.documentElement.classList.add("with-script");
 
+// The place that the fragment names; null if there is none.
+const target = () => {
+  try {
+    return document.getElementById(decodeURIComponent(location.hash.slice(1)));
+  } catch {
+    return null; // not the encoding of a text
+  }
+};
+
 // The filters of findings. Their state is the fragment (#severity=error&text=resolve), so that it can be sent, and the back button undoes it.
 (() => {
   const form = document.getElementById("filters");
@@ -60,7 +69,7 @@ document.documentElement.classList.add("with-script");
   const read = () => {
     const fragment = location.hash.slice(1);
     if (fragment && !fragment.includes("=")) {
-      const place = document.getElementById(decodeURIComponent(fragment));
+      const place = target();
       if (place && place.closest("[hidden]")) form.reset();
       return;
     }
@@ -93,7 +102,7 @@ document.documentElement.classList.add("with-script");
 // The page of a rule, or whatever a link leads to, opens.
 (() => {
   const open = () => {
-    let place = document.getElementById(decodeURIComponent(location.hash.slice(1)));
+    const place = target();
     if (!place) return;
     for (let element = place; element; element = element.parentElement) if (element.tagName === "DETAILS") element.open = true;
     place.scrollIntoView();

@@ -8,7 +8,7 @@ from typing import NamedTuple
 from msaa_lint.core.finding import Finding
 from msaa_lint.frame.cost.amounts import Amount
 from msaa_lint.frame.cost.compare import NOTHING, SAME, Comparison
-from msaa_lint.frame.cost.input_cost import CostedFrame
+from msaa_lint.frame.cost.input_cost import CostedFrame, FixStep
 from msaa_lint.frame.cost.variants import NONE
 
 from ..cost_rows import figure
@@ -57,7 +57,7 @@ def of_frame(frame: CostedFrame) -> list[Bar]:
         )
     if frame.fixed is None:
         return _bars([], frame.cost.total, ("as written", ""), totals) if totals else []
-    steps = _fix_steps(frame.fixed_findings, frame.cost.total, frame.fixed.total)
+    steps = _fix_steps(frame.fix_steps, frame.cost.total, frame.fixed.total)
     title, _ = frame.states[-1]
     return _bars(steps, frame.cost.total, ("as written", ""), [("as fixed", title, frame.fixed.total), *totals])
 
@@ -74,12 +74,10 @@ def of_comparison(comparison: Comparison) -> list[Bar]:
     return _bars(steps, total.old or NOTHING, ("old", ""), [("new", "", total.new or NOTHING)])
 
 
-def _fix_steps(findings: Sequence[Finding], written: Amount, fixed: Amount) -> list[Step]:
-    """The fixes with a price; and what they save together beyond or below the sum of their prices."""
-    steps = [Step(each.rule, each.subject, _minus(NOTHING, Amount(*each.price)), each) for each in findings if each.price is not None]
-    steps = [step for step in steps if any(step.change)]
-    detail = "what several of these fixes save counts once; what only fixes together save, or other rounds of them, counts too"
-    return [*_largest(steps), *_rest("together", detail, steps, _minus(fixed, written))]
+def _fix_steps(fixes: Sequence[FixStep], written: Amount, fixed: Amount) -> list[Step]:
+    """The fixes that change the cost; and what the others change, or all of them only together."""
+    steps = [Step(fix.finding.rule, fix.finding.subject, fix.change, fix.finding) for fix in fixes if any(fix.change)]
+    return [*steps, *_rest("other fixes", "and what fixes change only together", steps, _minus(fixed, written))]
 
 
 def _rest(name: str, detail: str, steps: Sequence[Step], difference: Amount) -> list[Step]:

@@ -30,13 +30,16 @@ class Browser:
         options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
         self.driver: Any = webdriver.Chrome(options=options, service=webdriver.ChromeService(DRIVER))
 
-    def open(self, page: Path, *, width: int = 1280, dark: bool = False, media: str = "screen", script: bool = True) -> None:
-        """Shows a page, and waits until its figures are drawn."""
+    def open(
+        self, page: Path, *, width: int = 1280, dark: bool = False, media: str = "screen", script: bool = True, fragment: str = ""
+    ) -> None:
+        """Shows a page anew, and waits until its figures are drawn."""
         scheme = {"name": "prefers-color-scheme", "value": "dark" if dark else "light"}
         self._command("Emulation.setDeviceMetricsOverride", width=width, height=900, deviceScaleFactor=1, mobile=False)
         self._command("Emulation.setEmulatedMedia", media=media, features=[scheme])
         self._command("Emulation.setScriptExecutionDisabled", value=not script)
-        self.driver.get(page.as_uri())
+        self.driver.get("about:blank")
+        self.driver.get(page.as_uri() + fragment)
         if script and self.run("return Boolean(document.querySelector('[data-figure]'))"):
             self.wait("return document.documentElement.dataset.drawn !== undefined")
 
