@@ -30,7 +30,7 @@ from .common import (
     warn,
     write_output,
 )  # fmt: skip
-from .options import TEXT_FORMATS, Arguments
+from .options import PAGE_FORMATS, Arguments
 from .report.data import dump_indented
 from .report.escape import escape
 
@@ -75,7 +75,7 @@ def parse_options(arguments: Arguments) -> ConfirmOptions:
     if samples is not None and samples not in COUNTS:
         raise UsageError(f"`--samples` must be one of {', '.join(map(str, COUNTS))}; found `{samples}`")
     return ConfirmOptions(
-        parse_outputs(arguments.get("output", ()), TEXT_FORMATS, "json=confirm.json") or [Target("full", None)],
+        parse_outputs(arguments.get("output", ()), PAGE_FORMATS, "json=confirm.json") or [Target("full", None)],
         list(dict.fromkeys(arguments.get("device", ()))) or [None],
         Limits(seconds=_parse_seconds(arguments["timeout"])) if "timeout" in arguments else Limits(),
         not arguments.get("no_layer"),
@@ -107,7 +107,10 @@ def _run(arguments: Arguments, options: ConfirmOptions, session: Session) -> int
     from msaa_lint.experiments.confirm.trial import TrialOptions, trial
     from msaa_lint.linter.workspace import Request
 
-    terms = TrialOptions(**options.trial, several=len(options.devices) > 1, traceback=bool(arguments.get("traceback")))
+    formats = {target.format for target in options.targets}
+    terms = TrialOptions(
+        **options.trial, several=len(options.devices) > 1, shows="html" in formats, traceback=bool(arguments.get("traceback"))
+    )
     read: list[Inputs] = []
 
     def documents() -> Any:
@@ -115,8 +118,7 @@ def _run(arguments: Arguments, options: ConfirmOptions, session: Session) -> int
             read.append(inputs(Request(**input_options(arguments), overrides=overrides(arguments))))
         return read[0].inputs
 
-    has_text = any(target.format == "full" for target in options.targets)
-    runs = [trial(session, documents, terms, meanwhile=_import_rich if has_text else None)]
+    runs = [trial(session, documents, terms, meanwhile=_import_rich if "full" in formats else None)]
     for name in options.devices[1:]:
         with _session(options, name) as other:
             runs.append(trial(other, documents, terms))

@@ -35,8 +35,7 @@ INPUT_FORMATS = (
 """The names in `readers.FORMATS`, `readers.CAPTURES`, and `file_types.LANGUAGES`, so that help and errors import no reader."""
 
 COST_FORMATS = ("full", "json", "markdown", "html")
-TEXT_FORMATS = ("full", "json")
-STUDY_FORMATS = (*TEXT_FORMATS, "html")
+PAGE_FORMATS = ("full", "json", "html")
 """The values of `--output` of `confirm` and `study`."""
 
 SCHEMAS = ("description", "json-v1", "cost-v1")
@@ -261,7 +260,7 @@ COMMANDS = {
             ),
             "Rules": (*_SELECTORS, _PROFILE),
             "Output": (
-                _output(*TEXT_FORMATS),
+                _output(*PAGE_FORMATS),
                 Option("image", "text", "Write pictures to this folder: as written, fixed, difference, enlarged edge (PNG).", "DIR"),
                 _FORCE,
                 _COLOR,
@@ -311,7 +310,7 @@ COMMANDS = {
                 Option("budget", "text", "Recommend what adds at most this time to one sample: 0.5ms, 500us.", "TIME", default="1ms"),
             ),
             "Output": (
-                _output(*STUDY_FORMATS),
+                _output(*PAGE_FORMATS),
                 Option("plot", "text", "Draw error against time to an .svg, .png, or .json (Vega-Lite) file (extra `chart`).", "FILE"),
                 Option("crops", "text", "Write enlarged crops of each scene to this folder (PNG; extra `chart`).", "DIR"),
                 Option("record", "flag", "Write a record next to each description, for rule sample-count-above-four."),

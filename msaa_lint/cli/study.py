@@ -42,7 +42,7 @@ from .common import (
     write_output,
     writes,
 )  # fmt: skip
-from .options import STUDY_FORMATS, Arguments
+from .options import PAGE_FORMATS, Arguments
 from .report.escape import escape
 from .study_costs import AllCosts, subject_costs, timing_request
 from .study_subjects import Subject, subjects
@@ -99,7 +99,7 @@ def parse_options(arguments: Arguments) -> StudyOptions:
         raise UsageError("--samples and --techniques leave nothing to measure: sample shading needs a count above 1")
     if "plot" in arguments:
         figure_format(arguments["plot"], "--plot")
-    targets = parse_outputs(arguments.get("output", ()), STUDY_FORMATS, "json=study.json") or [Target("full", None)]
+    targets = parse_outputs(arguments.get("output", ()), PAGE_FORMATS, "json=study.json") or [Target("full", None)]
     drawn = ["--output html"] if any(target.format == "html" for target in targets) else []
     for option in (*(f"--{name}" for name in ("plot", "crops") if name in arguments), *drawn):
         require_figures(option)

@@ -52,8 +52,20 @@ class Times(NamedTuple):
     difference: Difference | None = None
 
 
+class ShownImage(NamedTuple):
+    """An image for a report, as PNG files: as written; and fixed, with the difference, where both versions can be compared."""
+
+    image: str
+    width: int
+    height: int
+    as_written: bytes
+    fixed: bytes = b""
+    difference: bytes = b""
+
+
 class Verdict(NamedTuple):
-    """The verdict on one pass on one device. None means that something was not determined; `notes` say why unless it is obvious."""
+    """The verdict on one pass on one device. None means that something was not determined; `notes` say why unless it is obvious. `pictures`
+    are the paths of the files written, and `shown` the images themselves, if a report asked for them."""
 
     file: str
     name: str
@@ -70,6 +82,7 @@ class Verdict(NamedTuple):
     model: Mapping[str, Any] | None = None
     notes: tuple[str, ...] = ()
     pictures: tuple[str, ...] = ()
+    shown: tuple[ShownImage, ...] = ()
 
     def with_status(self, outcome: PassOutcome | None, fixed: PassOutcome | None, has_errors: bool) -> Verdict:
         """The verdict with its status and reason, for a pass that the device supports.

@@ -218,16 +218,26 @@ class PictureFolder:
         return path
 
 
-def show(album: PictureFolder, stem: tuple[str, ...], before: Texels, after: Texels | None, first: tuple[int, int] | None) -> list[str]:
-    """Writes the pictures of one image and returns their paths: as written; fixed, if there is a fixed version, and the difference; and an
-    enlarged edge."""
+class VersionPictures(NamedTuple):
+    """An image as written; and fixed, with the difference, where there is a fixed version of the same size and components."""
+
+    as_written: Picture
+    fixed: Picture | None = None
+    difference: Picture | None = None
+
+
+def version_pictures(before: Texels, after: Texels | None) -> VersionPictures:
+    """The pictures of an image in both versions."""
     as_written = picture(before)
-    paths = [album.write(as_written, *stem, "as-written")]
-    beside = [as_written]
-    if after is not None and (after.width, after.height) == (before.width, before.height) and after.planes.keys() == before.planes.keys():
-        fixed, apart = picture(after), difference(before, after)
-        paths += [album.write(fixed, *stem, "fixed"), album.write(apart, *stem, "difference")]
-        beside += [fixed, apart]
-    corner = around(as_written, first) if first is not None else edge(as_written)
-    paths.append(album.write(enlarged(beside, corner), *stem, "edge"))
-    return paths
+    if after is None or (after.width, after.height) != (before.width, before.height) or after.planes.keys() != before.planes.keys():
+        return VersionPictures(as_written)
+    return VersionPictures(as_written, picture(after), difference(before, after))
+
+
+def show(album: PictureFolder, stem: tuple[str, ...], pictures: VersionPictures, first: tuple[int, int] | None) -> list[str]:
+    """Writes the pictures of one image and returns their paths: as written; fixed and the difference; and an enlarged edge."""
+    names = ("as-written", "fixed", "difference")
+    known = [(each, name) for each, name in zip(pictures, names, strict=True) if each is not None]
+    paths = [album.write(each, *stem, name) for each, name in known]
+    corner = around(pictures.as_written, first) if first is not None else edge(pictures.as_written)
+    return [*paths, album.write(enlarged([each for each, _ in known], corner), *stem, "edge")]

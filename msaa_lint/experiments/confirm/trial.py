@@ -24,6 +24,7 @@ from .outcome import (
     AgreementRow,
     DeviceInfo,
     DeviceRun,
+    ShownImage,
     Verdict,
     about,
     end_status,
@@ -31,7 +32,7 @@ from .outcome import (
 )
 from .pixels import ImageComparison, RawImage, compare, read
 from .planner import Planner
-from .png import PictureFolder, file_name, show
+from .png import PictureFolder, file_name, png, show, version_pictures
 from .protocol import Event
 from .session import Session
 from .timing import cannot_show
@@ -40,6 +41,9 @@ from .vulkan_errors import NotWritten, Unusable
 
 MAX_IMAGE = 256 << 20
 """Maximum size in bytes of an image that is read back."""
+
+MAX_SHOWN = 32 << 20
+"""Maximum size in bytes of all pictures that a run keeps for a report."""
 
 NOTHING_TO_COMPARE = "there is no picture to compare: no single-sampled image holds the result of the pass"
 
@@ -50,7 +54,7 @@ class TrialOptions(NamedTuple):
     `gate` skips what the device does not support; `image` is the folder for pictures, which replace other files if `force`
     is true; `time` measures times (None: on a GPU only) with
     `repeats`; `size` and `samples` replace the described ones; `several` gives each device its own folder of pictures; `resolves` checks
-    the color resolves too. `traceback` raises the exceptions of internal errors.
+    the color resolves too. `shows` keeps the images for a report. `traceback` raises the exceptions of internal errors.
     """
 
     gate: bool = True
@@ -62,6 +66,7 @@ class TrialOptions(NamedTuple):
     samples: int | None = None
     several: bool = False
     resolves: bool = False
+    shows: bool = False
     traceback: bool = False
 
 
@@ -102,6 +107,7 @@ class _Trial:
         self.info: DeviceInfo = about(device)
         self.planner = planner
         self.timed = options.time if options.time is not None else not self.info.software
+        self.shown_bytes = 0
         self.album: PictureFolder | None = None
         if options.image is not None:
             folder = os.path.join(options.image, file_name(self.info.name)) if options.several else options.image
@@ -115,6 +121,10 @@ class _Trial:
             notes.append(f"{missing}; on Debian run `apt install vulkan-validationlayers`")
         if not self.timed and self.options.time is None and verdicts:
             notes.append("times are not measured on a software driver unless --time requests them")
+        if self.shown_bytes > MAX_SHOWN:
+            notes.append(
+                f"the report has pictures of {MAX_SHOWN >> 20} MiB; the others are left out: confirm fewer inputs, or a smaller --size"
+            )
         if not self.options.gate:
             notes.append("the gate is off: what the device does not support was tried too, and those results are meaningless")
         return notes
@@ -138,7 +148,7 @@ class _Trial:
         before = self._version(source.frame, source.file)
         after = self._version(source.fixed, source.file) if source.fixed is not None else None
         comparisons, not_compared = self._compare(source, before, after)
-        pictures = self._pictures(source, before, after, comparisons)
+        pictures, shown = self._pictures(source, before, after, comparisons)
         passes = before.planned.passes
         if not passes:
             return [Verdict(source.file, "", source.prefix.rstrip("."), SKIPPED, "it has no pass")]
@@ -163,7 +173,8 @@ class _Trial:
             equal = pixels_equal(images)
             note = not_compared or (NOTHING_TO_COMPARE if after is not None and equal is None else "")
             notes = (*verdict.notes, *([note] if note else ()), *deviations.get(number, ()))
-            verdict = verdict._replace(images=tuple(images), pixels_equal=equal, notes=notes)
+            of_pass = tuple(image for image in shown if _concerns(image.image, planned, source.frame, len(passes)))
+            verdict = verdict._replace(images=tuple(images), pixels_equal=equal, notes=notes, shown=of_pass)
             fixed_number = after.number(planned.name) if after is not None else None
             fixed = after.run.passes.get(fixed_number) if after is not None and fixed_number is not None else None
             has_errors = any(finding.severity == "error" for finding in _findings(source, planned))
@@ -210,18 +221,27 @@ class _Trial:
         why = "each way of resolving rounds an average in its own way"
         return compare(before.images, after.images, dict.fromkeys(moved, (1, why))), ""
 
-    def _pictures(self, source: Input, before: Version, after: Version | None, comparisons: Sequence[ImageComparison]) -> list[str]:
-        if self.album is None:
-            return []
-        paths = []
+    def _pictures(
+        self, source: Input, before: Version, after: Version | None, comparisons: Sequence[ImageComparison]
+    ) -> tuple[list[str], list[ShownImage]]:
+        """The paths of the pictures written, and the images kept for a report."""
+        if self.album is None and not self.options.shows:
+            return [], []
+        paths, shown = [], []
         first = {comparison.image: comparison.first for comparison in comparisons}
         stem = (source.file, *([str(source.number)] if source.many > 1 else ()))
         for name, raw in sorted(before.images.items()):
             texels = read(raw)
             fixed = after.images.get(name) if after is not None else None
             if texels is not None and texels.planes:
-                paths += show(self.album, (*stem, name), texels, read(fixed) if fixed is not None else None, first.get(name))
-        return paths
+                pictures = version_pictures(texels, read(fixed) if fixed is not None else None)
+                if self.album is not None:
+                    paths += show(self.album, (*stem, name), pictures, first.get(name))
+                if self.options.shows:
+                    files = [png(each) if each is not None else b"" for each in pictures]
+                    self.shown_bytes += sum(map(len, files))
+                    shown += [ShownImage(name, texels.width, texels.height, *files)] if self.shown_bytes <= MAX_SHOWN else []
+        return paths, shown
 
     def _agreement(self, source: Input, before: Version) -> Mapping[int, Sequence[AgreementRow]]:
         """How the layer and the rules agree, by pass."""

@@ -23,6 +23,7 @@ from msaa_lint.experiments.confirm.png import (
     picture,
     png,
     show,
+    version_pictures,
 )
 from msaa_lint.experiments.confirm.texels import Texels
 from msaa_lint.experiments.confirm.vulkan_errors import NotWritten
@@ -166,11 +167,11 @@ def test_album_replaces_only_its_own_pictures(tmp_path: Path) -> None:
 def test_pictures_of_an_image(tmp_path: Path) -> None:
     before = image("UNORM", {"R": [0, 255] * 512, "G": [0] * 1024, "B": [0] * 1024}, width=32)
     after = image("UNORM", {"R": [0, 255] * 511 + [0, 254], "G": [0] * 1024, "B": [0] * 1024}, width=32)
-    paths = show(PictureFolder(str(tmp_path)), ("file", "color"), before, after, (31, 31))
+    paths = show(PictureFolder(str(tmp_path)), ("file", "color"), version_pictures(before, after), (31, 31))
     names = [f"file-color-{kind}.png" for kind in ("as-written", "fixed", "difference", "edge")]
     assert [Path(path).name for path in paths] == names
     beside = decoded(Path(paths[3]).read_bytes())
     assert (beside.width, beside.height) == (3 * EDGE * EDGE + 16, EDGE * EDGE)
-    assert [Path(path).name for path in show(PictureFolder(str(tmp_path)), ("file", "depth"), before, None, None)] == [
+    assert [Path(path).name for path in show(PictureFolder(str(tmp_path)), ("file", "depth"), version_pictures(before, None), None)] == [
         "file-depth-as-written.png", "file-depth-edge.png",
     ]  # fmt: skip
