@@ -435,4 +435,19 @@ METAL = (
     ),
 )
 
-SHAPES = (*LISTS, *COMMANDS, *METAL)
+OUTPUT = ("--output", "html=a.html")
+PAGES = (
+    described("page of findings", *IMAGES, *PASSES, arguments=OUTPUT),
+    Shape("page of documents", text("a.msaa.yaml", documents(*PAIR, *PASS)), ("check", "--isolated", *OUTPUT, ".")),
+    Shape("page of costs", text("a.msaa.yaml", many(*IMAGES, *PASSES, "commands:", BEGINS)), ("cost", "--isolated", *OUTPUT, ".")),
+    Shape(
+        "page of a pass encoded often",
+        text(
+            "a.msaa.yaml",
+            many(*PAIR, *PASS, "commands:", f"{BEGIN} # @\n{END}\n- readImage: {{image: ms, stage: FRAGMENT, access: SHADER_READ}}"),
+        ),
+        ("cost", "--isolated", *OUTPUT, "."),
+    ),
+)
+
+SHAPES = (*LISTS, *COMMANDS, *METAL, *PAGES)

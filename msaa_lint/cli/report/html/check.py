@@ -25,6 +25,7 @@ from ..full import elsewhere, marks, remarks
 from ..paths import display_path
 from ..place import place
 from ..summary import converted_saving, files_saving, is_choice, summary, tally, usable_price
+from ..undecided import explanation
 from ..words import plural
 from .diff import DiffLine, fix_diff
 from .frames import frame_section
@@ -81,7 +82,7 @@ def render(result: Result, out: Write, options: Options, frames: Sequence[Costed
     """Writes the findings with their excerpts and fixes, and the graphs and waterfalls of the frames."""
     cards = _cards(result, options)
     anchors = _anchors(cards)
-    shown = frames[:MAX_FRAMES]
+    shown = sorted(frames, key=_saving, reverse=True)[:MAX_FRAMES]
     context = {
         "title": _title(result, options),
         "tiles": _tiles(result),
@@ -95,9 +96,18 @@ def render(result: Result, out: Write, options: Options, frames: Sequence[Costed
         "left_out": _left_out(len(result.findings)),
         "filters": _filters(result, cards, options),
         "rules": _rules(result, cards, options),
+        "undecided": list(explanation(result, options)) if options.explain_undecided else [],
         "suppressed": [line(entry.finding, result, options) for entry in result.suppressed[:MAX_CARDS]] if options.show_suppressed else [],
     }
     write_page("check.html", context, out)
+
+
+def _saving(frame: CostedFrame) -> tuple[float, float]:
+    """What fixes save of a frame, by which the page sorts: the milliwatts, and the memory."""
+    if frame.fixed is None:
+        return (0.0, 0.0)
+    before, after = frame.cost.total, frame.fixed.total
+    return (before.milliwatts - after.milliwatts, before.memory_mib - after.memory_mib)
 
 
 def _title(result: Result, options: Options) -> str:
@@ -236,7 +246,9 @@ def _of_frame(frame: CostedFrame, anchors: Mapping[tuple[str, str, str], str]) -
 
 def _more_frames(frames: Sequence[CostedFrame]) -> str:
     left = len(frames) - MAX_FRAMES
-    return f"{plural(left, 'more frame')} of {plural(len(frames), 'frame')} not drawn; `msaa-lint cost` has each." if left > 0 else ""
+    return (
+        f"{left} of {len(frames)} frames are not drawn, those of which fixes save least; `msaa-lint cost` shows them." if left > 0 else ""
+    )
 
 
 def _left_out(count: int) -> str:

@@ -55,11 +55,17 @@ def _lines(source: Source, edits: Sequence[Edit]) -> Iterator[DiffLine]:
             after = apply(before, [Edit(Span(edit.span.start - start, edit.span.end - start), edit.text) for edit in group])
         except ValueError:
             continue  # overlapping edits, or some that are not within the text, have no diff
-        changes = difflib.unified_diff(_LINE_END.split(before), _LINE_END.split(after), n=_CONTEXT, lineterm="")
+        changes = difflib.unified_diff(_split(before), _split(after), n=_CONTEXT, lineterm="")
         for number, line in enumerate(changes):
             if number > 1 and not line.startswith("@@"):
                 kind = {"-": "removed", "+": "added"}.get(line[0], "context")
                 yield DiffLine(kind, line[0], clip(line[1:], _MAX_LINE))
+
+
+def _split(text: str) -> list[str]:
+    """The lines of a text, without their ends."""
+    lines = _LINE_END.split(text)
+    return lines if lines[-1] else lines[:-1]
 
 
 def _groups(source: Source, edits: Sequence[Edit]) -> list[tuple[int, int, list[Edit]]]:
