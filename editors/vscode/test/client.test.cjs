@@ -1,0 +1,113 @@
+// The bundled extension with a mock editor and the real language server, whose command MSAA_LINT names.
+const assert = require("node:assert/strict");
+const { mkdtempSync, writeFileSync } = require("node:fs");
+const Module = require("node:module");
+const { tmpdir } = require("node:os");
+const { join } = require("node:path");
+const { after, test } = require("node:test");
+
+const resolve = Module._resolveFilename;
+Module._resolveFilename = (name, ...rest) => (name === "vscode" ? require.resolve("./vscode.cjs") : resolve(name, ...rest));
+const vscode = require("./vscode.cjs");
+const extension = require("../out/extension.js");
+const { mock } = vscode;
+
+const COMMAND = process.env.MSAA_LINT ?? "msaa-lint";
+const TEXT = `renderPasses:
+  forward:
+    attachments:
+      color_ms: {format: R8G8B8A8_UNORM, samples: 4, loadOp: CLEAR, storeOp: STORE}
+      color: {format: R8G8B8A8_UNORM, samples: 1, loadOp: DONT_CARE, storeOp: STORE}
+    subpasses:
+      - {colorAttachments: [color_ms], resolveAttachments: [color]}
+`;
+
+/** An open document of the editor. */
+function documentOf(uri, text) {
+    const lines = text.split("\n");
+    return {
+        uri,
+        fileName: uri.fsPath,
+        languageId: "yaml",
+        version: 1,
+        isClosed: false,
+        lineCount: lines.length,
+        getText: () => text,
+        lineAt: (line) => ({ text: lines[line] }),
+    };
+}
+
+async function opened(name) {
+    const folder = mkdtempSync(join(tmpdir(), "msaa-lint-vscode-"));
+    writeFileSync(join(folder, name), TEXT);
+    const document = documentOf(vscode.Uri.file(join(folder, name)), TEXT);
+    vscode.workspace.textDocuments.push(document);
+    const tab = new vscode.TabInputText();
+    tab.uri = document.uri;
+    vscode.window.tabGroups.all.push({ tabs: [{ input: tab }] });
+    vscode.window.visibleTextEditors.push({ document });
+    vscode.window.activeTextEditor = { document };
+    await mock.emitters.onDidOpenTextDocument?.fire(document);
+    return document;
+}
+
+/** The next diagnostics of a document that are not empty. */
+function diagnosed(document) {
+    const uri = document.uri.toString();
+    return new Promise((resolve) => {
+        const look = () => mock.diagnostics.get(uri)?.length && resolve(mock.diagnostics.get(uri));
+        mock.changedDiagnostics.event(look);
+        look();
+    });
+}
+
+/** The setting changes, and the extension hears of it. */
+async function set(name, value) {
+    mock.settings[`msaaLint.${name}`] = value;
+    await mock.emitters.onDidChangeConfiguration.fire({ affectsConfiguration: (other) => other === `msaaLint.${name}` });
+}
+
+after(() => extension.deactivate());
+
+test("a missing command is named, with what to do", { timeout: 60_000 }, async () => {
+    mock.settings["msaaLint.path"] = "/nowhere/msaa-lint";
+    await extension.activate({ subscriptions: [] });
+    assert.equal(mock.messages.length, 1);
+    assert.match(mock.messages[0], /^The command `\/nowhere\/msaa-lint` was not found\. Install it \(.*\), or set `msaaLint\.path`\.$/);
+});
+
+test("why the server ended is shown", { timeout: 60_000 }, async () => {
+    mock.messages.length = 0;
+    mock.settings["msaaLint.arguments"] = ["--no-such-option"];
+    await set("path", COMMAND);
+    assert.equal(mock.messages.length, 1);
+    assert.match(mock.messages[0], /^msaa-lint: .*--no-such-option/);
+});
+
+test("diagnostics of an open description arrive", { timeout: 120_000 }, async () => {
+    mock.messages.length = 0;
+    await set("arguments", []);
+    const found = await diagnosed(await opened("frame.msaa.yaml"));
+    assert.deepEqual(mock.messages, []);
+    const [first] = found;
+    const code = first.code.value ?? first.code;
+    assert.equal(code, "multisampled-attachment-stored");
+    assert.equal(first.range.start.line, 3);
+    assert.equal(TEXT.split("\n")[3].slice(first.range.start.character, first.range.end.character), "STORE");
+});
+
+test("a restart diagnoses the open documents again", { timeout: 120_000 }, async () => {
+    mock.diagnostics.clear();
+    await mock.registered["msaaLint.restart"]();
+    assert.ok((await diagnosed(vscode.workspace.textDocuments[0])).length);
+});
+
+test("the fixes are those that the server calls safe", { timeout: 60_000 }, async () => {
+    await mock.registered["msaaLint.fixAll"]();
+    assert.deepEqual(mock.executed.at(-1), ["editor.action.codeAction", { kind: "source.fixAll.msaaLint", apply: "first" }]);
+});
+
+test("a server that is not enabled does not run", { timeout: 60_000 }, async () => {
+    await set("enable", false);
+    assert.equal(mock.diagnostics.size, 0);
+});
