@@ -3,8 +3,6 @@ import { type ChildProcess, spawn } from "node:child_process";
 import { homedir } from "node:os";
 import { workspace } from "vscode";
 
-export const INSTALL = "pip install 'msaa-lint[lsp,source]'";
-
 export interface Settings {
     enable: boolean;
     path: string;
@@ -44,7 +42,7 @@ export class ServerProcess {
             child.once("spawn", () => resolve(server));
             child.once("error", (error: NodeJS.ErrnoException) => {
                 const reason = error.code === "ENOENT" ? "was not found" : `cannot be run: ${error.message}`;
-                reject(new Error(`The command \`${path}\` ${reason}. Install it (\`${INSTALL}\`), or set \`msaaLint.path\`.`));
+                reject(new Error(`The command \`${path}\` ${reason}. Install msaa-lint with its extra \`lsp\`, or set \`msaaLint.path\`.`));
             });
         });
     }

@@ -73,7 +73,7 @@ test("a missing command is named, with what to do", { timeout: 60_000 }, async (
     mock.settings["msaaLint.path"] = "/nowhere/msaa-lint";
     await extension.activate({ subscriptions: [] });
     assert.equal(mock.messages.length, 1);
-    assert.match(mock.messages[0], /^The command `\/nowhere\/msaa-lint` was not found\. Install it \(.*\), or set `msaaLint\.path`\.$/);
+    assert.match(mock.messages[0], /^The command `\/nowhere\/msaa-lint` was not found\. Install msaa-lint with its extra `lsp`, or set `msaaLint\.path`\.$/);
 });
 
 test("why the server ended is shown", { timeout: 60_000 }, async () => {
