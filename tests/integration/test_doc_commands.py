@@ -32,6 +32,7 @@ NOT_RUN = {
     "docs/ci.md": {"URL stands for a repository; tests/integration/test_release.py runs it"},
     "docs/confirm.md": {"needs root", "needs a GPU"},
     "docs/devices.md": {"needs reports and a phone"},
+    "docs/guides/editor.md": {"runs until it is interrupted"},
     "docs/study.md": {"needs a GPU"},
 }
 """Why blocks are not run, page by page."""
