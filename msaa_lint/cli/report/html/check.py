@@ -82,6 +82,7 @@ def render(result: Result, out: Write, options: Options, frames: Sequence[Costed
     """Writes the findings with their excerpts and fixes, and the graphs and waterfalls of the frames."""
     cards = _cards(result, options)
     anchors = _anchors(cards)
+    frames = [frame for frame in frames if frame.cost.passes]
     shown = sorted(frames, key=_saving, reverse=True)[:MAX_FRAMES]
     context = {
         "title": _title(result, options),

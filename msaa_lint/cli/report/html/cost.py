@@ -71,7 +71,7 @@ def _section(frame: CostedFrame, options: Options) -> dict[str, Any]:
 
 def _side(frame: CostedFrame, name: str) -> dict[str, Any]:
     """A frame of a comparison."""
-    graph = graph_section(frame.graph, frame.cost.fps, "as written") if frame.graph is not None else None
+    graph = graph_section(frame.graph, frame.cost.fps, "as written") if frame.graph is not None and frame.graph.passes else None
     table = cost_rows.limited(cost_rows.frame_tables(frame)[0])
     return {"name": name, "head": cost_rows.head(frame.cost), "tiles": _tiles(frame.cost), "graph": graph, "table": table}
 

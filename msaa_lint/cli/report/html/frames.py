@@ -16,9 +16,8 @@ from . import graph, waterfall
 
 def frame_section(frame: CostedFrame, options: Options, anchors: Mapping[int, str] | None = None) -> dict[str, Any]:
     """What `frame.html` shows of a frame. `anchors` has the fragment of each finding on the page, by its identity."""
-    graphs = [graph_section(frame.graph, frame.cost.fps, "as written")] if frame.graph is not None else []
-    if frame.fixed_graph is not None and frame.fixed is not None:
-        graphs.append(graph_section(frame.fixed_graph, frame.fixed.fps, "as fixed"))
+    states = ((frame.graph, "as written"), (frame.fixed_graph, "as fixed"))
+    graphs = [graph_section(each, frame.cost.fps, state) for each, state in states if each is not None and each.passes]
     rows = waterfall.of_frame(frame)
     return {
         "name": cost_rows.frame_name(frame, options),

@@ -70,6 +70,7 @@ def of_comparison(comparison: Comparison) -> list[Bar]:
     steps = [Step(each.name, each.status, each.difference) for each in comparison.passes if each.status != SAME]
     # Passes count the memory of the images that they use, also if others use them: only totals add up.
     steps = [step._replace(change=step.change._replace(memory_mib=0.0)) for step in steps]
+    steps = [step for step in steps if any(step.change)]
     steps = [*_largest(steps), *_rest("images", "memory that no pass alone accounts for", steps, total.difference)]
     return _bars(steps, total.old or NOTHING, ("old", ""), [("new", "", total.new or NOTHING)])
 

@@ -184,6 +184,15 @@ def test_a_long_frame_is_cut_and_says_so() -> None:
     assert drawing.left_out == "The graph shows 16 of their 300 reads and writes."
 
 
+def test_a_frame_without_passes_has_no_graph(tmp_path: Path) -> None:
+    (tmp_path / "a.msaa.yaml").write_text("images: {a: {format: R8G8B8A8_UNORM, samples: 4, extent: {width: 8, height: 8}}}\n")
+    (tmp_path / "b.msaa.yaml").write_text("images: {}\n")
+    for arguments in (["check", "a.msaa.yaml"], ["cost", "a.msaa.yaml"], ["cost", "a.msaa.yaml", "b.msaa.yaml"]):
+        done = run(tmp_path, *arguments, "--isolated", "--output", "html")
+        assert "</html>" in done.stdout, done.stderr
+        assert '<figure class="graph">' not in done.stdout
+
+
 def test_ten_thousand_findings_have_a_limit() -> None:
     def size(count: int) -> int:
         run = result(*(finding(f"finding {n}", span=Span(0, 1), severity="note") for n in range(count)), text="a: b\n" * 20)
@@ -221,3 +230,20 @@ def test_pages_of_rules_are_text_of_a_stranger(tmp_path: Path) -> None:
     assert "too many" in done.stdout, done.stderr
     assert not [each for tag, each in found.elements if tag == "img" or (each.get("href") or "#").startswith(("javascript", "http://evil"))]
     assert len(found.texts["script"]) == 1
+
+
+def test_a_comparison_leads_from_the_old_cost_to_the_new_one() -> None:
+    old, new = (EXAMPLES / "khronos-msaa" / f"{name}.msaa.yaml" for name in ("color-separate", "inline"))
+    text = run(EXAMPLES, "cost", "--isolated", str(old), str(new), "--output", "html").stdout
+    found = re.findall(
+        r'<tr class="(?:total|saving|addition)">\s*<th scope="row">(\w+).*?<td class="figure">([-+.\d]+)</td>', text, re.DOTALL
+    )
+    assert found[:6] == [
+        ("old", "5057.51"),
+        ("resolveImage", "-2809.73"),
+        ("post", "+1685.84"),
+        ("scene", "-1123.89"),
+        ("images", "0.00"),
+        ("new", "2809.73"),
+    ]
+    assert text.count('<figure class="graph">') == 2
