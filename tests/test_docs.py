@@ -16,6 +16,7 @@ GENERATED = {
     "rules/README.md": ["-m", "msaa_lint", "rule", "--all", "--output", "markdown"],
     "docs/facts.md": ["-m", "msaa_lint", "facts", "--output", "markdown"],
     "docs/commands.md": ["-m", "docs.commands"],
+    "docs/keys.md": ["-m", "docs.keys"],
 }
 
 

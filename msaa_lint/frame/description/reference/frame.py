@@ -249,11 +249,10 @@ FRAME_STRUCTURES = {
         "",
         "",
         {
-            "frame": Key("Frame", "The frame's size and rate, for costs.", absent="the sizes of framebuffers, and an unknown rate"),
+            "frame": Key("Frame", "The frame's size and rate, for costs.", absent="the sizes of framebuffers, and 60 frames per second"),
             "device": Key(
                 "Device",
                 "The name of a built-in profile, or what the device supports.",
-                absent="a device that is unknown",
                 section="devsandqueues-physical-device-enumeration",
             ),
             "enabled": Key(

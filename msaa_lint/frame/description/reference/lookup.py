@@ -5,7 +5,7 @@ Nothing on the path of `check` imports this module.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from ..models import AttachmentReference, Command, Description
@@ -41,20 +41,30 @@ class KeyText(NamedTuple):
     markdown: str
 
 
-def key_text(kind: type[Record], name: str) -> KeyText:
-    """The text of a key of a structure. KeyError if it does not have the key."""
+class KeyParts(NamedTuple):
+    """What a key's text says beside its meaning; `references` are links to the specification, in Markdown."""
+
+    unit: str
+    absent: str
+    sources: str
+    references: str
+
+
+def key_parts(kind: type[Record], name: str) -> KeyParts:
+    """The parts of the text of a key of a structure. KeyError if it does not have the key."""
     key = STRUCTURES[kind.__name__].keys[name]
-    sentences = [key.meaning]
-    if unit := unit_of(kind, name):
-        sentences.append(f"Unit: {unit}.")
-    if absent := absence_of(kind, name):
-        sentences.append(f"If absent: {absent}.")
-    text = " ".join(sentences)
     source, section = source_of(kind, name), key.section or _section(kind, key)
     page, title = SECTIONS.get(section, ("", ""))
-    plain = [source, f"Vulkan specification, {title}" if title else ""]
-    linked = [_link(source, _source_page(source)), _link(plain[1], f"{SPECIFICATION}/{page}.html#{section}")]
-    return KeyText(key.title, *(" ".join([text, *_sentence(references)]) for references in (plain, linked)))
+    chapter = f"Vulkan specification, {title}" if title else ""
+    links = (_link(source, _source_page(source)), _link(chapter, f"{SPECIFICATION}/{page}.html#{section}"))
+    return KeyParts(unit_of(kind, name), absence_of(kind, name), _joined(source, chapter), _joined(*links))
+
+
+def key_text(kind: type[Record], name: str) -> KeyText:
+    """The text of a key of a structure. KeyError if it does not have the key."""
+    key, parts = STRUCTURES[kind.__name__].keys[name], key_parts(kind, name)
+    text = key.meaning + (f" Unit: {parts.unit}." if parts.unit else "") + (f" If absent: {parts.absent}." if parts.absent else "")
+    return KeyText(key.title, *(f"{text} {references}." if references else text for references in (parts.sources, parts.references)))
 
 
 def unit_of(kind: type[Record], name: str) -> str:
@@ -161,6 +171,5 @@ def _link(text: str, address: str) -> str:
     return f"[{text}]({address})" if text and address else text
 
 
-def _sentence(references: Iterable[str]) -> list[str]:
-    text = "; ".join(filter(None, references))
-    return [f"{text}."] if text else []
+def _joined(*references: str) -> str:
+    return "; ".join(filter(None, references))
