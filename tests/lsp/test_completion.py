@@ -105,6 +105,7 @@ def test_snippets(text: str, label: str | None, after: str) -> None:
         (f"{FRAME}pipelines: {{p: {{renderPass: forward, subpass: ^}}}}", {"0"}, "1"),
         (f"{FRAME}pipelines: {{p: {{}}}}\ncommands:\n  - draw: {{pipeline: ^}}", {"p"}, "forward"),
         (f"{FRAME}commands:\n  - beginRenderPass: {{renderPass: ^\n  - endRenderPass", {"forward"}, "color"),
+        ("enabled: {extensions: [^]}", {"VK_KHR_depth_stencil_resolve"}, "sampleRateShading"),
         ("metal: {textures: {t: {pixelFormat: ^}}}", {"bgra8Unorm"}, "R8G8B8A8_UNORM"),
     ],
 )
@@ -167,6 +168,8 @@ def test_every_key_has_documentation() -> None:
         ("[severity]\n^", "configuration", "MSAA102"),
         ('[severity]\nMSAA102 = "^"', "configuration", "off"),
         ("[limits]\n^", "configuration", "depth"),
+        ("[tool.msaa-lint]\n^", "configuration", "select"),
+        ("[tool.msaa-lint.severity]\nMSAA102 = '^'", "configuration", "off"),
         ("---\n^\n---\n", "rule", "severity"),
         ("---\nseverity: ^\n---\n", "rule", "warning"),
         ("---\nsubject: image\nwhen: image.^\n---\n", "rule", "image.samples"),
@@ -174,6 +177,10 @@ def test_every_key_has_documentation() -> None:
 )
 def test_comments_configuration_and_rule_pages(text: str, kind: str, expected: str) -> None:
     assert expected in items(text, kind)[1]
+
+
+def test_other_tables_of_a_project_are_left_alone() -> None:
+    assert not items('[tool.ruff]\nselect = ["^"]', "configuration")[1]
 
 
 @pytest.mark.parametrize("text", ["# a comm^", "images: {a: {}} # c^", "images: {a: {format: D16_UNORM ^ }}", "images: {a: &^}"])

@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+import re
+from contextlib import suppress
+from itertools import cycle, islice
 from pathlib import Path
+from random import Random
 
 import pytest
 from yaml import safe_load_all
@@ -16,8 +20,38 @@ from msaa_lint.core.text.tree import parse
 
 from .views import descriptions, edited, engine, view
 
-STEP = 7
-"""Completions are asked for at every seventh position of an example, and at every position of a short text."""
+MAX_POSITIONS = 40
+"""Positions of an example at which completions are asked for; of a short text they are at every third."""
+
+NEW = ("renamed", "with: colon", "12", "ünïcode name")
+"""The new names, one for each name of an example in turn."""
+
+PIECES = (
+    "{",
+    "}",
+    "[",
+    "]",
+    ":",
+    ", ",
+    "\n",
+    "  ",
+    "- ",
+    "&a ",
+    "*a ",
+    "<<: *a",
+    "'",
+    '"',
+    "#",
+    "|",
+    ">",
+    "!!str ",
+    "\t",
+    "---\n",
+    "\ufeff",
+    "é😀",
+    "",
+)
+"""What random edits insert."""
 
 FILES = pytest.mark.parametrize("path", descriptions(), ids=lambda path: f"{path.parent.name}/{path.name}")
 
@@ -54,6 +88,11 @@ def problems(text: str) -> int:
     return sum(problem.code in ("MSAA901", "MSAA906") for problem in parse(Source("", text), Limits()).problems)
 
 
+def tokens(text: str) -> list[int]:
+    """The offsets at which words and other characters begin, and the end of the text: all of a word has the same answers."""
+    return [*(match.start() for match in re.finditer(r"[\w.-]+|[^\w\s.-]|\s+", text)), len(text)]
+
+
 def typed(item: completion.Completion, text: str) -> int:
     """The errors of the syntax with anything else in its place: what follows may lack a comma before it."""
     return problems(f"{text[: item.start]} x: 1 {text[item.end :]}")
@@ -67,7 +106,7 @@ def inserted(item: completion.Completion, text: str) -> str:
 def test_every_position_of_an_example_has_an_answer(path: Path) -> None:
     text = path.read_text()
     seen = view(text)
-    for offset in range(len(text) + 1):
+    for offset in tokens(text):
         answer = hover.hover(seen, offset)
         assert answer is None or (answer.markdown and answer.span.start <= offset <= answer.span.end)
         for span in (*navigation.definition(seen, offset), *navigation.references(seen, offset)):
@@ -82,8 +121,8 @@ def test_every_position_of_an_example_has_an_answer(path: Path) -> None:
 def test_completions_of_an_example_leave_its_syntax_whole(path: Path) -> None:
     text = path.read_text()
     seen = view(text)
-    for offset in range(0, len(text) + 1, STEP):
-        for item in completion.complete(seen, offset, snippets=bool(offset % 2))[:40]:
+    for offset in Random(path.name).sample(range(len(text) + 1), MAX_POSITIONS):
+        for item in completion.complete(seen, offset, snippets=bool(offset % 2))[:12]:
             assert not problems(inserted(item, text)) or typed(item, text), (item, text[max(0, offset - 60) : offset])
 
 
@@ -91,16 +130,16 @@ def test_completions_of_an_example_leave_its_syntax_whole(path: Path) -> None:
 @pytest.mark.parametrize("snippets", [False, True])
 def test_completions_of_a_short_text_leave_its_syntax_whole(text: str, snippets: bool) -> None:
     seen = view(text)
-    for offset in range(len(text) + 1):
-        for item in completion.complete(seen, offset, snippets):
+    for offset in range(0, len(text) + 1, 3):
+        for item in completion.complete(seen, offset, snippets)[:20]:
             assert not problems(inserted(item, text)) or typed(item, text), (item, text[max(0, offset - 60) : offset])
 
 
 @pytest.mark.parametrize("text", [SHORT, SHORT_JSON], ids=["yaml", "json"])
 def test_completions_of_a_text_that_is_cut_off_add_no_error(text: str) -> None:
-    for end in range(len(text)):
+    for end in range(0, len(text), 3):
         seen = View(text[:end], "description", None, engine().registry)
-        for item in completion.complete(seen, end):
+        for item in completion.complete(seen, end)[:12]:
             assert problems(inserted(item, text[:end])) <= max(problems(text[:end]), 1), (item, text[max(0, end - 60) : end])
 
 
@@ -118,14 +157,15 @@ def test_symbols_enclose_their_parts(path: Path) -> None:
 
 
 @FILES
-@pytest.mark.parametrize("new", ["renamed", "with: colon", "12", "ünïcode name"])
-def test_a_name_is_renamed_and_back(path: Path, new: str) -> None:
+def test_a_name_is_renamed_and_back(path: Path) -> None:
     text = path.read_text()
     seen = view(text)
+    news = cycle(NEW)
     before = [(found.code, found.severity) for found in seen.findings]
-    for name, places in seen.names.items():
+    for name, places in islice(seen.names.items(), 30):
         if not any(place.is_definition and not place.is_index for place in places):
             continue
+        new = next(news)
         offset = places[0].node.end
         edits = rename.rename(seen, offset, new)
         renamed = edited(text, edits)
@@ -137,3 +177,23 @@ def test_a_name_is_renamed_and_back(path: Path, new: str) -> None:
         assert list(safe_load_all(restored)) == list(safe_load_all(text))
         if new == "renamed":
             assert restored == text
+
+
+@FILES
+def test_a_text_after_random_edits_has_answers(path: Path) -> None:
+    random = Random(path.name)
+    text = path.read_text()
+    for _ in range(6):
+        start = random.randrange(len(text))
+        text = text[:start] + random.choice(PIECES) + text[start + random.choice((0, 1, 3)) :]
+        seen = view(text)
+        for offset in (start, *(random.randrange(len(text) + 1) for _ in range(3))):
+            hover.hover(seen, offset)
+            completion.complete(seen, offset)
+            navigation.references(seen, offset)
+            if rename.prepare(seen, offset) is not None:
+                with suppress(rename.Refused):
+                    edits = rename.rename(seen, offset, "a: b")
+                    assert problems(edited(text, edits)) <= problems(text)
+        symbols.symbols(seen)
+        inlay_hints.hints(seen, Span(0, len(text)))

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from msaa_lint.cli.completion import profiles
 from msaa_lint.core.finding import CONFIDENCES
+from msaa_lint.frame.devices import DeviceProfile, builtin, names
 from msaa_lint.frame.facts.table import FACTS, SUBJECTS
 from msaa_lint.linter.rules.rule import APIS, EDITIONS, PASSES
 from msaa_lint.linter.rules.rule_file import KEYS as PAGE_KEYS
@@ -38,6 +39,7 @@ _PAGE_KEY = re.compile(r"^([\w-]+):", re.MULTILINE)
 _BARE_KEY = re.compile(r"^[ \t]*([\w-]*)\Z", re.MULTILINE)
 _STRING = re.compile(r"""(["']?)([\w.-]*)\Z""")
 
+_TABLES = frozenset({"", "severity", "limits", "source", "source.assume", "per-file-ignores"})
 _SELECTORS = frozenset({"select", "extend-select", "ignore", "per-file-ignores"})
 _VALUES: Mapping[str, Sequence[str]] = {
     "fail-on": LEVELS,
@@ -90,12 +92,14 @@ def _configuration(view: View, offset: int) -> tuple[int, int, list[Item]]:
     """The keys of a table, or the values of a key."""
     text = view.text[:offset]
     header = _last(_TABLE, text)
-    table = header[1].strip().removeprefix("tool.msaa-lint").lstrip(".") if header is not None else ""
+    table = re.sub(r"^tool\.msaa-lint(\.|$)", "", header[1].strip()) if header is not None else ""
+    if table not in _TABLES:
+        return offset, offset, []
     body = text[header.end() if header is not None else 0 :]
     bare = _BARE_KEY.search(body)
     opened = body.count("[") > body.count("]") or body.count("{") > body.count("}")
     if bare is not None and not opened:
-        present = set(_KEY.findall(view.text))
+        present = set(_KEY.findall(body)) | set(_KEY.findall(view.text[offset:].partition("\n[")[0]))
         names: Iterable[str] = {"": [*KEYS, "extends"], "limits": MAX_LIMITS, "source": ["assume"]}.get(table, ())
         keys: Iterable[Item] = [(name, f"{name} = ", "") for name in names if name not in present]
         if table == "severity":
@@ -152,9 +156,17 @@ def _last(pattern: re.Pattern[str], text: str) -> re.Match[str] | None:
 
 
 def word_items(kind: str, member: str, place: Place) -> Iterable[tuple[str, str]]:
-    """Texts that a member of a description may hold, beside its enumerants: the names of devices."""
+    """Texts that a member of a description may hold, beside its enumerants: names of devices, and of what they offer."""
     if kind == "text" and member == "device" and len(place.path) == 1:
-        from msaa_lint.frame.devices import builtin, names
-
-        return [(name, profile.name) for name in names() if (profile := builtin(name)) is not None]
+        return [(name, profile.name) for name, profile in _profiles()]
+    if kind == "text" and member in ("extensions", "features"):
+        found = sorted({name for _, profile in _profiles() for name in getattr(profile, member) or ()})
+        siblings = place.parent.node.value if place.parent is not None else []
+        stated = {node.text for node in siblings if node.kind == "scalar"} if isinstance(siblings, list) else set()
+        return [(name, "") for name in found if name not in stated]
     return ()
+
+
+def _profiles() -> Iterator[tuple[str, DeviceProfile]]:
+    """The built-in devices."""
+    return ((name, profile) for name in names() if (profile := builtin(name)) is not None)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
-from functools import cached_property
+from itertools import islice
 
 from msaa_lint.core.text.node import Node
 from msaa_lint.frame.metal.names import ENUMS as METAL
@@ -17,37 +17,39 @@ from .recovery import MARK
 
 _COUNT = re.compile(r"((?:VK_)?SAMPLE_COUNT_)[0-9]+((?:_BIT)?)")
 
+MAX_PLACES = 2000
+"""Values of a document that are looked at for its spelling."""
+
 
 class Style:
-    """How a text spells enumerants: those nearest to a place first, then those of the whole text."""
+    """How a text spells enumerants: in the form of its first ones."""
 
     def __init__(self, text: str, roots: Sequence[Node]) -> None:
         self.text = text
         self._roots = roots
 
-    @cached_property
-    def _spellings(self) -> list[tuple[str, str]]:
+    @property
+    def _spellings(self) -> Iterator[tuple[str, str]]:
         """The enums and spellings of the enumerants of the text, in order."""
-        places = (place for root in descriptions(self._roots) for place in walk(root))
-        return [
-            (place.shape[1].partition("|")[0], place.node.text.partition("|")[0].strip())
-            for place in places
-            if place.shape[0] in ("enum", "flags")
-            and place.node.kind == "scalar"
-            and place.node.value is not None
-            and MARK not in place.node.text
-        ]
+        for root in descriptions(self._roots):
+            for place in islice(walk(root), MAX_PLACES):
+                node = place.node
+                if place.shape[0] in ("enum", "flags") and node.kind == "scalar" and node.value is not None and MARK not in node.text:
+                    yield place.shape[1].partition("|")[0], node.text.partition("|")[0].strip()
 
     def form(self, enum: str) -> Form:
         """The form of the first enumerant of the same enum, else of the same kind, else of any; else without prefix."""
         is_flag = "FlagBits" in enum
-        vulkan = [(other, text) for other, text in self._spellings if other in VALUES]
-        ranked = sorted(vulkan, key=lambda each: (each[0] != enum, ("FlagBits" in each[0]) != is_flag))
-        for other, text in ranked:
-            form = form_of(other, text)
-            if form is not None:
-                return form if other == enum or ("FlagBits" in other) == is_flag else Form(form.start, is_flag and form.start == 0)
-        return Form(None, False)
+        found: dict[int, Form] = {}
+        for other, text in self._spellings:
+            form = form_of(other, text) if other in VALUES else None
+            if form is not None and other == enum:
+                return form
+            if form is not None and ("FlagBits" in other) == is_flag:
+                found.setdefault(0, form)
+            elif form is not None:
+                found.setdefault(1, Form(form.start, is_flag and form.start == 0))
+        return found[min(found)] if found else Form(None, False)
 
     @property
     def metal(self) -> str:

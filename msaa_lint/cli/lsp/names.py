@@ -88,7 +88,7 @@ class _Reading:
             if shape == ("record", RenderPass):
                 owner = path[-1]
                 self.define_parts(node, owner)
-            if shape == ("record", Pipeline):
+            if shape == ("record", Pipeline) and node.kind == "mapping":
                 self.read_subpass_of(node)
             for text, _, value, stated, _ in members(shape, node):
                 pending.append((value, shape_for(stated, value), owner, (*path, text) if len(path) < 3 else path))

@@ -11,7 +11,7 @@ from msaa_lint.core.text.events import parser, readable
 from msaa_lint.core.text.node import Limits, Node
 from msaa_lint.core.text.outline import outline
 from msaa_lint.core.text.source import Source
-from msaa_lint.core.text.tree import beginning, parse
+from msaa_lint.core.text.tree import beginning, documents, parse
 
 MARK = "msaaLintCursor"
 """Stands for the word that is being typed."""
@@ -45,8 +45,8 @@ class Marked(NamedTuple):
 
 def repaired(text: str, limits: Limits) -> list[Node]:
     """The documents of a text; of one with errors of its syntax, without the lines that have them, as far as that helps."""
-    text, documents = _without_errors(text, limits)
-    return documents if documents is not None else beginning(text, limits)
+    text, roots = _without_errors(text, limits)
+    return roots if roots is not None else beginning(text, limits)
 
 
 def _without_errors(text: str, limits: Limits) -> tuple[str, list[Node] | None]:
@@ -95,9 +95,9 @@ def marked(text: str, word: Word, limits: Limits) -> Marked | None:
 def _marked(completions: Iterable[tuple[str, str]], limits: Limits) -> Marked | None:
     for head, tail in completions:
         candidate = f"{head}{MARK}{tail}"
-        parsed = parse(Source("", candidate), limits)
-        if not parsed.problems or parsed.problems[-1].code not in SYNTAX:
-            return Marked(candidate, parsed.documents, len(head))
+        roots = documents(candidate, limits)
+        if roots is not None:
+            return Marked(candidate, roots, len(head))
     return None
 
 
