@@ -11,6 +11,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from msaa_lint.cli.report import Options
+from msaa_lint.cli.report.html.study_slider import slider
+from msaa_lint.cli.report.html.vega import PageFigures
 from msaa_lint.cli.report.study_full import render as as_text
 from msaa_lint.cli.report.study_json import render as as_json
 from msaa_lint.cli.report.study_plot import plot
@@ -83,6 +85,14 @@ def test_reports_have_figures_for_any_error_and_time(study: Study) -> None:
 @given(studies())
 def test_figures_have_places_for_any_error_and_time(study: Study) -> None:
     json.dumps(plot(study), allow_nan=False)
+
+
+@examples(0.3)
+@given(studies())
+def test_sliders_have_places_for_any_error_and_time(study: Study) -> None:
+    figures = PageFigures()
+    slider(study, study.scenes[0], figures)
+    json.dumps(figures.data, allow_nan=False)
 
 
 def _refused(constant: str) -> None:

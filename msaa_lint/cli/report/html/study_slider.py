@@ -34,7 +34,7 @@ def slider(study: Study, scene: SceneSummary, figures: PageFigures) -> dict[str,
         {**_state(cost, panel), "rows": [columns(rows) for rows in layer_rows(panel, axes, of_panel)]}
         for (cost, panel), of_panel in zip(drawn, labels, strict=True)
     ]
-    figure = figures.add(spec, f"Error against time by cost of shading: {scene.name}", data=data_names(spec), states=states)
+    figure = figures.add_moving(spec, f"Error against time by cost of shading: {scene.name}", data=data_names(spec), states=states)
     model = next(model for model in study.models if model.scene == scene.name)
     return {
         "figure": figure,

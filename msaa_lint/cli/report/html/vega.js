@@ -4,11 +4,13 @@
   const { figures } = JSON.parse(document.getElementById("data").textContent);
   const dark = matchMedia("(prefers-color-scheme: dark)");
   const colors = { "#222222": "--ink", "#DDDDDD": "--line", "#888888": "--muted", white: "--page" };
+  const painted = /^(background|stroke|fill|[a-zA-Z]*[cC]olor)$/;
   const tip = document.getElementById("tip");
 
   const themed = (spec) => {
     const style = getComputedStyle(document.documentElement);
-    return JSON.parse(JSON.stringify(spec), (key, value) => (key !== "name" && Object.hasOwn(colors, value) ? style.getPropertyValue(colors[value]).trim() : value));
+    // Texts are left alone: a scene may be called `white`.
+    return JSON.parse(JSON.stringify(spec), (key, value) => (painted.test(key) && Object.hasOwn(colors, value) ? style.getPropertyValue(colors[value]).trim() : value));
   };
 
   // Texts of the input are set as text, never as HTML.

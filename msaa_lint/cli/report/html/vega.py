@@ -23,10 +23,14 @@ class PageFigures:
     def __init__(self) -> None:
         self.data: list[dict[str, Any]] = []
 
-    def add(self, spec: Spec, name: str, **other: Any) -> dict[str, Any]:
+    def add(self, spec: Spec, name: str) -> dict[str, Any]:
         """Adds a figure; returns what the template `figure` of `figures.html` takes."""
-        self.data.append({"spec": spec, **other})
-        return {"number": len(self.data) - 1, "name": name, "picture": data_url(draw(spec, "svg"), "image/svg+xml")}
+        return {**self.add_moving(spec, name), "picture": data_url(draw(spec, "svg"), "image/svg+xml")}
+
+    def add_moving(self, spec: Spec, name: str, **states: Any) -> dict[str, Any]:
+        """Adds a figure without a picture: `states` are what its slider shows."""
+        self.data.append({"spec": spec, **states})
+        return {"number": len(self.data) - 1, "name": name}
 
     @property
     def scripts(self) -> tuple[str, ...]:

@@ -128,6 +128,16 @@ def test_hostile_names_stay_text(browser: Browser, tmp_path: Path) -> None:
     assert browser.texts("h2")[1].startswith("</script><script>alert(1)</script><img src=x onerror=alert(1)>\\x1b[31m\\u202e{{7*7}}")
 
 
+def test_a_scene_named_like_a_color_keeps_its_name(browser: Browser, tmp_path: Path) -> None:
+    browser.open(page(tmp_path, gpu_study("white")), dark=True)
+    assert browser.run("return [...document.querySelectorAll('.drawing text')].filter((text) => text.textContent === 'white').length") == 6
+    # The background follows the page's, which is dark.
+    backgrounds = browser.run(
+        "return ['body', '.drawing svg'].map((name) => getComputedStyle(document.querySelector(name)).backgroundColor)"
+    )
+    assert backgrounds[0] == backgrounds[1] != "rgb(255, 255, 255)"
+
+
 @pytest.mark.parametrize("dark", [False, True], ids=["light", "dark"])
 def test_axe_has_nothing_to_say(browser: Browser, report: Path, dark: bool) -> None:
     browser.open(report, dark=dark)
