@@ -23,8 +23,8 @@ ROOT = Path(__file__).resolve().parent.parent
 
 GUIDES = {"Engine team": "engine", "Continuous integration": "ci", "Editor": "editor", "Student": "student"}
 REFERENCE = {
-    "Using msaa-lint": ["commands", "configuration", "ci", "editors", "facts", "security"],
-    "Inputs": ["format", "captures", "source-code", "impeller", "devices"],
+    "Using msaa-lint": ["commands", "configuration", "ci", "editors", "html-report", "facts", "security"],
+    "Inputs": ["format", "keys", "captures", "source-code", "impeller", "devices"],
     "Models and measurements": ["cost", "confirm", "study", "study-numbers", "speed"],
     "Comparisons": ["captures-and-the-layer", "agreement", "texts"],
 }
@@ -38,7 +38,7 @@ _RUN_NOTE = re.compile(r"^<!-- (?:in |not run)[^\n]*-->\n\n?", re.MULTILINE)
 def sources() -> list[str]:
     """The pages of the repository, as paths in it."""
     found = [ROOT / name for name in ("README.md", "CHANGELOG.md", "CONTRIBUTING.md")]
-    found += [*ROOT.glob("docs/*.md"), *ROOT.glob("docs/guides/*.md"), *ROOT.glob("examples/**/*.md")]
+    found += [*ROOT.glob("docs/*.md"), *ROOT.glob("docs/guides/*.md"), *ROOT.glob("examples/**/*.md"), ROOT / "editors/vscode/README.md"]
     return sorted(path.relative_to(ROOT).as_posix() for path in found)
 
 
@@ -124,7 +124,7 @@ def navigation() -> list[object]:
         {"Home": "index.md"},
         {"Guides": [{title: f"docs/guides/{name}.md"} for title, name in GUIDES.items()]},
         {"Rules": rules},
-        {"Reference": reference},
+        {"Reference": [*reference, {"Editors": [{"Visual Studio Code": "editors/vscode/index.md"}]}]},
         {"Examples": ["examples/index.md", "examples/capture/index.md"]},
         {"Project": ["CONTRIBUTING.md", "CHANGELOG.md"]},
     ]

@@ -18,6 +18,7 @@ from urllib.parse import unquote, urldefrag, urljoin
 
 import pytest
 
+from docs.website import REFERENCE, navigation, sources, target_of
 from msaa_lint.linter.rules.registry import load
 from msaa_lint.linter.rules.rule import Rule
 from tests.cli.report.html.browser import Browser
@@ -107,6 +108,13 @@ def test_links_lead_to_pages_and_anchors(site: Path, documents: dict[str, Docume
                 broken.append((name, link))
     assert broken == []
     assert sum(len(document.links) for document in documents.values()) > 2000
+
+
+def test_every_page_is_in_the_navigation() -> None:
+    """A page that is not would only be found by search."""
+    listed = repr(navigation())
+    assert [source for source in sources() if f"'{target_of(source)}'" not in listed] == []
+    assert all((ROOT / f"docs/{name}.md").exists() for names in REFERENCE.values() for name in names if name != "editors")
 
 
 def test_nothing_is_loaded_from_elsewhere(site: Path, documents: dict[str, Document]) -> None:
