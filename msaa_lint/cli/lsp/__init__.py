@@ -14,7 +14,7 @@ def lsp(arguments: Arguments) -> int:
 
 def _lsp(arguments: Arguments) -> int:
     try:
-        from .server import serve
+        from .protocol import serve
     except ModuleNotFoundError as error:
         if (error.name or "").partition(".")[0] not in ("pygls", "lsprotocol", "attrs", "cattrs"):
             raise

@@ -1,7 +1,4 @@
-"""The documents that an editor has open.
-
-The texts are kept here, because pygls takes characters for line ends that are none in the protocol, such as U+2028.
-"""
+"""The documents that an editor has open."""
 
 from __future__ import annotations
 

@@ -26,7 +26,8 @@ def add_features(server: Server) -> None:
 
     @server.feature(types.TEXT_DOCUMENT_COMPLETION, types.CompletionOptions(trigger_characters=answers.TRIGGERS))
     async def completion(params: types.CompletionParams) -> types.CompletionList | None:
-        analysis = await server.analysis(params.text_document.uri)
+        uri = params.text_document.uri
+        analysis = server.current(uri) or await server.analysis(uri)
         return answers.completion(analysis, params.position, takes_snippets(server)) if analysis is not None else None
 
     @server.feature(types.TEXT_DOCUMENT_DEFINITION)

@@ -2,27 +2,41 @@
 
 from __future__ import annotations
 
-import gc
-import logging
+import dataclasses
+from collections.abc import Iterable, Iterator
 
 from lsprotocol import types
 from pygls.lsp.server import LanguageServer
+from pygls.protocol import LanguageServerProtocol, lsp_method
 
 from msaa_lint.core.package import VERSION
 
 from .analysis import Analysis
 from .diagnostics import diagnostics
 from .documents import OpenDocument, folder_of
-from .features import add_features
 from .worker import Worker
+
+WATCHED = ("**/*.toml", "**/*.md", "**/*.spv")
+"""The files on which findings in other files may depend: configurations, rule pages, and shaders."""
+
+REFRESH_ID = "msaa-lint-watched-files"
+
+
+class _Protocol(LanguageServerProtocol):
+    """The protocol, without the texts that pygls keeps of documents: it takes U+2028 and others for line ends, and changes positions."""
+
+    @lsp_method(types.TEXT_DOCUMENT_DID_CHANGE)
+    def lsp_text_document__did_change(self, params: types.DidChangeTextDocumentParams) -> Iterator[tuple[object, ...]]:
+        """Calls the feature alone."""
+        yield self.fm.features[types.TEXT_DOCUMENT_DID_CHANGE], (params,), None
 
 
 class Server(LanguageServer):
     """The server of one editor, and the documents that it has open."""
 
     def __init__(self) -> None:
-        super().__init__("msaa-lint", VERSION)
-        self.worker = Worker(self._publish)
+        super().__init__("msaa-lint", VERSION, protocol_cls=_Protocol)
+        self.worker = Worker(self._done)
         self.documents: dict[str, OpenDocument] = {}
 
     def report_server_error(self, error: Exception, source: object) -> None:
@@ -35,6 +49,13 @@ class Server(LanguageServer):
         return document is not None and document.diagnostic is not None
 
     @property
+    def resolves_edits(self) -> bool:
+        """Whether the editor asks for the edit of an action when it is chosen."""
+        document = self.client_capabilities.text_document
+        support = document.code_action.resolve_support if document is not None and document.code_action is not None else None
+        return support is not None and "edit" in support.properties
+
+    @property
     def encoding(self) -> types.PositionEncodingKind:
         """The encoding of positions that server and editor use."""
         return types.PositionEncodingKind(self.workspace.position_encoding or types.PositionEncodingKind.Utf16)
@@ -42,67 +63,67 @@ class Server(LanguageServer):
     def open(self, item: types.TextDocumentItem) -> None:
         """Adds a document, and lints it."""
         folders = [folder.uri for folder in self.workspace.folders.values()] or [self.workspace.root_uri or ""]
-        document = OpenDocument(item.uri, item.version, item.text, item.language_id, folder_of(item.uri, folders))
-        self.documents[item.uri] = document
-        self.lint(document)
+        self._put(OpenDocument(item.uri, item.version, item.text, item.language_id, folder_of(item.uri, folders)))
 
     def change(self, params: types.DidChangeTextDocumentParams) -> None:
         """Changes a document, and lints it."""
         identifier = params.text_document
-        if identifier.uri in self.documents:
-            document = self.documents[identifier.uri].changed(identifier.version, params.content_changes, self.encoding)
-            self.documents[identifier.uri] = document
-            self.lint(document)
+        document = self.documents.get(identifier.uri)
+        if document is not None:
+            self._put(document.changed(identifier.version, params.content_changes, self.encoding))
+
+    def _put(self, document: OpenDocument) -> None:
+        self.documents[document.uri] = document
+        self.lint([document])
+        if document.uri.endswith((".toml", ".md")):
+            self.lint(other for other in self.documents.values() if other is not document)
 
     def close(self, uri: str) -> None:
-        """Drops a document and its diagnostics."""
-        self.documents.pop(uri, None)
+        """Drops a document and its diagnostics; what depends on its unsaved text is linted again."""
+        document = self.documents.pop(uri, None)
         self.worker.forget(uri)
         if not self.pulls:
             self.text_document_publish_diagnostics(types.PublishDiagnosticsParams(uri, []))
+        if document is not None and not uri.endswith((".yaml", ".yml", ".json")):
+            self.lint(self.documents.values())
 
-    def lint(self, document: OpenDocument) -> None:
-        """Lints a document."""
-        others = [other for other in self.documents.values() if other is not document]
-        self.worker.lint(document, others, self.encoding)
+    def lint(self, documents: Iterable[OpenDocument]) -> None:
+        """Lints documents."""
+        for document in list(documents):
+            others = [other for other in self.documents.values() if other is not document]
+            self.worker.lint(document, others, self.encoding)
+
+    def lint_again(self) -> None:
+        """Lints all documents, after something that they depend on has changed."""
+        self.lint(self.documents.values())
+        workspace = self.client_capabilities.workspace
+        if self.pulls and workspace is not None and workspace.diagnostics is not None and workspace.diagnostics.refresh_support:
+            self.workspace_diagnostic_refresh(None)
+
+    def current(self, uri: str) -> Analysis | None:
+        """What is known at once of the newest version of a document: its text, and the rest from an older version; None if nothing is."""
+        document, last = self.documents.get(uri), self.worker.results.get(uri)
+        if document is None or last is None or last.version == document.version:
+            return last if document is not None else None
+        return dataclasses.replace(last, version=document.version, text=document.text, findings=(), file=None, result=None)
 
     async def analysis(self, uri: str) -> Analysis | None:
         """The analysis of the newest version of a document; None if it is not open."""
         document = self.documents.get(uri)
-        return await self.worker.result(document) if document is not None else None
+        return await self.worker.result(document.uri) if document is not None else None
 
-    def _publish(self, analysis: Analysis) -> None:
+    def watch_files(self) -> None:
+        """Asks the editor to report changes of the files that findings depend on."""
+        workspace = self.client_capabilities.workspace
+        watched = workspace.did_change_watched_files if workspace is not None else None
+        if watched is not None and watched.dynamic_registration:
+            options = types.DidChangeWatchedFilesRegistrationOptions([types.FileSystemWatcher(pattern) for pattern in WATCHED])
+            registration = types.Registration(REFRESH_ID, types.WORKSPACE_DID_CHANGE_WATCHED_FILES, options)
+            self.client_register_capability(types.RegistrationParams([registration]))
+
+    def _done(self, analysis: Analysis) -> None:
         """Sends the diagnostics of a document, unless the editor asks for them or has changed it."""
         document = self.documents.get(analysis.uri)
         if document is not None and document.version == analysis.version and not self.pulls:
-            self.text_document_publish_diagnostics(types.PublishDiagnosticsParams(analysis.uri, diagnostics(analysis), analysis.version))
-
-
-def create() -> Server:
-    """A server with all features."""
-    server = Server()
-
-    @server.feature(types.TEXT_DOCUMENT_DID_OPEN)
-    def did_open(params: types.DidOpenTextDocumentParams) -> None:
-        server.open(params.text_document)
-
-    @server.feature(types.TEXT_DOCUMENT_DID_CHANGE)
-    def did_change(params: types.DidChangeTextDocumentParams) -> None:
-        server.change(params)
-
-    @server.feature(types.TEXT_DOCUMENT_DID_CLOSE)
-    def did_close(params: types.DidCloseTextDocumentParams) -> None:
-        server.close(params.text_document.uri)
-
-    add_features(server)
-    return server
-
-
-def serve() -> int:
-    """Serves an editor over standard input and output until it ends the connection."""
-    # Nothing reads what pygls would log to standard error.
-    logging.disable()
-    server = create()
-    gc.freeze()
-    server.start_io()
-    return 0
+            found = diagnostics(analysis)
+            self.text_document_publish_diagnostics(types.PublishDiagnosticsParams(analysis.uri, found, analysis.version))

@@ -6,12 +6,13 @@ import asyncio
 import gc
 import threading
 from collections.abc import Callable, Sequence
+from itertools import count
 from time import perf_counter
 from typing import NamedTuple, TypeVar
 
 from lsprotocol import types
 
-from .analysis import Analysis, Kind
+from .analysis import Analysis
 from .documents import OpenDocument
 from .linting import analyze
 
@@ -25,37 +26,45 @@ MAX_DELAY = 1.0
 
 
 class _Job(NamedTuple):
-    """A document to lint, the ones open beside it, and when."""
+    """A document to lint, the ones open beside it, the number of the request, and when it is due."""
 
     document: OpenDocument
     others: Sequence[OpenDocument]
     encoding: types.PositionEncodingKind
+    number: int
     due: float
 
 
 class Worker:
-    """Lints documents. `done` is called on the loop with each result of a version that is still the newest."""
+    """Lints documents. `done` is called on the loop with each result.
+
+    All but the thread itself runs on the loop, and only the jobs and calls that wait are shared.
+    """
 
     def __init__(self, done: Callable[[Analysis], None]) -> None:
         self._done = done
         self._changed = threading.Condition()
         self._jobs: dict[str, _Job] = {}
         self._calls: list[Callable[[], None]] = []
-        self._kinds: dict[str, Kind] = {}
+        self._numbers = count(1)
+        self._requests: dict[str, int] = {}
+        self._finished: dict[str, int] = {}
         self._seconds: dict[str, float] = {}
-        self._waiting: dict[str, list[asyncio.Future[Analysis]]] = {}
-        self._thread: threading.Thread | None = None
-        self.results: dict[str, Analysis] = {}
-        """The last result of each document, perhaps of an older version. For the loop alone, as is what follows."""
+        self._waiting: dict[str, list[asyncio.Future[None]]] = {}
+        self._started = False
         self._loop: asyncio.AbstractEventLoop
+        self.results: dict[str, Analysis] = {}
+        """The last result of each document, perhaps of an older version."""
 
     def lint(self, document: OpenDocument, others: Sequence[OpenDocument], encoding: types.PositionEncodingKind) -> None:
         """Lints a document in place of older versions: at once, or without another change for as long as that takes."""
         self._start()
-        seconds = self._seconds.get(document.uri, 0.0)
+        uri = document.uri
+        self._requests[uri] = next(self._numbers)
+        seconds = self._seconds.get(uri, 0.0)
         delay = 0.0 if seconds < IMMEDIATE else min(seconds, MAX_DELAY)
         with self._changed:
-            self._jobs[document.uri] = _Job(document, others, encoding, perf_counter() + delay)
+            self._jobs[uri] = _Job(document, others, encoding, self._requests[uri], perf_counter() + delay)
             self._changed.notify()
 
     def forget(self, uri: str) -> None:
@@ -63,28 +72,23 @@ class Worker:
         with self._changed:
             self._jobs.pop(uri, None)
         self.results.pop(uri, None)
-        self._kinds.pop(uri, None)
+        self._requests.pop(uri, None)
         for waiting in self._waiting.pop(uri, ()):
             waiting.cancel()
 
-    async def result(self, document: OpenDocument) -> Analysis:
-        """The result for a version of a document that is being linted, or for a newer one."""
-        while True:
-            last = self.results.get(document.uri)
-            if last is not None and last.version >= document.version and not self._is_pending(document.uri):
-                return last
-            future: asyncio.Future[Analysis] = asyncio.get_running_loop().create_future()
-            self._waiting.setdefault(document.uri, []).append(future)
+    async def result(self, uri: str) -> Analysis:
+        """The result of the last request for a document, which is then not delayed, or of a newer one."""
+        number = self._requests[uri]
+        while self._finished.get(uri, 0) < number or uri not in self.results:
+            with self._changed:
+                job = self._jobs.get(uri)
+                if job is not None:
+                    self._jobs[uri] = job._replace(due=0.0)
+                    self._changed.notify()
+            future: asyncio.Future[None] = asyncio.get_running_loop().create_future()
+            self._waiting.setdefault(uri, []).append(future)
             await future
-
-    def _is_pending(self, uri: str) -> bool:
-        """Whether a newer version waits, which is then linted without delay."""
-        with self._changed:
-            job = self._jobs.get(uri)
-            if job is not None:
-                self._jobs[uri] = job._replace(due=0.0)
-                self._changed.notify()
-            return job is not None
+        return self.results[uri]
 
     async def call(self, function: Callable[[], T]) -> T:
         """What a function returns that lints, and so has to run between the documents."""
@@ -106,10 +110,10 @@ class Worker:
         return await future
 
     def _start(self) -> None:
-        if self._thread is None:
+        if not self._started:
+            self._started = True
             self._loop = asyncio.get_running_loop()
-            self._thread = threading.Thread(target=self._run, name="lint", daemon=True)
-            self._thread.start()
+            threading.Thread(target=self._run, name="lint", daemon=True).start()
 
     def _run(self) -> None:
         while True:
@@ -137,19 +141,21 @@ class Worker:
                 self._changed.wait(wait)
 
     def _analyze(self, job: _Job) -> None:
-        uri = job.document.uri
         start = perf_counter()
-        analysis = analyze(job.document, job.others, job.encoding, self._kinds.get(uri))
-        self._seconds[uri] = perf_counter() - start
-        self._loop.call_soon_threadsafe(self._take, analysis)
+        last = self.results.get(job.document.uri)
+        analysis = analyze(job.document, job.others, job.encoding, last.kind if last is not None else None)
+        self._loop.call_soon_threadsafe(self._take, analysis, job.number, perf_counter() - start)
 
-    def _take(self, analysis: Analysis) -> None:
-        """Keeps a result, on the loop."""
-        self.results[analysis.uri] = analysis
-        self._kinds[analysis.uri] = analysis.kind
+    def _take(self, analysis: Analysis, number: int, seconds: float) -> None:
+        """Keeps a result, unless its document was closed meanwhile."""
+        uri = analysis.uri
+        if uri not in self._requests:
+            return
+        self._seconds[uri], self._finished[uri] = seconds, number
+        self.results[uri] = analysis
         self._done(analysis)
-        for future in self._waiting.pop(analysis.uri, ()):
-            _succeed(future, analysis)
+        for future in self._waiting.pop(uri, ()):
+            _succeed(future, None)
 
 
 def _succeed(future: asyncio.Future[T], result: T) -> None:

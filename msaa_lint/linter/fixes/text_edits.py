@@ -242,6 +242,10 @@ class TextEditor:
             flags = change.applied_to(flags)
         return self._writer.flags(shape[1], flags or (), record)
 
+    def insertion(self, record: Record, member: str, value: str) -> tuple[Edit, ...]:
+        """The edits that add a member with the text of its value to a record. Raises NoFix if the text does not allow it."""
+        return tuple(self._insert(record, [(member, value)], {}))
+
     def _insert(self, record: Record, members: Sequence[tuple[str, str]], requested: Requests) -> list[Edit]:
         """Inserts members, with the text of their values, into a record's own mapping."""
         node = record.node

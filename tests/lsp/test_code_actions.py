@@ -1,0 +1,145 @@
+"""Code actions: fixes, suppressions, and keys that undecided rules lack."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from lsprotocol import types
+
+from tests.command import run
+from tests.lsp.editor import Editor
+from tests.lsp.test_diagnostics import play
+from tests.lsp.texts import CLEAN, STORED
+
+EVERYWHERE = types.Range(types.Position(0, 0), types.Position(100, 0))
+
+LAZY = types.ClientCapabilities(
+    text_document=types.TextDocumentClientCapabilities(
+        code_action=types.CodeActionClientCapabilities(resolve_support=types.ClientCodeActionResolveOptions(["edit"]))
+    )
+)
+
+
+def applied(text: str, action: types.CodeAction) -> str:
+    """An ASCII text after an action."""
+    assert action.edit is not None and action.edit.document_changes is not None
+    (change,) = action.edit.document_changes
+    assert isinstance(change, types.TextDocumentEdit)
+    starts = [0]
+    for line in text.splitlines(keepends=True):
+        starts.append(starts[-1] + len(line))
+    for edit in sorted(change.edits, key=lambda edit: (edit.range.start.line, edit.range.start.character), reverse=True):
+        assert isinstance(edit, types.TextEdit)
+        start, end = (starts[place.line] + place.character for place in (edit.range.start, edit.range.end))
+        text = text[:start] + edit.new_text + text[end:]
+    return text
+
+
+@pytest.mark.parametrize("capabilities", [types.ClientCapabilities(), LAZY], ids=["at once", "when chosen"])
+def test_a_fix_is_that_of_check(tmp_path: Path, capabilities: types.ClientCapabilities) -> None:
+    async def scenario(editor: Editor) -> None:
+        found, *_ = await editor.open("a.msaa.yaml", STORED)
+        actions = await editor.actions("a.msaa.yaml", found.range)
+        fix = next(action for action in actions if action.is_preferred)
+        assert (fix.title, fix.kind) == ("Set storeOp to DONT_CARE", types.CodeActionKind.QuickFix)
+        if capabilities is LAZY:
+            assert fix.edit is None
+            fix = await editor.client.code_action_resolve_async(fix)
+        fixed = run(editor.folder, "check", "--fix", "-", stdin=STORED.encode()).stdout
+        assert applied(STORED, fix) == fixed == CLEAN
+
+    play(tmp_path, scenario, capabilities)
+
+
+def test_all_safe_fixes_are_one_action_that_leaves_unsafe_ones_alone(tmp_path: Path) -> None:
+    text = STORED.replace(
+        "loadOp: DONT_CARE, storeOp: STORE, initialLayout: UNDEFINED", "loadOp: LOAD, storeOp: STORE, initialLayout: UNDEFINED"
+    )
+
+    async def scenario(editor: Editor) -> None:
+        await editor.open("a.msaa.yaml", text)
+        (action,) = await editor.actions("a.msaa.yaml", EVERYWHERE, "source.fixAll")
+        assert action.kind == "source.fixAll.msaaLint"
+        assert (
+            applied(text, await editor.client.code_action_resolve_async(action))
+            == run(editor.folder, "check", "--fix", "-", stdin=text.encode()).stdout
+        )
+        assert await editor.actions("a.msaa.yaml", EVERYWHERE, "source.organizeImports") == []
+        await editor.open("b.msaa.yaml", CLEAN)
+        assert await editor.actions("b.msaa.yaml", EVERYWHERE, "source.fixAll") == []
+
+    play(tmp_path, scenario)
+
+
+def test_a_suppression_silences_its_finding(tmp_path: Path) -> None:
+    async def scenario(editor: Editor) -> None:
+        found, other = await editor.open("a.msaa.yaml", STORED)
+        actions = await editor.actions("a.msaa.yaml", found.range, "quickfix")
+        action = next(action for action in actions if action.title == "Suppress multisampled-attachment-stored here, with a reason")
+        suppressed = applied(STORED, await editor.client.code_action_resolve_async(action))
+        assert "      # msaa-lint: ignore[multisampled-attachment-stored] TODO" in suppressed
+        assert [each.code for each in await editor.replace("a.msaa.yaml", suppressed)] == [other.code]
+
+    play(tmp_path, scenario)
+
+
+def test_json_has_no_comments(tmp_path: Path) -> None:
+    import json
+
+    import yaml
+
+    async def scenario(editor: Editor) -> None:
+        found, *_ = await editor.open("a.msaa.json", json.dumps(yaml.safe_load(STORED)), "json")
+        titles = [action.title for action in await editor.actions("a.msaa.json", found.range, "quickfix")]
+        assert "Set storeOp to DONT_CARE" in titles
+        assert not any("Suppress" in title for title in titles)
+
+    play(tmp_path, scenario)
+
+
+def test_code_is_suppressed_in_its_own_comments(tmp_path: Path) -> None:
+    pytest.importorskip("tree_sitter")
+    code = (Path(__file__).parents[2] / "examples" / "code").glob("*.c*")
+    text = next(iter(sorted(code))).read_text(encoding="utf-8")
+
+    async def scenario(editor: Editor) -> None:
+        first, *others = await editor.open("main.cpp", text, "cpp")
+        actions = await editor.actions("main.cpp", types.Range(first.range.start, first.range.start))
+        # The code is not edited by fixes.
+        assert {action.title.partition(" ")[0] for action in actions} == {"Suppress"}
+        suppressed = applied(text, await editor.client.code_action_resolve_async(actions[0]))
+        assert "// msaa-lint: ignore[" in suppressed
+        assert len(await editor.replace("main.cpp", suppressed)) <= len(others)
+
+    play(tmp_path, scenario)
+
+
+def test_a_key_that_an_undecided_rule_lacks_is_added(tmp_path: Path) -> None:
+    text = CLEAN.replace(", usage: [COLOR_ATTACHMENT, SAMPLED]", "")
+
+    async def scenario(editor: Editor) -> None:
+        await editor.open("a.msaa.yaml", text)
+        line = types.Position(2, 0)
+        actions = await editor.actions("a.msaa.yaml", types.Range(line, line), "refactor.rewrite")
+        titles = {action.title.partition(",")[0]: action for action in actions}
+        assert "Add usage to images.color" in titles
+        assert {"Add sharingMode: EXCLUSIVE to images.color", "Add sharingMode: CONCURRENT to images.color"} <= titles.keys()
+        added = applied(text, await editor.client.code_action_resolve_async(titles["Add sharingMode: EXCLUSIVE to images.color"]))
+        assert "sharingMode: EXCLUSIVE" in added.split("\n")[2]
+        assert not any(each.code.startswith("MSAA9") for each in await editor.replace("a.msaa.yaml", added))
+
+    play(tmp_path, scenario)
+
+
+def test_an_action_of_an_older_version_has_no_edit(tmp_path: Path) -> None:
+    async def scenario(editor: Editor) -> None:
+        found, *_ = await editor.open("a.msaa.yaml", STORED)
+        action = (await editor.actions("a.msaa.yaml", found.range))[0]
+        await editor.replace("a.msaa.yaml", f"# more\n{STORED}")
+        assert (await editor.client.code_action_resolve_async(action)).edit is None
+        for data in (None, {"uri": 3}, {**action.data, "version": 2, "number": -1}, {**action.data, "version": 2, "number": 10**9}):
+            action.data = data
+            assert (await editor.client.code_action_resolve_async(action)).edit is None
+
+    play(tmp_path, scenario, LAZY)
