@@ -4,8 +4,8 @@ import { CloseAction, type DocumentSelector, ErrorAction, LanguageClient, Reveal
 import { ServerProcess, settings } from "./server";
 
 const LANGUAGES = ["yaml", "json", "jsonc", "c", "cpp", "cuda-cpp", "objective-c", "objective-cpp", "rust", "swift", "glsl"];
-/** Files without a language of their own in every editor: the configuration, rule pages, and shaders. */
-const PATTERNS = ["**/msaa-lint.toml", "**/rules/*.md", "**/*.{glsl,vert,frag,comp,tesc,tese,geom,mesh,task}", "**/*.swift"];
+/** Files without a language of their own in every editor: configurations, rule pages, and source code. The server looks at what they contain. */
+const PATTERNS = ["**/{msaa-lint,pyproject}.toml", "**/*.md", "**/*.{glsl,vert,frag,comp,tesc,tese,geom,mesh,task}", "**/*.{rs,swift}"];
 /** Starts of a server that keeps ending. */
 const MAX_PROCESSES = 4;
 
@@ -89,7 +89,7 @@ async function start(): Promise<void> {
             closed: () => {
                 // A server that could not begin would not begin the next time either.
                 const restarts = starting.initializeResult !== undefined && processes < MAX_PROCESSES;
-                if (!restarts) tell(server.reason);
+                if (!restarts) void server.reason.then(tell);
                 return { action: restarts ? CloseAction.Restart : CloseAction.DoNotRestart, handled: true };
             },
         },

@@ -25,9 +25,12 @@ function expanded(path: string): string {
 
 /** A running server, and what it last wrote to standard error. */
 export class ServerProcess {
-    errors = "";
+    private errors = "";
+    /** Why the server ended, as it said itself; once it has. */
+    readonly reason: Promise<string>;
 
     private constructor(readonly process: ChildProcess) {
+        this.reason = new Promise((resolve) => process.once("close", () => resolve(this.lastLine())));
         process.stderr?.on("data", (data: Buffer) => {
             this.errors = (this.errors + data.toString()).slice(-4096);
         });
@@ -47,8 +50,7 @@ export class ServerProcess {
         });
     }
 
-    /** Why the server ended, as it said itself. */
-    get reason(): string {
+    private lastLine(): string {
         const line = this.errors.trim().split("\n").at(-1);
         return line ? `msaa-lint: ${line.replace(/^(?:msaa-lint: )?(?:error: )?/, "")}` : "The language server of msaa-lint ended.";
     }

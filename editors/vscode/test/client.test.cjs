@@ -61,6 +61,9 @@ function diagnosed(document) {
     });
 }
 
+/** The next message to the user. */
+const shown = () => new Promise((resolve) => mock.shown.event(resolve));
+
 /** The setting changes, and the extension hears of it. */
 async function set(name, value) {
     mock.settings[`msaaLint.${name}`] = value;
@@ -71,17 +74,17 @@ after(() => extension.deactivate());
 
 test("a missing command is named, with what to do", { timeout: 60_000 }, async () => {
     mock.settings["msaaLint.path"] = "/nowhere/msaa-lint";
+    const message = shown();
     await extension.activate({ subscriptions: [] });
-    assert.equal(mock.messages.length, 1);
-    assert.match(mock.messages[0], /^The command `\/nowhere\/msaa-lint` was not found\. Install msaa-lint with its extra `lsp`, or set `msaaLint\.path`\.$/);
+    assert.match(await message, /^The command `\/nowhere\/msaa-lint` was not found\. Install msaa-lint with its extra `lsp`, or set `msaaLint\.path`\.$/);
 });
 
 test("why the server ended is shown", { timeout: 60_000 }, async () => {
-    mock.messages.length = 0;
     mock.settings["msaaLint.arguments"] = ["--no-such-option"];
+    const message = shown();
     await set("path", COMMAND);
-    assert.equal(mock.messages.length, 1);
-    assert.match(mock.messages[0], /^msaa-lint: .*--no-such-option/);
+    assert.match(await message, /^msaa-lint: .*--no-such-option/);
+    assert.equal(mock.messages.length, 2, "one for each failure");
 });
 
 test("diagnostics of an open description arrive", { timeout: 20_000 }, async () => {
@@ -110,4 +113,5 @@ test("the fixes are those that the server calls safe", { timeout: 60_000 }, asyn
 test("a server that is not enabled does not run", { timeout: 60_000 }, async () => {
     await set("enable", false);
     assert.equal(mock.diagnostics.size, 0);
+    assert.deepEqual(mock.messages, [], "no end that was asked for is a failure");
 });

@@ -108,11 +108,17 @@ const mock = {
     registered: {},
     executed: [],
     messages: [],
+    shown: new EventEmitter(),
     diagnostics: new Map(),
     changedDiagnostics: new EventEmitter(),
     lines: [],
     emitters,
 };
+
+async function show(message) {
+    mock.messages.push(message);
+    await mock.shown.fire(message);
+}
 
 const log = (...values) => void mock.lines.push(values.join(" "));
 
@@ -173,9 +179,9 @@ module.exports = new Proxy(
             tabGroups: open({ all: [] }),
             createOutputChannel: (name) =>
                 open({ name, logLevel: 3, trace: log, debug: log, info: log, warn: log, error: log, append: log, appendLine: log, show: () => log("shown") }),
-            showErrorMessage: async (message) => void mock.messages.push(message),
-            showWarningMessage: async (message) => void mock.messages.push(message),
-            showInformationMessage: async (message) => void mock.messages.push(message),
+            showErrorMessage: show,
+            showWarningMessage: show,
+            showInformationMessage: show,
         }),
         languages: open({ createDiagnosticCollection: collection, match: matches, getDiagnostics: () => [] }),
         commands: open({
