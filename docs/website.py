@@ -28,7 +28,7 @@ REFERENCE = {
     "Models and measurements": ["cost", "confirm", "study", "study-numbers", "speed"],
     "Comparisons": ["captures-and-the-layer", "agreement", "texts"],
 }
-"""The pages of docs/ by heading, as in docs/README.md; one that does not exist is left out."""
+"""The pages of docs/ by heading, as in docs/README.md."""
 
 _FENCES = re.compile(r"^( *)(`{3,}|~{3,})([^\n]*)\n(.*?)^\1\2 *$", re.MULTILINE | re.DOTALL)
 _LINK = re.compile(r"(!?)\[((?:[^\[\]]|\[[^\[\]]*\])*)\]\(([^()\s#:]*)(#[^()\s]*)?\)")
@@ -104,17 +104,25 @@ def _relink(text: str, source: str, known: set[str], copied: set[str]) -> str:
             if not (ROOT / linked).is_file() or linked.startswith(".."):
                 return label
             copied.add(linked)
+        if re.fullmatch(r"[\w./-]+\.md", label):
+            label = _title(linked)
         relative = posixpath.relpath(target_of(linked), posixpath.dirname(target_of(source)) or ".")
         return f"{image}[{label}]({relative}{anchor})"
 
     return _LINK.sub(replace, text)
 
 
+def _title(source: str) -> str:
+    """The heading of a page, which a link shows in place of the name of a file."""
+    heading = re.search(r"^# (.+)$", (ROOT / source).read_text(encoding="utf-8"), re.MULTILINE)
+    return heading[1] if heading else Path(source).stem
+
+
 def navigation() -> list[object]:
     """The tree of pages, as Zensical reads it."""
     reference: list[object] = ["docs/index.md"]
     for heading, names in REFERENCE.items():
-        reference.append({heading: [f"docs/{name}.md" for name in names if (ROOT / "docs" / f"{name}.md").exists()]})
+        reference.append({heading: [f"docs/{name}.md" for name in names]})
     rules: list[object] = ["rules/index.md"]
     for digit, heading in FAMILY_NAMES.items():
         family = [f"rules/{rule.name}.md" for rule in RULES if rule.code[4] == digit]

@@ -96,8 +96,8 @@ def _price(rule: Rule, shown: Example | None) -> str:
     """What an example costs, in words."""
     price = price_text(shown.finding) if shown is not None else ""
     if shown is None or not price:
-        reason = "it makes a frame wrong or invalid, or its cost depends on shaders"
-        return f'!!! note "Price"\n\n    The cost model counts no bytes for this mistake: {reason}.\n'
+        reason = "it makes a frame wrong or invalid, or what it costs depends on the device or the shaders"
+        return f'!!! note "Price"\n\n    The cost model puts no figure on this mistake: {reason}.\n'
     where = "with the frame that it states" if shown.states_frame else "in a frame of 1920x1080 pixels at 60 Hz"
     which = "The first example" if shown.text in _BAD.findall(markdown(rule))[:1] else "An example"
     return (
