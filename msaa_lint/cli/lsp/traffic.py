@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -9,8 +10,9 @@ from msaa_lint.core.text.node import Node
 from msaa_lint.core.text.span import Span
 from msaa_lint.frame.cost.amounts import FrameCost, Line, PassCost
 from msaa_lint.frame.cost.power import Rates
+from msaa_lint.frame.description.record import Record
 from msaa_lint.frame.facts.frame import Frame
-from msaa_lint.frame.facts.parts import RENDERING
+from msaa_lint.frame.facts.parts import RENDERING, Pass
 
 if TYPE_CHECKING:
     from .view import Costs, View
@@ -38,10 +40,9 @@ def moved(lines: Iterable[Line], cost: FrameCost) -> Moved:
 
 
 class PassTraffic(NamedTuple):
-    """A pass, the key or structure that stands for it, and its attachments with their lines; `known` says that all of it is counted."""
+    """A pass, the key or structure that stands for it, and the heads, structures and lines of its attachments."""
 
     head: Span
-    end: int
     cost: PassCost
     attachments: tuple[tuple[Span, Node, tuple[Line, ...]], ...]
 
@@ -54,15 +55,30 @@ def passes(costs: Costs) -> Iterator[PassTraffic]:
         cost = by_path.get(each.path)
         if cost is None:
             continue
-        attachments = []
-        for attachment in each.attachments:
-            record = attachment.record
-            node = record.node.anchor or record.node
-            inside = [line for line in cost.lines if line.place is not None and node.start <= line.place.start < node.end]
-            if each.kind != RENDERING:
-                inside = [line for line in inside if line.attachment == attachment.name]
-            attachments.append((record.head, node, tuple(inside)))
-        yield PassTraffic(each.record.head, (each.record.node.anchor or each.record.node).end, cost, tuple(attachments))
+        lines = _lines_by_attachment(each, cost)
+        attachments = tuple((one.record.head, _written(one.record), tuple(lines[n])) for n, one in enumerate(each.attachments))
+        yield PassTraffic(each.record.head, cost, attachments)
+
+
+def _written(record: Record) -> Node:
+    return record.node.anchor or record.node
+
+
+def _lines_by_attachment(each: Pass, cost: PassCost) -> list[list[Line]]:
+    """The lines of a pass by its attachments: by their names, or of a rendering, whose lines have those of images, by their places."""
+    found: list[list[Line]] = [[] for _ in each.attachments]
+    if each.kind != RENDERING:
+        numbers = {one.name: n for n, one in enumerate(each.attachments)}
+        for line in cost.lines:
+            if line.attachment in numbers:
+                found[numbers[line.attachment]].append(line)
+        return found
+    places = sorted((_written(one.record).start, n) for n, one in enumerate(each.attachments))
+    for line in cost.lines:
+        at = bisect_right(places, (line.place.start, len(places))) - 1 if line.place is not None else -1
+        if at >= 0 and line.place is not None and line.place.start < _written(each.attachments[places[at][1]].record).end:
+            found[places[at][1]].append(line)
+    return found
 
 
 def image_lines(cost: FrameCost, image: str) -> Iterator[tuple[str, Line]]:
