@@ -122,7 +122,7 @@ def _run(arguments: Arguments, options: ConfirmOptions, session: Session) -> int
     for name in options.devices[1:]:
         with _session(options, name) as other:
             runs.append(trial(other, documents, terms))
-    _, errors, notes = read[0]
+    _, errors, notes, docs_url = read[0]
     for text in notes:
         note(text)
     for error in errors:
@@ -134,7 +134,7 @@ def _run(arguments: Arguments, options: ConfirmOptions, session: Session) -> int
             for line in printed.splitlines():
                 warn(f"driver or layer: {line}")
     for target in options.targets:
-        write_output(target.path, partial(_render, target.format, runs, errors, arguments))
+        write_output(target.path, partial(_render, target.format, runs, errors, docs_url, arguments))
     return exit_code(runs, bool(errors))
 
 
@@ -145,8 +145,8 @@ def _import_rich() -> None:
     import rich.table  # noqa: F401
 
 
-def _render(format: str, runs: Sequence[DeviceRun], errors: Sequence[Any], arguments: Arguments, out: IO[str]) -> None:
-    report_module("confirm", format).render(runs, errors, out.write, report_options(arguments, out))
+def _render(format: str, runs: Sequence[DeviceRun], errors: Sequence[Any], docs_url: str, arguments: Arguments, out: IO[str]) -> None:
+    report_module("confirm", format).render(runs, errors, out.write, report_options(arguments, out)._replace(docs_url=docs_url))
 
 
 def _list_devices(options: ConfirmOptions) -> int:

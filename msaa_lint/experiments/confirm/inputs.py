@@ -53,11 +53,13 @@ class Input(NamedTuple):
 
 
 class Inputs(NamedTuple):
-    """The documents to confirm, findings that say why others cannot be, and lines for standard error."""
+    """The documents to confirm, findings that say why others cannot be, lines for standard error, and the address of the documentation in
+    the settings of the current folder."""
 
     inputs: list[Input]
     wrong: list[Finding]
     notes: list[str]
+    docs_url: str = ""
 
 
 def inputs(request: Request) -> Inputs:
@@ -69,7 +71,7 @@ def inputs(request: Request) -> Inputs:
         with workspace.guard(path):
             found += _of_file(workspace, path)
     errors = [finding for finding in dict.fromkeys(workspace.findings) if finding.fatal]
-    return Inputs(found, errors, list(discovered.notes))
+    return Inputs(found, errors, list(discovered.notes), workspace.current.settings.docs_url)
 
 
 def _of_file(workspace: Workspace, path: str) -> list[Input]:

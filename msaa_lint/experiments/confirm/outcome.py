@@ -65,7 +65,8 @@ class ShownImage(NamedTuple):
 
 class Verdict(NamedTuple):
     """The verdict on one pass on one device. None means that something was not determined; `notes` say why unless it is obvious. `pictures`
-    are the paths of the files written, and `shown` the images themselves, if a report asked for them."""
+    are the paths of the files written, and `shown` the images themselves, if a report asked for them. `rules` are the codes and names
+    of the rules whose findings are about the pass."""
 
     file: str
     name: str
@@ -83,6 +84,7 @@ class Verdict(NamedTuple):
     notes: tuple[str, ...] = ()
     pictures: tuple[str, ...] = ()
     shown: tuple[ShownImage, ...] = ()
+    rules: tuple[tuple[str, str], ...] = ()
 
     def with_status(self, outcome: PassOutcome | None, fixed: PassOutcome | None, has_errors: bool) -> Verdict:
         """The verdict with its status and reason, for a pass that the device supports.

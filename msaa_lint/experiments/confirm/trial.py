@@ -256,8 +256,9 @@ class _Trial:
         notes = list(before.planned.defaults) if number == 0 else []
         if outcome is not None and outcome.dropped:
             notes.append(f"{outcome.dropped} more messages of the layer are omitted")
-        codes = tuple(dict.fromkeys(finding.code for finding in _findings(source, planned)))
-        return Verdict(source.file, planned.name, source.prefix + planned.path, "", findings=codes, notes=tuple(notes))
+        rules = tuple(dict.fromkeys((finding.code, finding.rule) for finding in _findings(source, planned)))
+        codes = tuple(dict.fromkeys(code for code, _ in rules))
+        return Verdict(source.file, planned.name, source.prefix + planned.path, "", findings=codes, notes=tuple(notes), rules=rules)
 
 
 def _findings(source: Input, planned: parts.Pass) -> list[Finding]:

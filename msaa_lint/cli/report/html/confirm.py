@@ -8,6 +8,7 @@ from typing import Any
 from msaa_lint.core.finding import Finding
 from msaa_lint.experiments.confirm.outcome import CONFIRMED, FAILED, STATUSES, WRONG, DeviceRun, ShownImage, Verdict
 from msaa_lint.experiments.confirm.pixels import ImageComparison
+from msaa_lint.linter.rules.reference_links import rule_address
 
 from .. import Options, Write
 from ..confirm_text import CREATED, PIXELS, agreement_of, heading, reasons, summary, time_text, times_of
@@ -82,6 +83,7 @@ def _pass(verdict: Verdict, name: str, is_timed: bool, options: Options) -> dict
         "kind": KINDS.get(verdict.status, "warning"),
         "cells": [CREATED[verdict.created], agreement_of(verdict), PIXELS[verdict.pixels_equal]],
         "times": times_of(verdict) if is_timed else [],
+        "rules": [(f"{code} {rule}", rule_address(options.docs_url, code, rule)) for code, rule in verdict.rules],
         "reasons": reasons(verdict, options.verbose),
         "images": [_image(image, comparisons.get(image.image), f"{name}-{n}") for n, image in enumerate(verdict.shown, 1)],
     }

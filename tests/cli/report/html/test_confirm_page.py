@@ -182,6 +182,17 @@ def test_the_command_writes_a_page_with_pictures(browser: Browser, tmp_path: Pat
     assert browser.run("return [...document.images].every((image) => image.naturalWidth === 64)")
 
 
+def test_findings_link_to_the_documentation(browser: Browser, tmp_path: Path) -> None:
+    rules = (("MSAA001", "multisampled-attachment-stored"), ("X001", "our-rule"))
+    path = tmp_path / "confirm.html"
+    with path.open("w", encoding="utf-8") as file:
+        render([device_run(verdict(rules=rules))], (), file.write, Options(docs_url="https://docs.example"))
+    browser.open(path)
+    assert browser.texts("section section p") == ["Findings: MSAA001 multisampled-attachment-stored, X001 our-rule"]
+    links = [link.get_attribute("href") for link in browser.all("section section p a")]
+    assert links == ["https://docs.example/rules/multisampled-attachment-stored/"]
+
+
 def test_picture_for_the_documentation(browser: Browser, report: Path, tmp_path: Path) -> None:
     folder = ROOT / "docs" / "images" if os.environ.get("UPDATE") else tmp_path
     folder.mkdir(exist_ok=True)
