@@ -113,10 +113,18 @@ const target = () => {
 
 // What scrolls sideways can be scrolled by keyboard; what prints is open.
 (() => {
-  const scrollers = new IntersectionObserver((entries) => {
-    for (const { target } of entries) if (target.scrollWidth > target.clientWidth) target.tabIndex = 0;
-  });
-  for (const element of document.querySelectorAll("pre")) scrollers.observe(element);
+  // What is not in the window has no layout yet: of a long page, it is done as time allows.
+  const sources = [...document.querySelectorAll(".source")];
+  const focusable = (element) => element.scrollWidth > element.clientWidth;
+  const rest = (deadline) => {
+    while (sources.length && deadline.timeRemaining() > 5) {
+      const element = sources.shift();
+      if (focusable(element)) element.tabIndex = 0;
+    }
+    if (sources.length) requestIdleCallback(rest);
+  };
+  for (const element of sources.splice(0, 50).filter(focusable)) element.tabIndex = 0;
+  if (sources.length && window.requestIdleCallback) requestIdleCallback(rest);
   addEventListener("beforeprint", () => {
     for (const element of document.querySelectorAll("details.frame, details.state, .finding details")) element.open = true;
   });

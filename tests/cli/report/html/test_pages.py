@@ -9,7 +9,9 @@ from pathlib import Path
 
 import pytest
 
+from msaa_lint.core.text.span import Span
 from tests.cli.report.html.browser import Browser
+from tests.cli.report.sample import finding, printed, result
 from tests.command import run
 from tests.paths import ROOT
 
@@ -237,3 +239,13 @@ def test_pictures_of_the_documentation(browser: Browser, pages: dict[str, Path])
     browser.picture(images / "report-cost.png", height=1250)
     browser.open(pages["comparison"])
     browser.picture(images / "report-comparison.png", height=1050)
+
+
+def test_ten_thousand_findings_open(browser: Browser, tmp_path: Path) -> None:
+    page = tmp_path / "many.html"
+    text = "images: {a: {format: R8G8B8A8_UNORM, samples: 4}}\n" * 20
+    page.write_text(printed("html", result(*(finding(f"finding {n}", span=Span(10, 20)) for n in range(10_000)), text=text)))
+    browser.open(page)
+    choose(browser, "text", "finding 999")
+    assert browser.run("return document.getElementById('count').textContent") == "11 of 10000 findings"
+    assert browser.complaints() == []
