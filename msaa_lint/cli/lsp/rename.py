@@ -6,6 +6,7 @@ import re
 from typing import TYPE_CHECKING, NamedTuple
 
 from msaa_lint.core.quote import quoted
+from msaa_lint.core.text.anchors import Anchor, anchors_of
 from msaa_lint.core.text.edits import apply
 from msaa_lint.core.text.node import Limits, Node
 from msaa_lint.core.text.source import Source
@@ -16,7 +17,7 @@ from msaa_lint.frame.description.scalars import UNUSED
 from msaa_lint.input import readers
 from msaa_lint.linter.fixes.value_writer import quote_scalar
 
-from .names import ATTACHMENTS, Anchor, Name, Names, Occurrence, anchor_at, anchors_of, connected, names_at, names_of, occurrences
+from .names import ATTACHMENTS, Name, Names, Occurrence, anchor_at, connected, names_at, names_of, occurrences
 from .places import content, inner
 
 if TYPE_CHECKING:
