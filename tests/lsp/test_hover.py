@@ -64,6 +64,11 @@ def test_a_value_that_costs_nothing_has_no_table() -> None:
     assert "|" not in said(FRAME.replace("R8G8B8A8_UNORM, samples: 1, usage: [C", "R8G8B8A8_UNORM, samples: 1, usage: [^C"))
 
 
+def test_a_device_and_a_value_without_a_text() -> None:
+    assert said("device: mali^-g76\n").startswith("**Mali-G76**: tile-based; color sample counts 1, ")
+    assert "`rasterizationSamples`" in said("pipelines: {p: {multisampleState: {rasterizationSamples: ^4}}}\n")
+
+
 def test_an_image_over_the_frame() -> None:
     text = said(FRAME.replace("image: color_ms", "image: color^_ms"))
     assert "Image `color_ms`: 0.00 MB/s read, 1,600 MB/s written, 160 mW; 0.00 MiB of memory of 15.3 MiB." in text

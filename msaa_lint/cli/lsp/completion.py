@@ -142,11 +142,13 @@ class _Completer:
                 yield from self._missing_names(parent)
 
     def _key(self, name: str, kind: type[Record], shape: Shape) -> Completion:
-        bare = issubclass(kind, Command) and shape[0] == "null" and not self.is_flow
+        is_item = self._is_flow_item
+        bare = issubclass(kind, Command) and shape[0] == "null" and (is_item or not self.is_flow)
         snippet = self.snippets and not bare and not self._colon_follows
         text = self._quoted_key(name)
         if not bare and not self._colon_follows:
-            text += ":" + self._after_colon(alternatives(shape)[0])
+            text += ":" + self._after_colon(alternatives(shape)[0], "" if is_item else self._comma)
+            text = f"{{{text}}}{self._comma}" if is_item else text
         detail = "command" if issubclass(kind, Command) else ""
         return Completion(name, text, self.word.start, self.word.end, KEY, detail, snippet, (kind, name))
 
@@ -154,12 +156,12 @@ class _Completer:
         quote = self.word.quote or ('"' if self.is_json and self.is_flow else "")
         return f"{quote}{name}{quote}"
 
-    def _after_colon(self, shape: Shape) -> str:
+    def _after_colon(self, shape: Shape, comma: str) -> str:
         """What follows a key: the beginning of its value, if the client takes snippets."""
         kind = shape[0]
         is_list = kind in ("list", "flags")
         is_structure = kind in ("record", "map", "numbered", "command") or (kind == "list" and shape[1][0] in ("record", "command"))
-        tail = self._comma if self.is_flow else ""
+        tail = comma if self.is_flow else ""
         if not self.snippets:
             return " "
         if is_structure and not self.is_flow:
@@ -170,9 +172,17 @@ class _Completer:
 
     @property
     def _comma(self) -> str:
-        """A comma where another entry follows without one."""
-        rest = self.text[self.word.end :].lstrip()
-        return "," if rest and rest[0] not in ",}]#:" else ""
+        """A comma where another entry follows without one, and the text could only be read with it."""
+        read = self.marked.text[self.marked.at + len(MARK) :].lstrip(": ")
+        return "," if read.startswith(",") and not self.text[self.word.end :].lstrip(": ").startswith(",") else ""
+
+    @property
+    def _is_flow_item(self) -> bool:
+        """Whether the mark is an item of a list in brackets, and not in a mapping in braces."""
+        place, parent = self.place, self.place.parent
+        if not self.is_flow or parent is None:
+            return False
+        return parent.node.start == self.marked.at if place.key is not None else parent.node.kind == "sequence"
 
     def _missing_names(self, parent: Place) -> Iterator[Completion]:
         """Names that structures use and a section does not define."""

@@ -136,8 +136,10 @@ def _about_key(view: View, place: Place) -> list[str]:
 def _about_value(view: View, place: Place) -> list[str]:
     """What a value means, and what it and the values in its place cost."""
     member = next((each for each in place.ancestors if each.record is not None), place)
-    named = value_documentation(place)
-    return [named, _alternatives_table(view, place, member)]
+    parts = [value_documentation(place), _alternatives_table(view, place, member)]
+    if any(parts) or member.record is None or member.shape[0] == "unknown":
+        return parts
+    return [key_documentation(member.record, member.path[-1])]
 
 
 def _alternatives_table(view: View, place: Place, member: Place) -> str:

@@ -6,6 +6,7 @@ from msaa_lint.frame.description.record import Record
 from msaa_lint.frame.description.reference.lookup import enumerant_text, key_text
 from msaa_lint.frame.description.scalars import SHADING_LEVELS, enumerant
 from msaa_lint.frame.description.shapes import Shape
+from msaa_lint.frame.devices import builtin
 from msaa_lint.frame.vulkan.enums import PREFIXES
 from msaa_lint.frame.vulkan.formats import format_of
 
@@ -59,8 +60,10 @@ def key_documentation(kind: type[Record], member: str) -> str:
 
 
 def value_documentation(place: Place) -> str:
-    """What an enumerant is."""
+    """What an enumerant or a built-in device is."""
     kind = place.shape[0]
+    if place.path == ("device",) and kind == "text":
+        return device_documentation(place.node.text)
     if kind not in ("enum", "flags") or place.node.value is None:
         return ""
     for enum in place.shape[1].split("|"):
@@ -76,3 +79,14 @@ def value_documentation(place: Place) -> str:
 def enumerant_documentation(enums: str, name: str) -> str:
     """What a value of one of some enums, which `|` joins, means; empty if there is no text for it."""
     return next((text for enum in enums.split("|") if enum and (text := enumerant_text(enum, name))), "")
+
+
+def device_documentation(name: str) -> str:
+    """What a built-in device supports; empty if there is none of that name."""
+    profile = builtin(name)
+    if profile is None:
+        return ""
+    counts = ", ".join(map(str, profile.color_samples or ()))
+    kind = {True: "tile-based", False: "immediate-mode", None: ""}[profile.tiler]
+    facts = [kind, f"color sample counts {counts}" if counts else "", f"Vulkan {profile.api_version}" if profile.api_version else ""]
+    return f"**{profile.name}**: " + "; ".join(filter(None, facts))
