@@ -13,14 +13,20 @@ const extension = require("../out/extension.js");
 const { mock } = vscode;
 
 const COMMAND = process.env.MSAA_LINT ?? "msaa-lint";
-const TEXT = `renderPasses:
+const TEXT = `images:
+  color_ms: {format: R8G8B8A8_UNORM, samples: 4, usage: [COLOR_ATTACHMENT, TRANSIENT_ATTACHMENT]}
+renderPasses:
   forward:
     attachments:
-      color_ms: {format: R8G8B8A8_UNORM, samples: 4, loadOp: CLEAR, storeOp: STORE}
+      color_ms: {image: color_ms, loadOp: CLEAR, storeOp: STORE}
       color: {format: R8G8B8A8_UNORM, samples: 1, loadOp: DONT_CARE, storeOp: STORE}
     subpasses:
       - {colorAttachments: [color_ms], resolveAttachments: [color]}
+commands:
+  - beginRenderPass: {renderPass: forward}
+  - endRenderPass
 `;
+const LINE = 5;
 
 /** An open document of the editor. */
 function documentOf(uri, text) {
@@ -92,11 +98,10 @@ test("diagnostics of an open description arrive", { timeout: 20_000 }, async () 
     await set("arguments", []);
     const found = await diagnosed(await opened("frame.msaa.yaml"));
     assert.deepEqual(mock.messages, []);
-    const [first] = found;
-    const code = first.code.value ?? first.code;
-    assert.equal(code, "MSAA201");
-    assert.equal(first.range.start.line, 3);
-    assert.equal(TEXT.split("\n")[3].slice(first.range.start.character, first.range.end.character), "STORE");
+    const stored = found.find((one) => (one.code.value ?? one.code) === "MSAA201");
+    assert.ok(stored, JSON.stringify(found));
+    assert.equal(stored.range.start.line, LINE);
+    assert.equal(TEXT.split("\n")[LINE].slice(stored.range.start.character, stored.range.end.character), "STORE");
 });
 
 test("a restart diagnoses the open documents again", { timeout: 20_000 }, async () => {
@@ -105,9 +110,23 @@ test("a restart diagnoses the open documents again", { timeout: 20_000 }, async 
     assert.ok((await diagnosed(vscode.workspace.textDocuments[0])).length);
 });
 
-test("the fixes are those that the server calls safe", { timeout: 60_000 }, async () => {
+test("the command for fixes asks for a kind of action that the server has, whose edit fixes the text", { timeout: 60_000 }, async () => {
     await mock.registered["msaaLint.fixAll"]();
-    assert.deepEqual(mock.executed.at(-1), ["editor.action.codeAction", { kind: "source.fixAll.msaaLint", apply: "first" }]);
+    const [command, asked] = mock.executed.at(-1);
+    assert.equal(command, "editor.action.codeAction");
+    assert.equal(asked.apply, "first");
+    assert.ok(mock.codeActions.kinds.includes(asked.kind), mock.codeActions.kinds.join());
+
+    const [document] = vscode.workspace.textDocuments;
+    const only = asked.kind.split(".").reduce((kind, part) => kind.append(part), vscode.CodeActionKind.Empty);
+    const { token } = new vscode.CancellationTokenSource();
+    const { provider } = mock.codeActions;
+    const [found] = await provider.provideCodeActions(document, new vscode.Range(0, 0, 0, 0), { only, diagnostics: [], triggerKind: 1 }, token);
+    const action = found.edit ? found : await provider.resolveCodeAction(found, token);
+    const [[range, text], ...others] = action.edit.edits.map((edit) => edit.values);
+    assert.deepEqual(others, []);
+    assert.equal(range.start.line, LINE);
+    assert.match(text, /\bDONT_CARE\b/);
 });
 
 test("a server that is not enabled does not run", { timeout: 60_000 }, async () => {

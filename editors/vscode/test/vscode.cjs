@@ -84,6 +84,19 @@ class CodeActionKind {
 }
 for (const kind of ["QuickFix", "Refactor", "Source"]) CodeActionKind[kind] = new CodeActionKind(kind.toLowerCase());
 
+class CodeAction {
+    constructor(title, kind) {
+        Object.assign(this, { title, kind });
+    }
+}
+
+class WorkspaceEdit {
+    edits = [];
+    set(uri, edits) {
+        this.edits.push(...edits.flat().filter((edit) => edit?.values));
+    }
+}
+
 class CancellationTokenSource {
     token = { isCancellationRequested: false, onCancellationRequested: () => new Disposable() };
     cancel() {}
@@ -154,6 +167,8 @@ module.exports = new Proxy(
         Range,
         Diagnostic,
         CodeActionKind,
+        CodeAction,
+        WorkspaceEdit,
         CancellationTokenSource,
         CancellationError: class extends Error {},
         version: "1.91.0",
@@ -171,6 +186,7 @@ module.exports = new Proxy(
                 inspect: () => undefined,
             }),
             getWorkspaceFolder: () => undefined,
+            createFileSystemWatcher: () => open({ dispose: () => {} }),
             fs: { isWritableFileSystem: () => true },
         }),
         window: open({
@@ -183,7 +199,15 @@ module.exports = new Proxy(
             showWarningMessage: show,
             showInformationMessage: show,
         }),
-        languages: open({ createDiagnosticCollection: collection, match: matches, getDiagnostics: () => [] }),
+        languages: open({
+            createDiagnosticCollection: collection,
+            match: matches,
+            getDiagnostics: () => [],
+            registerCodeActionsProvider: (selector, provider, metadata) => {
+                mock.codeActions = { provider, kinds: metadata.providedCodeActionKinds.map((kind) => kind.value) };
+                return new Disposable();
+            },
+        }),
         commands: open({
             registerCommand: (name, action) => {
                 mock.registered[name] = action;
