@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from functools import cache
 from typing import TYPE_CHECKING, NamedTuple
 
 from msaa_lint.core.allowance import Allowance
@@ -25,7 +26,7 @@ from .mistakes import one_per_mistake
 from .programs import merge, merged, of_turns
 from .results import DocumentResult, FileResult, location_order
 from .rules.budget import Budget
-from .rules.registry import Registry, info, load
+from .rules.registry import Registry, built_in, info, load
 from .rules.rule import Rule
 from .rules.rule_runner import RuleRunner, Severity, Verdicts, distinct, finding_key
 from .run_limits import RunLimits
@@ -80,6 +81,12 @@ class _Analysis(NamedTuple):
     modules: list[Modules]
 
 
+@cache
+def _built_in_runner() -> RuleRunner:
+    """The runner of the built-in rules, which no budget limits: what it evaluates is the same in all runs of a process."""
+    return RuleRunner(built_in().rules)
+
+
 class Engine:
     """A set of rules, compiled once for any number of inputs.
 
@@ -89,7 +96,11 @@ class Engine:
     def __init__(self, registry: Registry, limits: RunLimits | None = None) -> None:
         self.registry = registry
         self._limits = limits
-        self._runner = RuleRunner(registry.rules, (limits or RunLimits()).rules)
+        self._runner = (
+            _built_in_runner()
+            if limits is not None and registry is built_in()
+            else RuleRunner(registry.rules, (limits or RunLimits()).rules)
+        )
 
     def lint(self, data: bytes | CaptureInput | SourceFile, file: str, options: LintOptions) -> FileResult:
         """The findings of one input in order of location. `data` is a file's bytes, or a capture or source code already read."""

@@ -31,7 +31,7 @@ _RULE_KEYS = re.compile(r"(?m)^(?:code|when|subject)[ \t]*:")
 
 
 _FORMAT = "lsp"
-"""Not an output of `check`: prices are computed, and fixes are tried, only when they are asked for."""
+"""Not an output of `check`: prices are computed, and fixes are tried, only when they are asked for. So are keys that rules lack."""
 
 
 def analyze(
@@ -100,9 +100,9 @@ def _lint_input(analysis: Analysis, document: OpenDocument) -> Analysis:
     linted: list[tuple[InputFile, FileResult]] = []
     exists = document.file is not None and os.path.exists(document.file)
     request = (
-        Request([analysis.path], formats=[_FORMAT])
+        Request([analysis.path], formats=[_FORMAT], keys=0)
         if exists
-        else Request([STDIN], formats=[_FORMAT], stdin_filename=analysis.path, data=document.data)
+        else Request([STDIN], formats=[_FORMAT], stdin_filename=analysis.path, data=document.data, keys=0)
     )
     result = run(request, results=lambda file, result: linted.append((file, result))).result
     file, of_file = next(((file, result) for file, result in linted if analysis.path in (result.file, *result.sources)), (None, None))

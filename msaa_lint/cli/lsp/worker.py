@@ -18,7 +18,7 @@ from .linting import analyze
 
 T = TypeVar("T")
 
-IMMEDIATE = 0.1
+IMMEDIATE = 0.25
 """Seconds of linting a document up to which each of its versions is linted at once."""
 
 MAX_DELAY = 1.0

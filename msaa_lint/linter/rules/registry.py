@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Collection, Mapping, Sequence
+from functools import cache
 from typing import NamedTuple
 
 from msaa_lint.core import package
@@ -63,6 +64,14 @@ def _name(path: str) -> str:
     return os.path.basename(path).removesuffix(".md")
 
 
+@cache
+def built_in() -> Registry:
+    """The built-in rules, which are read once in a process."""
+    read = [read_page(path, f"rules/{os.path.basename(path)}", None) for path in pages(folder())]
+    rules = sorted((page.rule for page in read if page.rule is not None), key=lambda rule: rule.code)
+    return Registry(tuple(rules), tuple(problem for page in read for problem in page.problems))
+
+
 CheckFixes = Callable[[Rule], list[Finding]]
 """The problems of a rule's fixes."""
 
@@ -80,16 +89,13 @@ def load(
     rules are checked here, fixes with `check_fixes`, within the `budget` of the run; the test suite checks the built-in rules. A rule with
     a problem is left out. `traceback` raises an exception that reading one of the user's pages causes, instead of reporting it.
     """
-    budget = budget or Budget()
-    rules: list[Rule] = []
-    problems: list[Finding] = []
+    if not paths:
+        return built_in()
+    rules: list[Rule] = [*built_in().rules]
+    problems: list[Finding] = [*built_in().problems]
     sources: dict[str, Source] = {}
     broken: list[BrokenPage] = []
-    for path in pages(folder()):
-        page = read_page(path, f"rules/{os.path.basename(path)}", None)
-        problems.extend(page.problems)
-        if page.rule is not None:
-            rules.append(page.rule)
+    budget = budget or Budget()
     user_pages: dict[str, str | None] = {}
     for path in paths:
         found = pages(path)

@@ -1,0 +1,99 @@
+"""The server finds what `check` finds, through random edits of a document."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from lsprotocol import types
+
+from tests.command import run
+from tests.lsp.editor import Editor, editor
+from tests.lsp.texts import CLEAN, STORED
+
+SEVERITIES = {
+    types.DiagnosticSeverity.Error: "error",
+    types.DiagnosticSeverity.Warning: "warning",
+    types.DiagnosticSeverity.Information: "note",
+}
+
+PIECES = (
+    "STORE", "DONT_CARE", "4", "1", "}", "{", "[", "]", ",", ": ", "\n", "\r\n", "  ", "# msaa-lint: ignore[MSAA201] why\n", "é\U0001f600",
+    "\u2028", "\t", "&a ", "*a", "---\n", "usage: ", "samples: 8", "'", '"', "\x00", "",
+)  # fmt: skip
+
+edits = st.lists(st.tuples(st.floats(0, 1), st.integers(0, 40), st.sampled_from(PIECES)), max_size=4)
+
+
+def position(text: str, offset: int) -> types.Position:
+    before = text[:offset].replace("\r\n", "\n").replace("\r", "\n")
+    line = before.rpartition("\n")[2]
+    return types.Position(before.count("\n"), len(line.encode("utf-16-le")) // 2)
+
+
+def offset_between_characters(text: str, offset: int) -> int:
+    """An offset that is not within a line end, which no position of the protocol names."""
+    return offset - 1 if text[offset - 1 : offset + 1] == "\r\n" else offset
+
+
+class Session:
+    """An editor that stays open from one example to the next."""
+
+    def __init__(self, folder: Path) -> None:
+        self.runner = asyncio.Runner()
+        self.context = editor(folder)
+        self.editor: Editor = self.runner.run(self.context.__aenter__())
+        self.documents = 0
+
+    def close(self) -> None:
+        self.runner.run(self.context.__aexit__(None, None, None))
+        self.runner.close()
+
+
+@pytest.fixture(scope="module")
+def session(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Session]:
+    folder = tmp_path_factory.mktemp("edits") / "folder"
+    folder.mkdir()
+    opened = Session(folder)
+    yield opened
+    opened.close()
+
+
+@settings(max_examples=20, deadline=None)
+@given(start=st.sampled_from([CLEAN, STORED]), steps=st.lists(edits, min_size=1, max_size=4))
+def test_findings_are_those_of_check_after_edits(session: Session, start: str, steps: list[list[tuple[float, int, str]]]) -> None:
+    session.documents += 1
+    session.runner.run(edited(session.editor, f"{session.documents}.msaa.yaml", start, steps))
+
+
+async def edited(opened: Editor, name: str, text: str, steps: list[list[tuple[float, int, str]]]) -> None:
+    """Edits a document step by step, and compares its diagnostics after each."""
+    await opened.open(name, text)
+    for step in steps:
+        changes: list[types.TextDocumentContentChangeEvent] = []
+        for share, length, piece in step:
+            begin = offset_between_characters(text, int(share * len(text)))
+            end = max(begin, offset_between_characters(text, min(begin + length, len(text))))
+            place = types.Range(position(text, begin), position(text, end))
+            changes.append(types.TextDocumentContentChangePartial(place, piece))
+            text = text[:begin] + piece + text[end:]
+        found = await opened.change(name, *changes)
+        (opened.folder / name).write_bytes(text.encode())
+        report = json.loads(run(opened.folder, "check", "--output", "json", name).stdout)
+        assert [plain(each) for each in found] == [of_report(each, text) for each in report["findings"]]
+
+
+def plain(found: types.Diagnostic) -> tuple[object, ...]:
+    return (found.code, found.message.split("\n")[0], SEVERITIES[found.severity], found.range.start.line, found.range.start.character)
+
+
+def of_report(found: dict[str, object], text: str) -> tuple[object, ...]:
+    line, column = (found["line"] or 1, found["column"] or 1)
+    lines = text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
+    before = lines[line - 1][: column - 1]
+    return (found["code"], f"{found['message']} [{found['rule']}]", found["severity"], line - 1, len(before.encode("utf-16-le")) // 2)
