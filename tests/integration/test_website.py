@@ -35,6 +35,10 @@ LOADS = {"script": "src", "img": "src", "iframe": "src", "source": "src", "use":
 """What a page loads, by element; of `link`, what is no mere reference."""
 
 
+OF_THE_THEME = ("landmark-unique", "scrollable-region-focusable")
+"""What axe finds in every site that Zensical builds: its navigation, and code that is wider than the page."""
+
+
 class Document(HTMLParser):
     """The links, what is loaded, and the anchors of a page."""
 
@@ -180,6 +184,7 @@ def test_pages_in_a_browser(browser: Browser, address: str, tmp_path: Path) -> N
             browser.run("return performance.getEntriesByType('resource').filter(each => !each.name.startsWith(arguments[0]))", address)
             == []
         )
+        assert [each for each in browser.violations() if not each.startswith(OF_THE_THEME)] == []
         # Taking a picture changes the size of the window for a moment, and tabs fade in.
         browser.run("document.head.insertAdjacentHTML('beforeend', '<style>* { transition: none !important }</style>')")
         browser.picture(folder / f"{name}.png", height=820)
