@@ -8,7 +8,7 @@ from pathlib import Path
 
 from msaa_lint.cli.lsp.view import View
 from msaa_lint.core.text.edits import apply
-from msaa_lint.core.text.span import Edit, Span
+from msaa_lint.core.text.span import Edit
 from msaa_lint.linter.engine import Engine, LintOptions, load_rules
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -40,7 +40,3 @@ def descriptions() -> list[Path]:
 
 def edited(text: str, edits: Iterable[Edit]) -> str:
     return apply(text, list(edits))
-
-
-def texts(text: str, spans: Iterable[Span]) -> list[str]:
-    return [text[span.start : span.end] for span in spans]

@@ -7,7 +7,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
 from msaa_lint.core.text.node import Node
-from msaa_lint.frame.description.models import Command, Description
+from msaa_lint.frame.description.models import Command
 from msaa_lint.frame.description.record import Record
 from msaa_lint.frame.description.scalars import SAMPLE_COUNTS, SHADING_LEVELS
 from msaa_lint.frame.description.shapes import Shape
@@ -57,7 +57,7 @@ def complete(view: View, offset: int, snippets: bool = False) -> list[Completion
     found = marked(view.text, word, view.limits)
     at = place_at(found.roots, found.at) if found is not None else None
     if found is None or at is None:
-        return _first_keys(word, snippets) if not view.text.strip().replace(word.prefix, "", 1) else []
+        return []
     return list(_Completer(view.text, word, found, at[0], snippets).items(at[1]))
 
 
@@ -69,11 +69,6 @@ def _is_free(text: str, word: Word) -> bool:
     if text[word.start - 1 : word.start] in ("&", "*", "!", "#") or before.endswith("---"):
         return False
     return before[-1:] in ("", *"[{,:|-?") and after[:1] in ("", *",]}:#|")
-
-
-def _first_keys(word: Word, snippets: bool) -> list[Completion]:
-    """The keys of an empty document."""
-    return [Completion(name, f"{name}: ", word.start, word.end, KEY, member=(Description, name)) for name in Description.SHAPE]
 
 
 class _Completer:
