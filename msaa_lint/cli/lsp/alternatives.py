@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from msaa_lint.frame.cost.amounts import FrameCost
+from msaa_lint.frame.cost.amounts import Amount
+from msaa_lint.frame.cost.model import difference
 from msaa_lint.frame.description.record import Record
 from msaa_lint.frame.description.scalars import enumerant, sample_count
 from msaa_lint.frame.vulkan.formats import format_of
@@ -44,35 +45,35 @@ MOVING = frozenset({"usage", "memory"})
 
 
 class Alternatives(NamedTuple):
-    """The value that is stated, and the frame's cost with each of the others in its place."""
+    """The value that is stated, and the frame's total with each of the others in its place."""
 
     value: str
-    others: tuple[tuple[str, FrameCost], ...]
+    others: tuple[tuple[str, Amount], ...]
 
 
 def alternative_costs(costs: Costs, member: Place, place: Place) -> Alternatives | None:
     """The costs of a frame with other values of a member, or without the flag at a place. None where none of them makes a difference."""
     found = list(_expanded(costs, member) if costs.is_expanded else _changed(costs, member, place))
-    if all(cost.total == costs.written.total for _, cost in found):
+    if all(total == costs.written.total for _, total in found):
         return None
     return Alternatives(place.node.text, tuple(found))
 
 
-def _changed(costs: Costs, member: Place, place: Place) -> Iterator[tuple[str, FrameCost]]:
-    """The costs with the changes made in the structures that were read."""
+def _changed(costs: Costs, member: Place, place: Place) -> Iterator[tuple[str, Amount]]:
+    """The totals with the changes made in the structures that were read; only the part of the frame that they concern is estimated."""
     assert member.record is not None
     name = member.path[-1]
     records = [record for record in _records(costs, member.record) if record.states(name) and _is_at(record, name, member)]
     for title, action, value in _candidates(member, place) if records else ():
         try:
-            cost = costs.prices.cost_with([Change(record, name, action, value) for record in records], None)
+            saving = costs.prices.of([Change(record, name, action, value) for record in records])
         except NoFix:
             continue
-        if cost is not None:
-            yield title, cost
+        if saving is not None:
+            yield title, difference(costs.written.total, Amount(*saving)) if any(saving) else costs.written.total
 
 
-def _expanded(costs: Costs, member: Place) -> Iterator[tuple[str, FrameCost]]:
+def _expanded(costs: Costs, member: Place) -> Iterator[tuple[str, Amount]]:
     """The costs of a shorthand with each other word in its text."""
     words = member.shape[1] if member.shape[0] == "word" else ()
     others = [word for word in words if isinstance(word, str) and word != member.node.text]
@@ -81,7 +82,7 @@ def _expanded(costs: Costs, member: Place) -> Iterator[tuple[str, FrameCost]]:
     for word in others:
         cost = costs.with_text(member.node.span, word)
         if cost is not None:
-            yield word, cost
+            yield word, cost.total
 
 
 def _records(costs: Costs, kind: type[Record]) -> Iterator[Record]:

@@ -152,7 +152,7 @@ def _alternatives_table(view: View, place: Place, member: Place) -> str:
         return ""
     written = costs.written.total
     lines = ["| value | MB/s | mW | MiB |", "| --- | ---: | ---: | ---: |"]
-    rows = [(f"{code(found.value)} as written", written, True), *((code(value), cost.total, False) for value, cost in found.others)]
+    rows = [(f"{code(found.value)} as written", written, True), *((code(value), total, False) for value, total in found.others)]
     for title, total, is_written in rows:
         figures = [figure(total.traffic_mb_per_s), figure(total.milliwatts), figure(total.memory_mib)]
         if not is_written:
