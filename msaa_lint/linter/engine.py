@@ -58,7 +58,8 @@ class LintOptions(NamedTuple):
     `format` forces a reader; None detects the format from content. `device` is the profile for descriptions that do not name a device, or
     only the one that they were captured on. `severity_in` has the severities in each file of a program, if they differ.
     `ignores` applies suppression comments, `prices` computes the prices of findings. `keys` is the number of undecided rules for which a
-    key is looked up that they lack (None: of none), and with `all_keys` all such keys.
+    key is looked up that they lack (None: of none), and with `all_keys` all such keys. `edits` writes the edits of fixes into the
+    findings; trying the fixes does not need them.
     """
 
     severity: Severity
@@ -70,6 +71,7 @@ class LintOptions(NamedTuple):
     keys: Allowance | None = Allowance()
     all_keys: bool = False
     severity_in: Callable[[str], Severity] | None = None
+    edits: bool = True
 
 
 class _Analysis(NamedTuple):
@@ -388,7 +390,7 @@ def _has_suppressions(text: str) -> bool:
 def _with_fixes(results: Iterable[DocumentResult], findings: list[Finding], options: LintOptions, editable: bool = True) -> list[Finding]:
     """The findings with their prices if asked for and, if the text is `editable`, the edits of their fixes."""
     fixable = [result for result in results if result.fix_specs]
-    if not fixable:
+    if not fixable or not (options.prices or (editable and options.edits)):
         return findings
     from .fixes.document_fixes import DocumentFixes, documents_by_key
 
@@ -398,7 +400,7 @@ def _with_fixes(results: Iterable[DocumentResult], findings: list[Finding], opti
         from .prices import price_findings
 
         findings = price_findings(fixes, by_key, findings)
-    if editable:
+    if editable and options.edits:
         for index, finding in enumerate(findings):
             for number in by_key.get(finding_key(finding), ()):
                 findings[index] = fixes[number].with_edits(findings[index])

@@ -49,7 +49,7 @@ class Request(NamedTuple):
     never written. `keys` is the number of undecided rules for which a key is looked up
     that they lack (None: of all), and `all_keys` finds all keys that undecided rules lack, and not only the next one. `log` is called with
     a line for each configuration and each input that is used. `traceback` raises an exception that linting an input causes, instead of
-    reporting it. `cache` uses and keeps results in the user's cache folder.
+    reporting it. `cache` uses and keeps results in the user's cache folder. `edits` writes the edits of fixes into the findings.
     """
 
     paths: Sequence[str]
@@ -73,6 +73,7 @@ class Request(NamedTuple):
     log: Callable[[str], None] | None = None
     traceback: bool = False
     cache: bool = False
+    edits: bool = True
 
     def input_name(self, path: str) -> str:
         """The name of an input in findings."""
@@ -259,7 +260,9 @@ class Workspace:
         request, device = self.request, resolved.device
         self._limits.rules.extend(len(data if isinstance(data, bytes) else data.source.text))
         severity = resolved.selection.for_file(name, device.vendor if device is not None else None)
-        options = LintOptions(severity, resolved.limits, request.format, device, request.ignores, False, self._keys, request.all_keys)
+        options = LintOptions(
+            severity, resolved.limits, request.format, device, request.ignores, False, self._keys, request.all_keys, edits=request.edits
+        )
         return InputFile(path, name, data, resolved, options, self.current.settings.min_severity, request.log)
 
     @cached_property

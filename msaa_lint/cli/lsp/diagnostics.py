@@ -33,7 +33,7 @@ def diagnostic(analysis: Analysis, found: Finding) -> types.Diagnostic:
     """A finding as a diagnostic. `data` identifies it, and says whether it has a fix."""
     address = rule_address(analysis.resolved.settings.docs_url, found.code, found.rule)
     related = [_related(analysis, label) for label in found.labels]
-    has_fix = found.fix is not None and bool(found.fix.edits)
+    has_fix = found.fix is not None and not found.fix.shown
     return types.Diagnostic(
         analysis.range(found.span or Span(0, 0)),
         message(found),

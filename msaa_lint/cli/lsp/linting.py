@@ -100,9 +100,9 @@ def _lint_input(analysis: Analysis, document: OpenDocument) -> Analysis:
     linted: list[tuple[InputFile, FileResult]] = []
     exists = document.file is not None and os.path.exists(document.file)
     request = (
-        Request([analysis.path], formats=[_FORMAT], keys=0)
+        Request([analysis.path], formats=[_FORMAT], keys=0, edits=False)
         if exists
-        else Request([STDIN], formats=[_FORMAT], stdin_filename=analysis.path, data=document.data, keys=0)
+        else Request([STDIN], formats=[_FORMAT], stdin_filename=analysis.path, data=document.data, keys=0, edits=False)
     )
     result = run(request, results=lambda file, result: linted.append((file, result))).result
     file, of_file = next(((file, result) for file, result in linted if analysis.path in (result.file, *result.sources)), (None, None))

@@ -7,10 +7,12 @@ import gc
 import threading
 from collections.abc import Callable, Sequence
 from itertools import count
-from time import perf_counter
+from time import perf_counter, thread_time
 from typing import NamedTuple, TypeVar
 
 from lsprotocol import types
+
+from msaa_lint.core.garbage import collect_garbage
 
 from .analysis import Analysis
 from .documents import OpenDocument
@@ -19,10 +21,14 @@ from .linting import analyze
 T = TypeVar("T")
 
 IMMEDIATE = 0.25
-"""Seconds of linting a document up to which each of its versions is linted at once."""
+"""Seconds of processor time for linting a document up to which each of its versions is linted at once."""
 
 MAX_DELAY = 1.0
 """Seconds without a change after which a document that takes longer is linted."""
+
+
+IDLE = 2.0
+"""Seconds without anything to do after which all garbage is collected, which takes as long as linting."""
 
 
 class _Job(NamedTuple):
@@ -73,8 +79,7 @@ class Worker:
             self._jobs.pop(uri, None)
         self.results.pop(uri, None)
         self._requests.pop(uri, None)
-        for waiting in self._waiting.pop(uri, ()):
-            waiting.cancel()
+        self._give_up(uri)
 
     async def result(self, uri: str) -> Analysis:
         """The result of the last request for a document, which is then not delayed, or of a newer one."""
@@ -93,16 +98,15 @@ class Worker:
     async def call(self, function: Callable[[], T]) -> T:
         """What a function returns that lints, and so has to run between the documents."""
         self._start()
-        loop = asyncio.get_running_loop()
-        future: asyncio.Future[T] = loop.create_future()
+        future: asyncio.Future[T] = asyncio.get_running_loop().create_future()
 
         def run() -> None:
             try:
                 result = function()
             except Exception as error:
-                loop.call_soon_threadsafe(_fail, future, error)
+                self._post(_fail, future, error)
             else:
-                loop.call_soon_threadsafe(_succeed, future, result)
+                self._post(_succeed, future, result)
 
         with self._changed:
             self._calls.append(run)
@@ -122,11 +126,8 @@ class Worker:
                 self._analyze(work)
             else:
                 work()
-            with self._changed:
-                idle = not self._jobs and not self._calls
-            if idle:
-                # The command line disables the collector, and the parts of a frame refer to each other.
-                gc.collect()
+            # The command line disables the collector, and the parts of a frame refer to each other.
+            collect_garbage()
 
     def _next(self) -> _Job | Callable[[], None]:
         """What to do next, when it is due."""
@@ -138,13 +139,32 @@ class Worker:
                 wait = first.due - perf_counter() if first is not None else None
                 if first is not None and wait is not None and wait <= 0:
                     return self._jobs.pop(first.document.uri)
-                self._changed.wait(wait)
+                if not self._changed.wait(IDLE if wait is None else wait) and wait is None:
+                    gc.collect()
+                    self._changed.wait()
 
     def _analyze(self, job: _Job) -> None:
-        start = perf_counter()
+        start = thread_time()
         last = self.results.get(job.document.uri)
-        analysis = analyze(job.document, job.others, job.encoding, last.kind if last is not None else None)
-        self._loop.call_soon_threadsafe(self._take, analysis, job.number, perf_counter() - start)
+        try:
+            analysis = analyze(job.document, job.others, job.encoding, last.kind if last is not None else None)
+        except Exception:
+            # What linting raises is a finding. The server outlives everything else, and the next change is linted again.
+            self._post(self._give_up, job.document.uri)
+        else:
+            self._post(self._take, analysis, job.number, thread_time() - start)
+
+    def _post(self, function: Callable[..., None], *arguments: object) -> None:
+        """Calls a function on the loop. Ends the thread if there is no loop any more."""
+        try:
+            self._loop.call_soon_threadsafe(function, *arguments)
+        except RuntimeError:
+            raise SystemExit from None
+
+    def _give_up(self, uri: str) -> None:
+        """Ends what waits for the result of a document."""
+        for waiting in self._waiting.pop(uri, ()):
+            waiting.cancel()
 
     def _take(self, analysis: Analysis, number: int, seconds: float) -> None:
         """Keeps a result, unless its document was closed meanwhile."""
