@@ -24,7 +24,7 @@ from tests.command import environment_of, run
 from tests.doc_blocks import PAGES, Block, blocks
 from tests.paths import ROOT
 
-LANGUAGES = {"sh", "console", "python", "yaml", "toml", "json", "cpp", "markdown", "text", "inline"}
+LANGUAGES = {"sh", "console", "python", "yaml", "toml", "json", "cpp", "markdown", "text", "inline", "lua", "elisp"}
 
 NOT_RUN = {
     "README.md": {"installs packages; tests/integration/test_release.py runs it"},
@@ -32,6 +32,7 @@ NOT_RUN = {
     "docs/ci.md": {"URL stands for a repository; tests/integration/test_release.py runs it"},
     "docs/confirm.md": {"needs root", "needs a GPU"},
     "docs/devices.md": {"needs reports and a phone"},
+    "docs/editors.md": {"installs packages from npm; tests/integration/test_vscode.py builds the extension"},
     "docs/guides/editor.md": {"runs until it is interrupted"},
     "docs/study.md": {"needs a GPU"},
 }
