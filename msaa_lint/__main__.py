@@ -26,6 +26,9 @@ def main() -> None:
     from .core.isolation import isolate
 
     isolate()
+    from .core.interrupts import install
+
+    install()
     from .cli.streams import run_with_streams
 
     code = run_with_streams(_run)

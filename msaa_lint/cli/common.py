@@ -7,11 +7,13 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from importlib import import_module
 from importlib.util import find_spec
+from types import FrameType
 from typing import IO, Any, NamedTuple, TypeVar
 
 from msaa_lint.core import atomic_write
 from msaa_lint.core.diagnostics import internal_error
 from msaa_lint.core.extras import needs_extra
+from msaa_lint.core.interrupts import deferred
 from msaa_lint.core.package import VERSION
 from msaa_lint.core.project import resolved
 from msaa_lint.core.quote import quoted
@@ -119,7 +121,9 @@ def _unwind_on_signals() -> dict[int, Any]:
 
     previous: dict[int, Any] = {}
 
-    def unwind(number: int, _: object) -> None:
+    def unwind(number: int, frame: FrameType | None) -> None:
+        if deferred(number, frame):
+            return
         # Another signal must not interrupt the cleanup: a terminal that closes may send several.
         for each in previous:
             signal.signal(each, signal.SIG_IGN)

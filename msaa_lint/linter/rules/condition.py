@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from cel_expr_python import cel
 
+from msaa_lint.core.interrupts import held
 from msaa_lint.frame.facts.facts import Value
 from msaa_lint.frame.facts.table import FACTS, SUBJECTS
 from msaa_lint.frame.facts.words import WORDS, Fact
@@ -181,7 +182,8 @@ def _environment(subject: str | None) -> Any:
             "LIST": cel.Type.List(cel.Type.STRING),
             "INTS": cel.Type.List(cel.Type.INT),
         }
-        _environments[subject] = cel.NewEnv(variables={fact.name: types[fact.type] for fact in _facts_of(subject)})
+        with held():
+            _environments[subject] = cel.NewEnv(variables={fact.name: types[fact.type] for fact in _facts_of(subject)})
     return _environments[subject]
 
 
