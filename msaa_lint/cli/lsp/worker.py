@@ -12,7 +12,7 @@ from typing import NamedTuple, TypeVar
 
 from lsprotocol import types
 
-from msaa_lint.core.garbage import collect_garbage
+from msaa_lint.core.garbage import MAX_GARBAGE, collect_garbage
 
 from .analysis import Analysis
 from .documents import OpenDocument
@@ -126,8 +126,9 @@ class Worker:
                 self._analyze(work)
             else:
                 work()
-            # The command line disables the collector, and the parts of a frame refer to each other.
-            collect_garbage()
+            # The command line disables the collector, and the parts of a frame refer to each other. Sooner than a run does, which would
+            # do it before its result is known.
+            collect_garbage(MAX_GARBAGE // 2)
 
     def _next(self) -> _Job | Callable[[], None]:
         """What to do next, when it is due."""
