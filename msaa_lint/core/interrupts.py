@@ -3,14 +3,10 @@
 import _thread
 import signal
 import time
-from collections.abc import Iterator
-from contextlib import contextmanager
 from types import FrameType
 
 DELAY = 0.01
 """Seconds after which a deferred signal is sent again."""
-
-_held = 0
 
 
 def install() -> None:
@@ -19,20 +15,26 @@ def install() -> None:
         signal.signal(signal.SIGINT, _interrupt)
 
 
-@contextmanager
-def held() -> Iterator[None]:
-    """Holds signals back, for C++ code that calls Python and ends the process on an exception."""
-    global _held
-    _held += 1
-    try:
-        yield
-    finally:
-        _held -= 1
+class _Held:
+    """Holds signals back around C++ code that calls Python, and that ends the process or fails if Python raises an exception."""
+
+    def __init__(self) -> None:
+        # A list, as threads may change it at the same time.
+        self.by: list[None] = []
+
+    def __enter__(self) -> None:
+        self.by.append(None)
+
+    def __exit__(self, *_: object) -> None:
+        self.by.pop()
+
+
+HELD = _Held()
 
 
 def deferred(number: int, frame: FrameType | None) -> bool:
     """Whether an exception that the handler of a signal raises would be lost; the signal is then sent again after DELAY."""
-    if not _held and not _is_lost(frame):
+    if not HELD.by and not _is_lost(frame):
         return False
     # Handlers of signals run in the main thread.
     _thread.start_new_thread(_send, (number, _thread.get_ident()))

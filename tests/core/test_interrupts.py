@@ -15,7 +15,7 @@ ROOT = Path(__file__).parents[2]
 PROGRAM = """
 import os, signal, sys, time
 sys.path.insert(0, sys.argv[1])
-from msaa_lint.core.interrupts import held, install
+from msaa_lint.core.interrupts import HELD, install
 install()
 sent = []
 
@@ -32,7 +32,7 @@ def during_import():
     sys.settrace(None)
 
 def while_held():
-    with held():
+    with HELD:
         send()
         time.sleep(0.05)
         print("held")

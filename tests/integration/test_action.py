@@ -58,7 +58,7 @@ def test_scripts_hold_no_expressions(steps: list[dict[str, Any]]) -> None:
 
 def test_a_pinned_action_names_its_version_and_is_pinned_once() -> None:
     text = "".join(path.read_text(encoding="utf-8") for path in (ROOT / "action.yml", *WORKFLOWS, *DOCS))
-    uses = [line.partition("uses: ")[2] for line in text.splitlines() if re.search(r"uses: (?![$.]/)", line)]
+    uses = re.findall(r"(?m)^ *(?:- )?uses: (?!\.{1,2}/|\$/)(.*)$", text)
     pins = {re.fullmatch(r"(\S+)@([0-9a-f]{40}) # v\d+\.\d+\.\d+", use) for use in uses}
     assert None not in pins
     assert len({pin[1] for pin in pins if pin}) == len({pin[0] for pin in pins if pin}) == 6

@@ -55,7 +55,7 @@ class Record:
         for name in names:
             if name in self.spelled:
                 key, value = self.spelled[name]
-                return key.span if _is_wide(value) else value.span
+                return key.span if value.kind != "scalar" and _is_wide(value) else value.span
         return self.head
 
     def flag_place(self, name: str, flags: Container[str]) -> Span:

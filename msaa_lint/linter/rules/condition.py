@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from cel_expr_python import cel
 
-from msaa_lint.core.interrupts import held
+from msaa_lint.core.interrupts import HELD
 from msaa_lint.frame.facts.facts import Value
 from msaa_lint.frame.facts.table import FACTS, SUBJECTS
 from msaa_lint.frame.facts.words import WORDS, Fact
@@ -57,7 +57,8 @@ class Condition:
         self.text = text
         self.facts = named(text)
         try:
-            self._program = _environment(subject).compile(text)
+            with HELD:
+                self._program = _environment(subject).compile(text)
         except RuntimeError as error:
             raise _condition_error(error, text, subject) from None
 
@@ -78,7 +79,8 @@ class Condition:
     def holds(self, activation: Any) -> bool | None:
         """True or false; None if that depends on an absent fact. Raises ArithmeticError if the evaluation fails."""
         try:
-            value = self._program.eval(activation).plain_value()
+            with HELD:
+                value = self._program.eval(activation).plain_value()
         except RuntimeError as error:
             # CEL bounds the cost of an evaluation.
             raise ArithmeticError(str(error)) from None
@@ -90,7 +92,9 @@ class Condition:
 
     def first_absent(self, activation: Any) -> str:
         """An absent fact that an undecided condition depends on."""
-        found = re.search(r'No value with name "([^"]*)"', str(self._program.eval(activation).plain_value()))
+        with HELD:
+            value = self._program.eval(activation).plain_value()
+        found = re.search(r'No value with name "([^"]*)"', str(value))
         return found[1] if found is not None else ""
 
     def decides(self, activation: Any) -> bool:
@@ -115,7 +119,8 @@ class Condition:
 
 def activation(subject: str | None, facts: Mapping[str, Any]) -> Any:
     """The facts of one subject, prepared for conditions that were compiled with the same `subject`."""
-    return _environment(subject).Activation(facts)
+    with HELD:
+        return _environment(subject).Activation(facts)
 
 
 def check(text: str, subject: str) -> None:
@@ -182,7 +187,7 @@ def _environment(subject: str | None) -> Any:
             "LIST": cel.Type.List(cel.Type.STRING),
             "INTS": cel.Type.List(cel.Type.INT),
         }
-        with held():
+        with HELD:
             _environments[subject] = cel.NewEnv(variables={fact.name: types[fact.type] for fact in _facts_of(subject)})
     return _environments[subject]
 
