@@ -16,6 +16,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.descriptions import CLEAN, STORED
 from tests.paths import ROOT
 
 PACKAGE = ROOT / "msaa_lint"
@@ -40,19 +41,6 @@ NEAREST = frozenset({"difflib"})
 WRITING = frozenset({"json"})
 """Only for the outputs that need it."""
 
-CLEAN = """\
-images:
-  color_ms: {format: R8G8B8A8_UNORM, samples: 4, usage: [COLOR_ATTACHMENT, TRANSIENT_ATTACHMENT], memory: [DEVICE_LOCAL, LAZILY_ALLOCATED]}
-  color: {format: R8G8B8A8_UNORM, samples: 1, usage: [COLOR_ATTACHMENT, SAMPLED], memory: [DEVICE_LOCAL]}
-renderPasses:
-  forward:
-    attachments:
-      color_ms: {image: color_ms, loadOp: CLEAR, storeOp: DONT_CARE, initialLayout: UNDEFINED, finalLayout: COLOR_ATTACHMENT_OPTIMAL}
-      color: {image: color, loadOp: DONT_CARE, storeOp: STORE, initialLayout: UNDEFINED, finalLayout: SHADER_READ_ONLY_OPTIMAL}
-    subpasses:
-      - {colorAttachments: [color_ms], resolveAttachments: [color]}
-"""
-STORED = CLEAN.replace("loadOp: CLEAR, storeOp: DONT_CARE", "loadOp: CLEAR, storeOp: STORE")
 MISSPELT = CLEAN.replace("storeOp: DONT_CARE", "storeOp: DONT_CAER")
 
 

@@ -10,7 +10,7 @@ from msaa_lint.core.finding import Finding
 from msaa_lint.frame.cost.amounts import Amount, Terms
 from msaa_lint.frame.cost.graph import frame_graph
 from msaa_lint.frame.cost.input_cost import CostedFrame, FixStep
-from msaa_lint.frame.cost.model import frame_cost
+from msaa_lint.frame.cost.model import difference, frame_cost
 from msaa_lint.frame.cost.variants import variants
 from msaa_lint.frame.facts.frame import Frame
 
@@ -18,7 +18,7 @@ from .fixes.changes import Change, NoFix, StructuralChange, apply_temporarily, d
 from .fixes.document_fixes import DocumentFixes, documents_by_key
 from .fixes.fixer import FixResult
 from .prices import FINDING_WEIGHT, MAX_COSTED, MAX_REREAD, PriceAllowance
-from .results import DocumentResult, FileResult, finding_kind, unmerged
+from .results import DocumentResult, FileResult, finding_kind, price_order, unmerged
 from .rules.rule_runner import finding_key
 from .savings import Trials
 
@@ -81,7 +81,7 @@ def fix_steps(fixes: DocumentFixes, findings: Sequence[Finding], terms: Terms, a
     size = Frame(document).structures
     steps: list[FixStep] = []
     made: list[Change] = []
-    for finding in sorted(findings, key=_priority)[:MAX_STEPS]:
+    for finding in sorted(findings, key=price_order)[:MAX_STEPS]:
         if not allowance.costed.take(FINDING_WEIGHT + size):
             break
         try:
@@ -90,14 +90,9 @@ def fix_steps(fixes: DocumentFixes, findings: Sequence[Finding], terms: Terms, a
         except NoFix:
             continue
         if total is not None:
-            steps.append(FixStep(finding, Amount(*(after - before for after, before in zip(total, last, strict=True)))))
+            steps.append(FixStep(finding, difference(total, last)))
             made, last = changes, total
     return steps
-
-
-def _priority(finding: Finding) -> tuple[float, float]:
-    price = finding.price
-    return (-price.milliwatts, -price.memory_mib) if price is not None else (0.0, 0.0)
 
 
 def _total(fixes: DocumentFixes, changes: Sequence[Change], terms: Terms, allowance: PriceAllowance) -> Amount | None:

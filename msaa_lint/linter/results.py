@@ -71,3 +71,9 @@ def location_order(finding: Finding) -> tuple[int, int, str, str]:
     """The sort key of the findings of one file: location, then code and message; findings without a location come first."""
     start, end = finding.span if finding.span is not None else (-1, -1)
     return (start, end, finding.code, finding.message)
+
+
+def price_order(finding: Finding) -> tuple[float, float]:
+    """The sort key by price, highest first; a choice costs nothing."""
+    price, fix = finding.price, finding.fix
+    return (-price.milliwatts, -price.memory_mib) if price is not None and not (fix is not None and fix.choice) else (0.0, 0.0)

@@ -12,7 +12,7 @@ from msaa_lint.input.file_types import STDIN
 
 from .engine import rule_infos
 from .input_summary import input_summaries
-from .results import FileResult, can_try_fixes, finding_kind
+from .results import FileResult, can_try_fixes, finding_kind, price_order
 from .run_part import RunPart
 from .settings.settings import Settings
 from .source_programs import ProgramInput
@@ -133,7 +133,7 @@ class _Run:
         findings = [found for found in dict.fromkeys([*of_run, *self.findings]) if self._is_shown(found)]
         findings.sort(key=lambda found: (order.get(found.file, -1), found.file))
         if self.request.by_price:
-            findings.sort(key=_highest_price)
+            findings.sort(key=price_order)
         current = self.workspace.current
         rules = rule_infos(current.engine.registry, current.selection.for_file(os.curdir), self.with_pages)
         result = Result(
@@ -316,9 +316,3 @@ def _sources_shown(result: FileResult) -> dict[str, Source]:
     findings = [*result.findings, *(entry.finding for entry in result.suppressed)]
     names = {file for finding in findings for file in (finding.file, *(label.file for label in finding.labels))}
     return {name: source for name, source in result.sources.items() if name in names}
-
-
-def _highest_price(finding: Finding) -> tuple[float, float]:
-    """The sort key by price, highest first; a choice costs nothing."""
-    price, fix = finding.price, finding.fix
-    return (-price.milliwatts, -price.memory_mib) if price is not None and not (fix is not None and fix.choice) else (0.0, 0.0)

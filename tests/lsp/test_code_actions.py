@@ -8,9 +8,9 @@ import pytest
 from lsprotocol import types
 
 from tests.command import run
+from tests.descriptions import CLEAN, STORED
 from tests.lsp.editor import Editor
 from tests.lsp.test_diagnostics import play
-from tests.lsp.texts import CLEAN, STORED
 
 EVERYWHERE = types.Range(types.Position(0, 0), types.Position(100, 0))
 

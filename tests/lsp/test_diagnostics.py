@@ -11,8 +11,9 @@ import pytest
 from lsprotocol import types
 
 from tests.command import run
+from tests.descriptions import CLEAN, STORED
 from tests.lsp.editor import Editor, editor
-from tests.lsp.texts import CLEAN, CODES, STORED
+from tests.lsp.texts import CODES
 
 Scenario = Callable[[Editor], Awaitable[None]]
 

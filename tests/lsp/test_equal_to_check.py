@@ -13,8 +13,8 @@ from hypothesis import strategies as st
 from lsprotocol import types
 
 from tests.command import run
+from tests.descriptions import CLEAN, STORED
 from tests.lsp.editor import Editor, editor
-from tests.lsp.texts import CLEAN, STORED
 
 SEVERITIES = {
     types.DiagnosticSeverity.Error: "error",

@@ -11,7 +11,8 @@ from pathlib import Path
 import pytest
 
 from tests.command import environment_of, run
-from tests.lsp.texts import CODES, STORED
+from tests.descriptions import STORED
+from tests.lsp.texts import CODES
 
 SESSION = Path(__file__).with_name("session.lua")
 

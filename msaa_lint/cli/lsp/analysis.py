@@ -10,10 +10,8 @@ from functools import cached_property
 from lsprotocol import types
 
 from msaa_lint.core.finding import Finding, Suppressed, Undecided
-from msaa_lint.core.text.node import Parsed
 from msaa_lint.core.text.source import Source
 from msaa_lint.core.text.span import Edit, Span
-from msaa_lint.core.text.tree import parse
 from msaa_lint.linter.results import FileResult
 from msaa_lint.linter.rules.registry import Registry
 from msaa_lint.linter.workspace import InputFile, ResolvedSettings
@@ -73,11 +71,6 @@ class Analysis:
         return View(
             self.source.text, self.kind.value, self.result, self.registry, self.findings, resolved.limits, resolved.settings.docs_url or ""
         )
-
-    @cached_property
-    def parsed(self) -> Parsed:
-        """The trees of a description, also of one with errors."""
-        return parse(self.source, self.resolved.limits)
 
     @cached_property
     def positions(self) -> Positions:

@@ -26,7 +26,7 @@ def input_total(costs: Sequence[FrameCost]) -> InputTotal:
     Its frames are separate, and their costs add up, unless they state their `share`: then they are the kinds of frame of one program, whose
     images are the same if their names are. The traffic of such a kind is already weighted by its share.
     """
-    total = _sum(cost.total for cost in costs)
+    total = added(cost.total for cost in costs)
     memory = total.memory_mib
     shared: dict[str, float] = {}
     for cost in costs:
@@ -38,7 +38,8 @@ def input_total(costs: Sequence[FrameCost]) -> InputTotal:
     return InputTotal(total._replace(memory_mib=memory + sum(shared.values())), any(cost.unknown for cost in costs))
 
 
-def _sum(amounts: Iterable[Amount]) -> Amount:
+def added(amounts: Iterable[Amount]) -> Amount:
+    """The sum of amounts."""
     return Amount(*(sum(column) for column in zip(Amount(0.0, 0.0, 0.0, 0.0), *amounts, strict=True)))
 
 
@@ -88,7 +89,7 @@ def inputs_total(frames: Sequence[CostedFrame]) -> Amount:
     files: dict[str, list[FrameCost]] = {}
     for frame in frames:
         files.setdefault(frame.file, []).append(frame.cost)
-    return _sum(input_total(costs).amount for costs in files.values())
+    return added(input_total(costs).amount for costs in files.values())
 
 
 class CostComparison(NamedTuple):

@@ -17,24 +17,13 @@ from msaa_lint.cli.arguments import parse
 from msaa_lint.cli.common import UsageError
 from msaa_lint.cli.options import COMMANDS
 from msaa_lint.core.extras import needs_extra
+from tests.descriptions import CLEAN
 from tests.paths import ROOT
 
 SCHEMA = json.loads((ROOT / "msaa_lint" / "cli" / "report" / "confirm_v1.schema.json").read_text())
 COMMAND = (sys.executable, "-m", "msaa_lint", "confirm", "--isolated")
 
-GOOD = """\
-frame: {width: 64, height: 64, fps: 60}
-images:
-  color_ms: {format: R8G8B8A8_UNORM, samples: 4, usage: [COLOR_ATTACHMENT, TRANSIENT_ATTACHMENT], memory: [DEVICE_LOCAL, LAZILY_ALLOCATED]}
-  color: {format: R8G8B8A8_UNORM, samples: 1, usage: [COLOR_ATTACHMENT, SAMPLED], memory: [DEVICE_LOCAL]}
-renderPasses:
-  forward:
-    attachments:
-      color_ms: {image: color_ms, loadOp: CLEAR, storeOp: DONT_CARE, initialLayout: UNDEFINED, finalLayout: COLOR_ATTACHMENT_OPTIMAL}
-      color: {image: color, loadOp: DONT_CARE, storeOp: STORE, initialLayout: UNDEFINED, finalLayout: SHADER_READ_ONLY_OPTIMAL}
-    subpasses:
-      - {colorAttachments: [color_ms], resolveAttachments: [color]}
-"""
+GOOD = "frame: {width: 64, height: 64, fps: 60}\n" + CLEAN
 
 
 def run(folder: Path, *arguments: str, text: str | None = None, **environment: str) -> subprocess.CompletedProcess[str]:

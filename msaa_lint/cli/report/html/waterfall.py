@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from typing import NamedTuple
 
 from msaa_lint.core.finding import Finding
 from msaa_lint.frame.cost.amounts import Amount
 from msaa_lint.frame.cost.compare import NOTHING, SAME, Comparison
-from msaa_lint.frame.cost.input_cost import CostedFrame, FixStep
+from msaa_lint.frame.cost.input_cost import CostedFrame, FixStep, added
+from msaa_lint.frame.cost.model import difference
 from msaa_lint.frame.cost.variants import NONE
 
 from ..cost_rows import figure
@@ -78,12 +79,12 @@ def of_comparison(comparison: Comparison) -> list[Bar]:
 def _fix_steps(fixes: Sequence[FixStep], written: Amount, fixed: Amount) -> list[Step]:
     """The fixes that change the cost; and what the others change, or all of them only together."""
     steps = [Step(fix.finding.rule, fix.finding.subject, fix.change, fix.finding) for fix in fixes if any(fix.change)]
-    return [*steps, *_rest("other fixes", "and what fixes change only together", steps, _minus(fixed, written))]
+    return [*steps, *_rest("other fixes", "and what fixes change only together", steps, difference(fixed, written))]
 
 
-def _rest(name: str, detail: str, steps: Sequence[Step], difference: Amount) -> list[Step]:
-    """What the steps leave of a difference; nothing if they add up."""
-    rest = _minus(difference, _sum(step.change for step in steps))
+def _rest(name: str, detail: str, steps: Sequence[Step], whole: Amount) -> list[Step]:
+    """What the steps leave of the whole change; nothing if they add up."""
+    rest = difference(whole, added(step.change for step in steps))
     return [Step(name, detail, rest)] if any(abs(value) >= _EXACT for value in rest) else []
 
 
@@ -93,7 +94,7 @@ def _largest(steps: Sequence[Step]) -> list[Step]:
     if len(ordered) <= MAX_STEPS:
         return ordered
     others = ordered[MAX_STEPS - 1 :]
-    return [*ordered[: MAX_STEPS - 1], Step(plural(len(others), "smaller change"), "", _sum(step.change for step in others))]
+    return [*ordered[: MAX_STEPS - 1], Step(plural(len(others), "smaller change"), "", added(step.change for step in others))]
 
 
 def _bars(steps: Sequence[Step], first: Amount, name: tuple[str, str], totals: Sequence[tuple[str, str, Amount]]) -> list[Bar]:
@@ -117,11 +118,3 @@ def _bars(steps: Sequence[Step], first: Amount, name: tuple[str, str], totals: S
         kind = "single" if title == "with 1x" else "total"
         rows.append(bar(title, detail, kind, 0.0, amount.traffic_mb_per_s, amount))
     return rows
-
-
-def _minus(one: Amount, other: Amount) -> Amount:
-    return Amount(*(a - b for a, b in zip(one, other, strict=True)))
-
-
-def _sum(amounts: Iterable[Amount]) -> Amount:
-    return Amount(*(sum(column) for column in zip(NOTHING, *amounts, strict=True)))
