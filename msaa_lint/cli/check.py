@@ -41,7 +41,7 @@ EXAMPLE = "sarif=findings.sarif"
 STDERR = "<standard error>"
 """The `path` of a target that is the standard error stream."""
 
-_ROOTS = {"github": "GITHUB_WORKSPACE", "sarif": "GITHUB_WORKSPACE", "gitlab": "CI_PROJECT_DIR"}
+_ROOTS = {"github": "GITHUB_WORKSPACE", "sarif": "GITHUB_WORKSPACE", "gitlab": "CI_PROJECT_DIR", "azure": "BUILD_SOURCESDIRECTORY"}
 """The environment variables that hold the folder which an output's paths are relative to."""
 
 SUMMARIZED_KEYS = 1000

@@ -48,6 +48,7 @@ _OWN_JSON = (
     (re.compile(rb'"schema"\s*:\s*"msaa-lint/study-record-v'), "a study record of msaa-lint"),
     (re.compile(rb'"schema"\s*:\s*"msaa-lint/'), "msaa-lint's own JSON output"),
     (re.compile(rb'"driver"\s*:\s*\{\s*"name"\s*:\s*"msaa-lint"'), "msaa-lint's own SARIF output"),
+    (re.compile(rb'\A\{\s*"source"\s*:\s*\{\s*"name"\s*:\s*"msaa-lint"'), "msaa-lint's own reviewdog output"),
     (re.compile(rb'"\$id"\s*:\s*"urn:msaa-lint:'), "a JSON Schema of msaa-lint"),
     (re.compile(rb'\A\[\s*\{(?=[^{}]*"check_name")(?=[^{}]*"fingerprint")'), "a GitLab code quality report"),
 )

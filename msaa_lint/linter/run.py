@@ -32,13 +32,15 @@ Results = Callable[[InputFile, FileResult], None]
 Progress = Callable[[int, int, str], None]
 """Called before each input with the number of inputs done, the number of all inputs, and the input's path."""
 
-PRICED_FORMATS = frozenset({"full", "json", "sarif", "github", "gitlab", "junit", "markdown", "statistics", "html"})
+_UNSUMMARIZED_FORMATS = frozenset({"gitlab", "azure", "teamcity", "rdjson", "junit"})
+
+PRICED_FORMATS = _UNSUMMARIZED_FORMATS | {"full", "json", "sarif", "github", "markdown", "statistics", "html"}
 """The outputs that show prices; for the others prices are not computed."""
 
 RULE_PAGE_FORMATS = frozenset({"sarif", "html"})
 """The outputs that contain the pages of rules."""
 
-SUMMARIZED_FORMATS = PRICED_FORMATS - {"gitlab", "junit"} | {"concise"}
+SUMMARIZED_FORMATS = PRICED_FORMATS - _UNSUMMARIZED_FORMATS | {"concise"}
 """The outputs that say what fixes save; for the others fixes are not tried."""
 
 

@@ -72,7 +72,11 @@ WRONG = [
     ("check a --max-depth 0", "`--max-depth` must be an integer from 1 to 99999999999, found `0`"),
     ("check a -q -v", "`--quiet` and `--verbose` contradict each other: write one of them"),
     ("check a --output sraif", "unknown output format `sraif`: did you mean `sarif`?"),
-    ("check a --output=", "unknown output format ``: expected one of full, concise, json, sarif, github, gitlab, junit, markdown, html"),
+    (
+        "check a --output=",
+        "unknown output format ``: expected one of full, concise, json, sarif, github, gitlab, azure, teamcity, rdjson, junit, "
+        "markdown, html",
+    ),
     ("check a --\x1b[31m\u202e", "unknown option `--\\x1b[31m\\u202e` of `check`: see `msaa-lint check --help`"),
     ("check a --fail-on \udcff", "unknown value `\\udcff` of `--fail-on`: expected one of note, warning, error"),
     (

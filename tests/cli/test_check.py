@@ -78,7 +78,7 @@ def test_standard_input(folder: Path) -> None:
     assert done.stdout.splitlines()[0].startswith(f"pass.yaml:8:56: error[{RULE}] ")
 
 
-@pytest.mark.parametrize("format", ["json", "sarif", "gitlab"])
+@pytest.mark.parametrize("format", ["json", "sarif", "gitlab", "rdjson"])
 @pytest.mark.parametrize("broken", [False, True])
 def test_machine_formats_are_whole_and_alone(folder: Path, format: str, broken: bool) -> None:
     if broken:

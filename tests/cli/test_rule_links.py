@@ -87,9 +87,13 @@ def test_annotations_and_comments_have_it(folder: Path) -> None:
     issues = {issue["check_name"]: issue for issue in json.loads(printed(folder, "gitlab"))}
     assert issues[RULE]["content"] == {"body": f"[{RULE}]({ADDRESS})"}
     assert "content" not in issues["four-samples"]
+    codes = {each["code"]["value"]: each["code"] for each in json.loads(printed(folder, "rdjson"))["diagnostics"]}
+    assert codes[RULE]["url"] == ADDRESS and "url" not in codes["four-samples"]
+    assert f"%0Adocs: {ADDRESS}" in printed(folder, "azure")
+    assert f"|ndocs: {ADDRESS}" in printed(folder, "teamcity")
 
 
-@pytest.mark.parametrize("format", ["json", "sarif", "github", "gitlab", "markdown", "full"])
+@pytest.mark.parametrize("format", ["json", "sarif", "github", "gitlab", "azure", "teamcity", "rdjson", "markdown", "full"])
 def test_without_an_address_nothing_is_linked(folder: Path, format: str) -> None:
     configure(folder, "")
     assert "/rules/" not in printed(folder, format)

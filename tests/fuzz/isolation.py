@@ -128,7 +128,7 @@ def _unreadable(outcome: Outcome, arguments: Sequence[str]) -> str:
     format = arguments[arguments.index("--output") + 1] if "--output" in arguments else ""
     try:
         outcome.out.encode()
-        if format in ("json", "sarif", "gitlab") and (outcome.out or outcome.code != 2):
+        if format in ("json", "sarif", "gitlab", "rdjson") and (outcome.out or outcome.code != 2):
             json.loads(outcome.out, parse_constant=_not_json)
         elif format == "junit" and outcome.out:
             xml.etree.ElementTree.parse(io.BytesIO(outcome.out.encode()))

@@ -14,9 +14,8 @@ from .corpus import FRAME, STUDIED, STUDY, files, pages, samples
 MAX_SEED = 120_000
 """Larger files are cut at a line: most of what a long file has is in its first part, too."""
 
-CHECKS = tuple(
-    ("check", "--output", form) for form in ("json", "json", "sarif", "full", "concise", "gitlab", "junit", "github", "markdown")
-)
+_OUTPUTS = ("json", "json", "sarif", "full", "concise", "gitlab", "junit", "github", "markdown", "azure", "teamcity", "rdjson")
+CHECKS = tuple(("check", "--output", form) for form in _OUTPUTS)
 READS = (
     *CHECKS,
     ("check", "--diff"),

@@ -172,7 +172,7 @@ def test_a_folder_counts_what_is_nearly_an_input_in_one_line(tmp_path: Path) -> 
 def written(tmp_path: Path) -> Path:
     """A folder with a frame and whatever msaa-lint writes about it, all under names of inputs."""
     (tmp_path / "frame.msaa.yaml").write_text(FRAME)
-    for number, output in enumerate(("json", "sarif", "gitlab", "junit", "markdown")):
+    for number, output in enumerate(("json", "sarif", "gitlab", "junit", "markdown", "rdjson")):
         run(tmp_path, "check", "frame.msaa.yaml", "--isolated", "--output", f"{output}=check{number}.msaa.json")
     run(tmp_path, "cost", "frame.msaa.yaml", "--size", "64x64", "--isolated", "--output", "json=cost.msaa.json")
     run(tmp_path, "baseline", "frame.msaa.yaml", "--isolated", "--file", "baseline.msaa.json")
@@ -204,6 +204,7 @@ def test_a_named_output_of_msaa_lint_is_refused_in_one_line(written: Path) -> No
         "check2.msaa.json": "a GitLab code quality report",
         "check3.msaa.json": "msaa-lint's own JUnit output",
         "check4.msaa.json": "msaa-lint's own Markdown output",
+        "check5.msaa.json": "msaa-lint's own reviewdog output",
         "cost-v1.msaa.json": "a JSON Schema of msaa-lint",
         "cost.msaa.json": "msaa-lint's own JSON output",
         "description.msaa.json": "a JSON Schema of msaa-lint",

@@ -24,12 +24,12 @@ from tests.command import environment_of, run
 from tests.doc_blocks import PAGES, Block, blocks
 from tests.paths import ROOT
 
-LANGUAGES = {"sh", "console", "python", "yaml", "toml", "json", "cpp", "markdown", "text", "inline", "lua", "elisp"}
+LANGUAGES = {"sh", "console", "python", "yaml", "toml", "json", "cpp", "markdown", "text", "inline", "lua", "elisp", "groovy"}
 
 NOT_RUN = {
     "README.md": {"installs packages; tests/integration/test_release.py runs it"},
     "CONTRIBUTING.md": {"installs packages; tests/integration/test_release.py runs it", "publishes"},
-    "docs/ci.md": {"URL stands for a repository; tests/integration/test_release.py runs it"},
+    "docs/ci.md": {"URL stands for a repository; tests/integration/test_release.py runs it", "needs reviewdog and a token"},
     "docs/confirm.md": {"needs root", "needs a GPU"},
     "docs/devices.md": {"needs reports and a phone"},
     "docs/editors.md": {"installs packages from npm; tests/integration/test_vscode.py builds the extension"},

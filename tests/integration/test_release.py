@@ -73,8 +73,8 @@ def test_the_steps_of_a_release(clone: Path) -> None:
 
 
 def test_the_snippets_for_ci(clone: Path, tmp_path: Path) -> None:
-    """In a project with a copy of the clone, as docs/ci.md says: GitLab's script and the pre-commit hooks."""
-    named = {block.file_name or block.language: block.text for block in blocks("docs/ci.md")}
+    """In a project with a copy of the clone, as docs/ci.md says: the scripts of GitLab and Azure Pipelines, and the pre-commit hooks."""
+    named = {block.file_name or block.language: block.text for block in reversed(list(blocks("docs/ci.md")))}
     project = tmp_path / "project"
     project.mkdir()
     execute(project, "git init --quiet --initial-branch main && git commit --quiet --allow-empty --message Start")
@@ -88,6 +88,13 @@ def test_the_snippets_for_ci(clone: Path, tmp_path: Path) -> None:
     done = execute(project, f". ../venv/bin/activate && {check}")
     assert done.returncode == 1, done.stderr
     assert len(json.loads((project / "gl-code-quality-report.json").read_text(encoding="utf-8"))) == 2
+
+    install_again, check = yaml.safe_load(named["azure-pipelines.yml"])["steps"][0]["script"].splitlines()
+    assert install_again == install
+    done = execute(project, f". ../venv/bin/activate && export BUILD_SOURCESDIRECTORY=$PWD && {check}")
+    issues = [line for line in done.stdout.splitlines() if line.startswith("##vso[task.logissue type=")]
+    assert done.returncode == 1 and len(issues) == 2, done.stderr
+    assert all(";sourcepath=renderer/descriptions/" in line for line in issues)
 
     head = execute(clone, "git rev-parse HEAD").stdout.strip()
     hooks = named[".pre-commit-config.yaml"].replace("file:///path/to/msaa-lint", clone.as_uri()).replace("COMMIT", head)

@@ -43,7 +43,7 @@ def failing_on(name: str) -> Any:
     return mock.patch.object(Engine, "lint", failing)
 
 
-@pytest.mark.parametrize("format", ["json", "sarif", "gitlab"])
+@pytest.mark.parametrize("format", ["json", "sarif", "gitlab", "rdjson"])
 def test_the_other_inputs_are_linted_and_machine_formats_are_whole(folder: Path, format: str) -> None:
     with failing_on("b.msaa.yaml"):
         done = run(folder, "check", "--isolated", "--output", format, ".")
@@ -101,13 +101,13 @@ def fail(*_: object, **__: object) -> Any:
     raise RecursionError("maximum recursion depth exceeded")
 
 
-@pytest.mark.parametrize("format", ["json", "sarif", "gitlab", "junit"])
+@pytest.mark.parametrize("format", ["json", "sarif", "gitlab", "rdjson", "junit", "azure", "teamcity"])
 def test_a_run_that_fails_is_its_only_finding(folder: Path, format: str) -> None:
     """A program that reads the output finds a whole document."""
     with mock.patch("msaa_lint.linter.run.Workspace", fail):
         done = run(folder, "check", "--isolated", "--output", format, ".")
     assert done.returncode == 2 and "internal error: RecursionError" in done.stdout
-    if format != "junit":
+    if format in ("json", "sarif", "gitlab", "rdjson"):
         json.loads(done.stdout)
 
 

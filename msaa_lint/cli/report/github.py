@@ -4,17 +4,16 @@ from __future__ import annotations
 
 import os
 
-from msaa_lint.core.diagnostics import diagnostic
-from msaa_lint.core.finding import Finding, InputSummary, Result, rank
+from msaa_lint.core.finding import Finding, Result
 from msaa_lint.core.text.source import Source
-from msaa_lint.linter.rules.reference_links import rule_address
 
 from . import Options, Write
+from .annotations import annotation_lines, by_importance, unread_notes
 from .escape import display, escape
 from .markdown import escape_markdown, table
 from .paths import relative
 from .place import place
-from .summary import is_choice, plural, price_text, summary, usable_price
+from .summary import plural, summary
 
 MAX_ANNOTATIONS = 10
 """Annotations of one level that GitHub keeps for a step; it silently drops the rest."""
@@ -32,14 +31,14 @@ def render(result: Result, out: Write, options: Options) -> None:
     if any(severities.count(severity) > MAX_ANNOTATIONS for severity in room):
         room["note"] -= 1  # for the last one, which counts the others
     left_out = 0
-    for finding in sorted(result.findings, key=_importance, reverse=True):
+    for finding in by_importance(result.findings):
         if room[finding.severity] > 0:
             room[finding.severity] -= 1
             out(_command(finding, result, options) + "\n")
         else:
             left_out += 1
-    for entry in [each for each in result.inputs if each.unread is not None][: max(room["note"] - bool(left_out), 0)]:
-        out(_unread(entry, result, options) + "\n")
+    for finding in unread_notes(result)[: max(room["note"] - bool(left_out), 0)]:
+        out(_command(finding, result, options) + "\n")
     path = os.environ.get("GITHUB_STEP_SUMMARY", "") if options.step_summary is None else options.step_summary
     problem = _append(path, result, options) if path else ""
     if left_out:
@@ -47,12 +46,6 @@ def render(result: Result, out: Write, options: Options) -> None:
         out(f"::notice title=msaa-lint::{plural(left_out, 'more finding')}, {where}\n")
     if problem:
         out(f"::warning title=msaa-lint::{_data('cannot write the summary of this step: ' + display(problem))}\n")
-
-
-def _importance(finding: Finding) -> tuple[int, bool, float, float]:
-    """By severity, then inputs that cannot be used, then power and memory."""
-    price = usable_price(finding)
-    return (rank(finding.severity), finding.fatal, *((price.milliwatts, price.memory_mib) if price else (0.0, 0.0)))
 
 
 def _command(finding: Finding, result: Result, options: Options) -> str:
@@ -64,22 +57,8 @@ def _command(finding: Finding, result: Result, options: Options) -> str:
     elif finding.span is not None and source is not None:
         properties |= _region(source, finding.span.start, finding.span.end)
     properties["title"] = f"{display(finding.rule)} ({display(finding.code)})"
-    remedy = finding.help or (finding.fix.title if finding.fix else "")
-    remarks = (
-        ("price" if is_choice(finding) else "cost", price_text(finding)),
-        ("help", display(remedy)),
-        ("docs", rule_address(options.docs_url, finding.code, finding.rule)),
-    )
-    lines = [display(finding.message), *(f"{word}: {text}" for word, text in remarks if text)]
     joined = ",".join(f"{name}={_property(str(value))}" for name, value in properties.items())
-    return f"::{_LEVEL[finding.severity]} {joined}::{_data(chr(10).join(lines))}"
-
-
-def _unread(entry: InputSummary, result: Result, options: Options) -> str:
-    """The command for an input that shows no pass to check."""
-    assert entry.unread is not None
-    finding = diagnostic("MSAA931", entry.unread.message, entry.file, entry.unread.span)
-    return _command(finding._replace(severity="note"), result, options)
+    return f"::{_LEVEL[finding.severity]} {joined}::{_data(chr(10).join(annotation_lines(finding, options)))}"
 
 
 def _region(source: Source, start: int, end: int) -> dict[str, str | int]:

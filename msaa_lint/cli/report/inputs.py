@@ -105,10 +105,15 @@ def _capture_line(summary: InputSummary, options: Options) -> str:
     return ": ".join(filter(None, (display_path(summary.file, options.root), display(origin), ", ".join(parts))))
 
 
-def unread(result: Result, options: Options) -> list[str]:
-    """A line for each input that creates something multisampled of which no pass was checked, unless a finding says so."""
+def unread_inputs(result: Result) -> list[InputSummary]:
+    """The inputs that create something multisampled of which no pass was checked, unless a finding says so."""
     reported = {finding.file for finding in result.findings if finding.code == "MSAA931"}
-    inputs = [each for each in result.inputs if each.unread is not None and each.file not in reported]
+    return [each for each in result.inputs if each.unread is not None and each.file not in reported]
+
+
+def unread(result: Result, options: Options) -> list[str]:
+    """A line for each of `unread_inputs`, as far as there is room."""
+    inputs = unread_inputs(result)
     lines = [unread_line(each, result, options) for each in inputs[: options.max_unread]]
     if len(inputs) > len(lines):
         lines.append(f"{plural(len(inputs) - len(lines), 'more file')} not checked")

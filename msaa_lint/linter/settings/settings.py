@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 COMMAND_LINE = "<command line>"
 
-OUTPUT_FORMATS = ("full", "concise", "json", "sarif", "github", "gitlab", "junit", "markdown", "html")
+OUTPUT_FORMATS = ("full", "concise", "json", "sarif", "github", "gitlab", "azure", "teamcity", "rdjson", "junit", "markdown", "html")
 """The values of `output` and `--output`."""
 
 

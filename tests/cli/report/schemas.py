@@ -32,6 +32,47 @@ def sarif_validator() -> jsonschema.Draft4Validator | None:
     return jsonschema.Draft4Validator(schema)
 
 
+_POSITION = {"type": "object", "properties": {"line": {"type": "integer", "minimum": 1}, "column": {"type": "integer", "minimum": 1}}}
+_RANGE = {"type": "object", "properties": {"start": _POSITION, "end": _POSITION}, "required": ["start"]}
+_RDJSON = {
+    "type": "object",
+    "properties": {
+        "source": {"type": "object", "properties": {"name": {"type": "string"}, "url": {"type": "string"}}},
+        "diagnostics": {
+            "type": "array",
+            "items": {
+                "type": "object",
+                "properties": {
+                    "message": {"type": "string"},
+                    "location": {"type": "object", "properties": {"path": {"type": "string"}, "range": _RANGE}, "required": ["path"]},
+                    "severity": {"enum": ["ERROR", "WARNING", "INFO"]},
+                    "code": {"type": "object", "properties": {"value": {"type": "string"}, "url": {"type": "string"}}},
+                    "suggestions": {
+                        "type": "array",
+                        "items": {
+                            "type": "object",
+                            "properties": {"range": _RANGE, "text": {"type": "string"}},
+                            "required": ["range", "text"],
+                        },
+                    },
+                },
+                "required": ["message", "location"],
+                "additionalProperties": False,
+            },
+        },
+    },
+    "required": ["diagnostics"],
+    "additionalProperties": False,
+}
+
+
+@functools.cache
+def rdjson_validator() -> jsonschema.Draft202012Validator:
+    """What reviewdog's schema of a DiagnosticResult says of the keys that we write, and what its text requires; no other keys, since
+    reviewdog ignores unknown ones."""
+    return jsonschema.Draft202012Validator(_RDJSON)
+
+
 def check_sarif(log: dict[str, Any]) -> None:
     """The official schema where it is at hand, and what GitHub asks beyond it."""
     validator = sarif_validator()

@@ -25,7 +25,7 @@ def test_worst_first_and_one_command_each() -> None:
     )
 
 
-@pytest.mark.parametrize("name", ["github", "gitlab", "junit"])
+@pytest.mark.parametrize("name", ["github", "gitlab", "azure", "teamcity", "rdjson", "junit"])
 def test_check_prints_the_price_of_a_finding(name: str, tmp_path: Path) -> None:
     example = str(ROOT / "examples" / "khronos-msaa" / "color-separate.msaa.yaml")
     done = run(tmp_path, "check", "--output", name, example, GITHUB_STEP_SUMMARY=str(tmp_path / "summary.md"))

@@ -19,12 +19,14 @@ def check(name: str, text: str) -> None:
     assert text == path.read_bytes().decode()
 
 
+SUFFIXES = {"json": "json", "sarif": "sarif", "gitlab": "json", "rdjson": "json", "junit": "xml", "markdown": "md", "html": "html"}
+
+
 @pytest.mark.parametrize("name", OUTPUT_FORMATS)
 def test_format(name: str) -> None:
-    suffix = {"json": "json", "sarif": "sarif", "gitlab": "json", "junit": "xml", "markdown": "md", "html": "html"}.get(name, "txt")
     text = printed(name, frame())
     # The style and the script of a page are files of the package.
-    check(f"{name}.{suffix}", text[text.index("<main") : text.index("</main>")] if name == "html" else text)
+    check(f"{name}.{SUFFIXES.get(name, 'txt')}", text[text.index("<main") : text.index("</main>")] if name == "html" else text)
 
 
 def test_full_in_color_with_all_options() -> None:

@@ -16,10 +16,11 @@ from msaa_lint.core.text.span import Label, Span
 from msaa_lint.linter.settings.settings import OUTPUT_FORMATS
 from tests.cli.report.hostile import TOKENS, results
 from tests.cli.report.sample import finding, printed, result
-from tests.cli.report.schemas import check_sarif, json_validator
+from tests.cli.report.schemas import check_sarif, json_validator, rdjson_validator
 from tests.strength import examples
 
-TEXT_FORMATS = ("full", "concise", "github", "junit", "markdown")
+TEXT_FORMATS = ("full", "concise", "github", "azure", "teamcity", "junit", "markdown")
+COMMANDS = {"azure": r"##vso\[task\.logissue ", "teamcity": r"##teamcity\[inspection(Type)? "}
 EVERYTHING = {"show_suppressed": True, "statistics": True, "edition": "2026.1", "explain_undecided": True}
 
 
@@ -30,7 +31,7 @@ def test_text_outputs_are_harmless(run: Result, width: int) -> None:
     for name, text in outputs.items():
         for line in text.split("\n"):
             assert line.isprintable(), line
-            assert not re.search(r"##\w*\[", line)
+            assert not re.search(r"##\w*\[", re.sub(f"\\A{COMMANDS[name]}", "", line) if name in COMMANDS else line)
             assert name == "github" or not line.lstrip().startswith("::"), line
     for name in ("full", "concise"):
         colored = printed(name, run, color=True, width=width, **EVERYTHING)
@@ -72,7 +73,7 @@ def junit_is_xml_with_a_case_for_each_finding(text: str, run: Result) -> None:
 @examples(0.6, suppress_health_check=[HealthCheck.too_slow])
 @given(results())
 def test_machine_outputs_parse(run: Result) -> None:
-    outputs = {name: printed(name, run, **EVERYTHING) for name in ("json", "sarif", "gitlab")}
+    outputs = {name: printed(name, run, **EVERYTHING) for name in ("json", "sarif", "gitlab", "rdjson")}
     for text in outputs.values():
         assert re.fullmatch(r"[\n -~]*", text) and not re.search(r"##\w*\[", text)
     data = json.loads(outputs["json"])
@@ -81,6 +82,9 @@ def test_machine_outputs_parse(run: Result) -> None:
     sarif = json.loads(outputs["sarif"])
     check_sarif(sarif)
     assert len(sarif["runs"][0]["results"]) == len(run.findings) + len(run.suppressed)
+    diagnostics = json.loads(outputs["rdjson"])
+    rdjson_validator().validate(diagnostics)
+    assert len(diagnostics["diagnostics"]) >= len(run.findings)
     issues = json.loads(outputs["gitlab"])
     assert len({issue["fingerprint"] for issue in issues}) == len(run.findings)
 

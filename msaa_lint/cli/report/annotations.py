@@ -1,0 +1,41 @@
+"""What annotations of lines say, in the log of a CI system or in a review: the findings to show, and the text of each."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from msaa_lint.core.diagnostics import diagnostic
+from msaa_lint.core.finding import Finding, Result, rank
+from msaa_lint.linter.rules.reference_links import rule_address
+
+from . import Options
+from .escape import display
+from .inputs import unread_inputs
+from .summary import is_choice, price_text, usable_price
+
+
+def by_importance(findings: Iterable[Finding]) -> list[Finding]:
+    """The most important first: by severity, then inputs that cannot be used, then power and memory."""
+    return sorted(findings, key=_importance, reverse=True)
+
+
+def _importance(finding: Finding) -> tuple[int, bool, float, float]:
+    price = usable_price(finding)
+    return (rank(finding.severity), finding.fatal, *((price.milliwatts, price.memory_mib) if price else (0.0, 0.0)))
+
+
+def unread_notes(result: Result) -> list[Finding]:
+    """A note for each input that shows no pass to check."""
+    pairs = [(each.file, each.unread) for each in unread_inputs(result)]
+    return [diagnostic("MSAA931", unread.message, file, unread.span)._replace(severity="note") for file, unread in pairs if unread]
+
+
+def annotation_lines(finding: Finding, options: Options) -> list[str]:
+    """The message, and as far as there are any the price, what to do, and the address of the rule's page."""
+    remedy = finding.help or (finding.fix.title if finding.fix else "")
+    remarks = (
+        ("price" if is_choice(finding) else "cost", price_text(finding)),
+        ("help", display(remedy)),
+        ("docs", rule_address(options.docs_url, finding.code, finding.rule)),
+    )
+    return [display(finding.message), *(f"{word}: {text}" for word, text in remarks if text)]
