@@ -32,7 +32,7 @@ DEBOUNCE = 300
 STEP = 50
 """Milliseconds without a change after which those so far are acted on."""
 
-POLL = 200
+POLL = 100
 """Milliseconds after which waiting for changes returns without any. The first wait only starts watching."""
 
 _CLEAR = "\x1b[2J\x1b[3J\x1b[H"
@@ -60,21 +60,28 @@ def watch(arguments: Arguments, request: Request, check: Callable[[Arguments], i
         watched = Watched(request)
         # Watching starts before the check, so that no change is missed, and again after each change: a file that an editor replaces is a
         # new one.
-        changes = changes_in(
-            *watched.existing(),
-            watch_filter=None,
-            debounce=DEBOUNCE,
-            step=STEP,
-            rust_timeout=POLL,
-            yield_on_timeout=True,
-            ignore_permission_denied=True,
-        )
+        watches = [
+            changes_in(
+                *paths,
+                watch_filter=None,
+                debounce=DEBOUNCE,
+                step=STEP,
+                rust_timeout=POLL,
+                yield_on_timeout=True,
+                ignore_permission_denied=True,
+                recursive=is_recursive,
+            )
+            for paths, is_recursive in ((watched.folders(), True), (watched.files(), False))
+            if paths
+        ]
         with _watch_errors():
-            next(changes)
+            for changes in watches:
+                next(changes)
         _show(arguments, check)
         with _watch_errors():
-            next(each for each in changes if any(watched.concerns(path) for _, path in each))
-        changes.close()
+            next(each for both in zip(*watches, strict=True) for each in both if any(watched.concerns(path) for _, path in each))
+        for changes in watches:
+            changes.close()
 
 
 def _refuse_options(arguments: Arguments) -> None:
@@ -125,20 +132,27 @@ class Watched:
         for path in [os.curdir, *request.paths]:
             loaded = self._configurations.load(path)
             settings = override(loaded.settings, **request.overrides)
-            named = [*loaded.sources, *settings.rules, settings.baseline, _report(settings.profile)]
+            configurations = self._configurations.candidates(path)
+            named = [*loaded.sources, *configurations, *settings.rules, settings.baseline, _report(settings.profile)]
             for each in map(os.path.realpath, filter(None, named)):
                 if os.path.isdir(each):
                     self._folders.append(each)
                 else:
                     self._files.add(each)
 
-    def existing(self) -> Iterator[str]:
-        """What to watch: folders with all that is in them, files, and the folder of a file that does not exist yet."""
-        for path in dict.fromkeys([*self._folders, *sorted(self._files)]):
+    def folders(self) -> list[str]:
+        """The folders to watch with all that is in them."""
+        return list(dict.fromkeys(self._folders))
+
+    def files(self) -> list[str]:
+        """The files to watch, and the folders of those that do not exist yet, without the folders in them."""
+        found = {}
+        for path in sorted(self._files):
             there = path if os.path.exists(path) else os.path.dirname(path)
             if not os.path.exists(there):
                 raise UsageError(f"cannot watch {path}: its folder does not exist")
-            yield there
+            found[there] = None
+        return list(found)
 
     def concerns(self, path: str) -> bool:
         """Whether a changed file may change the result."""

@@ -23,7 +23,7 @@ from .rules.rule_runner import finding_key
 from .savings import Trials
 
 MAX_STEPS = 25
-"""Fixes of a frame that have a step of their own."""
+"""Steps of a waterfall with a row of their own; the others share one."""
 
 
 def costed_frames(

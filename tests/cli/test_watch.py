@@ -129,6 +129,20 @@ def test_configuration_and_rule_pages_outside_the_inputs(frame: Path) -> None:
         assert "unknown value `never`" in process.screen()
 
 
+def test_a_configuration_that_appears_beside_a_named_file_or_above_it(frame: Path) -> None:
+    root = frame.parent.parent
+    (root / ".git").mkdir()
+    with watching(root.parent, str(frame)) as process:
+        assert RULE in process.screen()
+        beside = frame.parent / "msaa-lint.toml"
+        beside.write_text("ignore = ['ALL']\n", encoding="utf-8")
+        assert "No findings" in process.screen()
+        beside.unlink()
+        assert RULE in process.screen()
+        (root / "pyproject.toml").write_text("[tool.msaa-lint]\nignore = ['ALL']\n", encoding="utf-8")
+        assert "No findings" in process.screen()
+
+
 def test_only_changes_of_what_is_read_concern_it(frame: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     root = frame.parent.parent
     monkeypatch.chdir(root)

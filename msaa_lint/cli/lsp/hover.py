@@ -134,7 +134,7 @@ def _about_key(view: View, place: Place) -> list[str]:
 
 
 def _about_value(view: View, place: Place) -> list[str]:
-    """What a value means, and what it and the values in its place cost."""
+    """What a value means, and what the frame costs with it and with others."""
     member = next((each for each in place.ancestors if each.record is not None), place)
     parts = [value_documentation(place), _alternatives_table(view, place, member)]
     if any(parts) or member.record is None or member.shape[0] == "unknown":
@@ -143,7 +143,7 @@ def _about_value(view: View, place: Place) -> list[str]:
 
 
 def _alternatives_table(view: View, place: Place, member: Place) -> str:
-    """What the frame costs with this value, and with others in its place."""
+    """What the frame costs with this value and with others."""
     costs = costs_at(view, place.node.start)
     if costs is None or member.record is None:
         return ""
@@ -164,7 +164,7 @@ def _alternatives_table(view: View, place: Place, member: Place) -> str:
     moves = f"Moves {figure(own.total)} MB/s, {figure(own.milliwatts)} mW.\n\n" if own.total else ""
     missing = [prose(text) for text in costs.written.unknown[:MAX_MISSING]]
     unknown = f"\n\nNot counted: {'; '.join(missing)}." if missing else ""
-    return f"{moves}The whole frame with it, and with others in its place:\n\n" + "\n".join(lines) + unknown
+    return f"{moves}Cost of the whole frame with this value and with others:\n\n" + "\n".join(lines) + unknown
 
 
 def _with_difference(new: float, old: float) -> str:

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from msaa_lint.core.diagnostics import diagnostic
@@ -81,6 +81,20 @@ class Configurations:
         loaded = self._by_folder[folder]
         self._by_folder.update(dict.fromkeys(searched, loaded))
         return loaded or self._default
+
+    def candidates(self, path: str) -> Iterator[str]:
+        """The files of its project that apply to a file or folder, or would in place of the one that does if they existed."""
+        if self._only is not None:
+            return
+        start = os.path.abspath(path)
+        folder = start if os.path.isdir(start) else os.path.dirname(start)
+        applies, root = self.load(path).path, project_root(folder)
+        while True:
+            yield from (os.path.join(folder, name) for name in NAMES)
+            above = os.path.dirname(folder)
+            if above == folder or os.path.realpath(folder) == root or (applies is not None and folder == os.path.dirname(applies)):
+                return
+            folder = above
 
 
 def _read_named(path: str) -> Loaded:

@@ -11,12 +11,10 @@ from msaa_lint.frame.cost.compare import NOTHING, SAME, Comparison
 from msaa_lint.frame.cost.input_cost import CostedFrame, FixStep, added
 from msaa_lint.frame.cost.model import difference
 from msaa_lint.frame.cost.variants import NONE
+from msaa_lint.linter.costed_frames import MAX_STEPS
 
 from ..cost_rows import figure
 from ..words import plural
-
-MAX_STEPS = 25
-"""Steps with a row of their own, those that change most; the others share one."""
 
 _EXACT = 5e-4
 """What remains is shown from this many MB/s, MiB, or mW."""
