@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 
 from lsprotocol import types
+from pygls.exceptions import JsonRpcException
 from pygls.lsp.server import LanguageServer
-from pygls.protocol import LanguageServerProtocol, lsp_method
 
 from msaa_lint.core.package import VERSION
 
 from .analysis import Analysis
 from .diagnostics import diagnostics
 from .documents import OpenDocument, folder_of
+from .json_rpc import Protocol
 from .worker import Worker
 
 WATCHED = ("**/*.toml", "**/*.md", "**/*.spv")
@@ -22,25 +23,18 @@ WATCHED = ("**/*.toml", "**/*.md", "**/*.spv")
 REFRESH_ID = "msaa-lint-watched-files"
 
 
-class _Protocol(LanguageServerProtocol):
-    """The protocol, without the texts that pygls keeps of documents: it takes U+2028 and others for line ends, and changes positions."""
-
-    @lsp_method(types.TEXT_DOCUMENT_DID_CHANGE)
-    def lsp_text_document__did_change(self, params: types.DidChangeTextDocumentParams) -> Iterator[tuple[object, ...]]:
-        """Calls the feature alone."""
-        yield self.fm.features[types.TEXT_DOCUMENT_DID_CHANGE], (params,), None
-
-
 class Server(LanguageServer):
     """The server of one editor, and the documents that it has open."""
 
     def __init__(self) -> None:
-        super().__init__("msaa-lint", VERSION, protocol_cls=_Protocol)
+        super().__init__("msaa-lint", VERSION, protocol_cls=Protocol)
         self.worker = Worker(self._done)
         self.documents: dict[str, OpenDocument] = {}
 
     def report_server_error(self, error: Exception, source: object) -> None:
-        """Says nothing: a message that cannot be read is answered with an error of the protocol."""
+        """Answers what is not JSON; there is nothing to say about the rest, which has been answered."""
+        if source is JsonRpcException and isinstance(error, (ValueError, RecursionError)):
+            self.protocol.answer_unreadable()
 
     @property
     def pulls(self) -> bool:
