@@ -146,7 +146,7 @@ class Watched:
 
     def files(self) -> list[str]:
         """The files to watch, and the folders of those that do not exist yet, without the folders in them."""
-        found = {}
+        found: dict[str, None] = {}
         for path in sorted(self._files):
             there = path if os.path.exists(path) else os.path.dirname(path)
             if not os.path.exists(there):

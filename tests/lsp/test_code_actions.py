@@ -143,3 +143,34 @@ def test_an_action_of_an_older_version_has_no_edit(tmp_path: Path) -> None:
             assert (await editor.client.code_action_resolve_async(action)).edit is None
 
     play(tmp_path, scenario, LAZY)
+
+
+IN_A_SCALAR = """\
+images:
+  color: {format: R8G8B8A8_UNORM, samples: 1, usage:
+    "COLOR_ATTACHMENT |
+     SAMPELD"}
+"""
+
+
+def test_a_suppression_is_only_offered_where_it_silences(tmp_path: Path) -> None:
+    """Each suppression that is offered for a finding of a text is applied, and the finding is gone."""
+    spread = STORED.replace("loadOp: CLEAR, storeOp: STORE", "loadOp: CLEAR,\n        storeOp:\n          STORE")
+    anchored = STORED.replace("{image: color_ms", "&ms\n        {image: color_ms")
+    texts = [STORED, spread, anchored, IN_A_SCALAR, STORED.replace("\n", "\r\n"), f"# x\n---\n{STORED}...\n"]
+
+    async def scenario(editor: Editor) -> None:
+        tried = 0
+        for number, text in enumerate(texts):
+            name = f"{number}.msaa.yaml"
+            found = await editor.open(name, text)
+            offered = await editor.actions(name, EVERYWHERE, "quickfix")
+            suppressions = [action for action in offered if action.title.startswith("Suppress")]
+            for action in [await editor.client.code_action_resolve_async(action) for action in suppressions]:
+                remaining = await editor.replace(name, applied(text, action))
+                (diagnostic,) = action.diagnostics or ()
+                assert [each.code for each in remaining].count(diagnostic.code) == [each.code for each in found].count(diagnostic.code) - 1
+                tried += 1
+        assert tried == 10
+
+    play(tmp_path, scenario)

@@ -21,12 +21,11 @@ from .analysis import Analysis, Kind
 from .diagnostics import diagnostic
 from .key_insertions import KeyInsertion, key_insertions
 from .line_edits import line_edits
+from .suppression_edits import suppression_edit
 
 FIX_ALL = f"{types.CodeActionKind.SourceFixAll.value}.msaaLint"
 
 KINDS = (types.CodeActionKind.QuickFix.value, types.CodeActionKind.RefactorRewrite.value, FIX_ALL)
-
-REASON = "TODO: state why this is intended"
 
 
 def code_actions(analysis: Analysis, span: Span, only: Sequence[types.CodeActionKind | str] | None) -> list[types.CodeAction]:
@@ -70,7 +69,7 @@ def _quick_fixes(analysis: Analysis, span: Span) -> Iterator[types.CodeAction]:
             title = found.fix.title if found.fix.safe else f"{found.fix.title} (unsafe: it may change the picture)"
             data = _data(analysis, "fix", number)
             yield types.CodeAction(_capitalized(title), kind, diagnostics, is_preferred=found.fix.safe or None, data=data)
-        if _suppression(analysis, found) is not None:
+        if suppression_edit(analysis, found) is not None:
             data = _data(analysis, "suppress", number)
             yield types.CodeAction(f"Suppress {found.rule} here, with a reason", kind, diagnostics, data=data)
 
@@ -129,7 +128,7 @@ def _edits(analysis: Analysis, data: dict[str, Any]) -> Sequence[Edit] | None:
         return None
     chosen = analysis.findings[number]
     if action == "suppress":
-        edit = _suppression(analysis, chosen)
+        edit = suppression_edit(analysis, chosen)
         return [edit] if edit is not None else None
     return _fix(analysis, lambda found: (*finding_kind(found), found.span) == (*finding_kind(chosen), chosen.span), unsafe=True)
 
@@ -146,22 +145,3 @@ def _fix(analysis: Analysis, selects: Callable[[Finding], bool], unsafe: bool) -
 
     fixed = fix_text(unmerged(result), lint, unsafe, lambda found: fixable(found) and selects(found))
     return line_edits(analysis.source.text, fixed.text)
-
-
-def _suppression(analysis: Analysis, found: Finding) -> Edit | None:
-    """The edit that suppresses a finding, in a comment on the line before it; None where there can be no comment."""
-    if found.span is None or found.code.startswith("MSAA9") or analysis.kind not in (Kind.DESCRIPTION, Kind.CODE):
-        return None
-    if analysis.kind is Kind.DESCRIPTION and analysis.path.lower().endswith(".json"):
-        return None
-    source = analysis.source
-    number = source.position(found.span.start).line
-    line = source.line(number)
-    if number > 1 and source.line(number - 1).endswith("\\"):
-        # The line goes on, in a macro or a text.
-        return None
-    start = source.starts[number - 1]
-    indent = line[: len(line) - len(line.lstrip(" \t"))]
-    mark = "#" if analysis.kind is Kind.DESCRIPTION else "//"
-    end = next((end for end in ("\r\n", "\r", "\n") if end in source.text), "\n")
-    return Edit(Span(start, start), f"{indent}{mark} msaa-lint: ignore[{found.rule}] {REASON}{end}")

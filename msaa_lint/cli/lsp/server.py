@@ -26,6 +26,8 @@ REFRESH_ID = "msaa-lint-watched-files"
 class Server(LanguageServer):
     """The server of one editor, and the documents that it has open."""
 
+    protocol: Protocol
+
     def __init__(self) -> None:
         super().__init__("msaa-lint", VERSION, protocol_cls=Protocol)
         self.worker = Worker(self._done)
