@@ -123,7 +123,7 @@ def test_a_key_that_an_undecided_rule_lacks_is_added(tmp_path: Path) -> None:
         line = types.Position(2, 0)
         actions = await editor.actions("a.msaa.yaml", types.Range(line, line), "refactor.rewrite")
         titles = {action.title.partition(",")[0]: action for action in actions}
-        assert "Add usage to images.color" in titles
+        assert "Add usage: [COLOR_ATTACHMENT" in titles and not any(": " not in title for title in titles)
         assert {"Add sharingMode: EXCLUSIVE to images.color", "Add sharingMode: CONCURRENT to images.color"} <= titles.keys()
         added = applied(text, await editor.client.code_action_resolve_async(titles["Add sharingMode: EXCLUSIVE to images.color"]))
         assert "sharingMode: EXCLUSIVE" in added.split("\n")[2]
@@ -174,3 +174,22 @@ def test_a_suppression_is_only_offered_where_it_silences(tmp_path: Path) -> None
         assert tried == 10
 
     play(tmp_path, scenario)
+
+
+def test_an_editor_that_takes_snippets_gets_its_cursor_in_the_value(tmp_path: Path) -> None:
+    capabilities = types.ClientCapabilities(
+        workspace=types.WorkspaceClientCapabilities(workspace_edit=types.WorkspaceEditClientCapabilities(snippet_edit_support=True))
+    )
+
+    async def scenario(editor: Editor) -> None:
+        await editor.open("a.msaa.yaml", CLEAN)
+        line = types.Position(1, 0)
+        actions = await editor.actions("a.msaa.yaml", types.Range(line, line), "refactor.rewrite")
+        action = next(action for action in actions if action.title.startswith("Add mipLevels to images.color_ms,"))
+        assert action.edit is not None and action.edit.document_changes is not None
+        (change,) = action.edit.document_changes
+        assert isinstance(change, types.TextDocumentEdit)
+        (edit,) = change.edits
+        assert isinstance(edit, types.SnippetTextEdit) and edit.snippet.value == ", mipLevels: $0"
+
+    play(tmp_path, scenario, capabilities)

@@ -19,8 +19,9 @@ from msaa_lint.linter.results import FileResult, finding_kind, unmerged
 
 from .analysis import Analysis, Kind
 from .diagnostics import diagnostic
-from .key_insertions import KeyInsertion, key_insertions
+from .key_insertions import KeyInsertion, as_snippet, key_insertions
 from .line_edits import line_edits
+from .recovery import MARK
 from .suppression_edits import suppression_edit
 
 FIX_ALL = f"{types.CodeActionKind.SourceFixAll.value}.msaaLint"
@@ -28,9 +29,11 @@ FIX_ALL = f"{types.CodeActionKind.SourceFixAll.value}.msaaLint"
 KINDS = (types.CodeActionKind.QuickFix.value, types.CodeActionKind.RefactorRewrite.value, FIX_ALL)
 
 
-def code_actions(analysis: Analysis, span: Span, only: Sequence[types.CodeActionKind | str] | None) -> list[types.CodeAction]:
-    """The actions at a place, without edits, of the kinds `only` names, or of all."""
-    actions = [*_quick_fixes(analysis, span), *_fix_all(analysis), *_keys(analysis, span)]
+def code_actions(
+    analysis: Analysis, span: Span, only: Sequence[types.CodeActionKind | str] | None, snippets: bool = False
+) -> list[types.CodeAction]:
+    """The actions at a place, without edits, of the kinds `only` names, or of all; `snippets` says that the editor takes them as edits."""
+    actions = [*_quick_fixes(analysis, span), *_fix_all(analysis), *_keys(analysis, span, snippets)]
     return [action for action in actions if only is None or any(_is_kind(_name(action.kind), _name(kind)) for kind in only)]
 
 
@@ -39,9 +42,15 @@ def with_edit(analysis: Analysis, action: types.CodeAction) -> types.CodeAction:
     edits = _edits(analysis, action.data) if isinstance(action.data, dict) else None
     if edits:
         document = types.OptionalVersionedTextDocumentIdentifier(analysis.uri, analysis.version)
-        changes = types.TextDocumentEdit(document, [analysis.text_edit(edit) for edit in edits])
+        changes = types.TextDocumentEdit(document, [_edit(analysis, edit) for edit in edits])
         action.edit = types.WorkspaceEdit(document_changes=[changes])
     return action
+
+
+def _edit(analysis: Analysis, edit: Edit) -> types.TextEdit | types.SnippetTextEdit:
+    if MARK not in edit.text:
+        return analysis.text_edit(edit)
+    return types.SnippetTextEdit(analysis.range(edit.span), types.StringValue(as_snippet(edit.text)))
 
 
 def _name(kind: types.CodeActionKind | str | None) -> str:
@@ -80,9 +89,9 @@ def _fix_all(analysis: Analysis) -> Iterator[types.CodeAction]:
         yield types.CodeAction("Apply all safe fixes of msaa-lint", FIX_ALL, data=_data(analysis, "fix-all"))
 
 
-def _keys(analysis: Analysis, span: Span) -> Iterator[types.CodeAction]:
+def _keys(analysis: Analysis, span: Span, snippets: bool) -> Iterator[types.CodeAction]:
     for number, key in enumerate(_insertions(analysis)):
-        if key.begins_on(analysis.source, span):
+        if key.begins_on(analysis.source, span) and (snippets or not key.is_snippet):
             yield types.CodeAction(key.title, types.CodeActionKind.RefactorRewrite, data=_data(analysis, "key", number))
 
 

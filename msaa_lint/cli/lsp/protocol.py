@@ -84,7 +84,7 @@ def _add_code_actions(server: Server) -> None:
         if analysis is None:
             return []
         at, only = analysis.span(params.range), params.context.only
-        actions = await server.worker.call(lambda: code_actions(analysis, at, only))
+        actions = await server.worker.call(lambda: code_actions(analysis, at, only, server.takes_snippet_edits))
         if server.resolves_edits:
             return actions
         edited = await server.worker.call(lambda: [with_edit(analysis, action) for action in actions])

@@ -52,6 +52,12 @@ class Server(LanguageServer):
         return support is not None and "edit" in support.properties
 
     @property
+    def takes_snippet_edits(self) -> bool:
+        """Whether edits may place the editor's cursor."""
+        workspace = self.client_capabilities.workspace
+        return workspace is not None and workspace.workspace_edit is not None and bool(workspace.workspace_edit.snippet_edit_support)
+
+    @property
     def encoding(self) -> types.PositionEncodingKind:
         """The encoding of positions that server and editor use."""
         return types.PositionEncodingKind(self.workspace.position_encoding or types.PositionEncodingKind.Utf16)

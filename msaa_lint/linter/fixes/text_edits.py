@@ -246,6 +246,14 @@ class TextEditor:
         """The edits that add a member with the text of its value to a record. Raises NoFix if the text does not allow it."""
         return tuple(self._insert(record, [(member, value)], {}))
 
+    def addition(self, record: Record, member: str, item: str) -> tuple[Edit, ...]:
+        """The edits that add an entry, `key: value`, to the end of a list of mappings. Raises NoFix if the text does not allow it."""
+        key, node = record.spelled[member]
+        if self.is_dump or node.kind != "sequence" or node.anchor is not None or not _has_own(record, key):
+            raise NoFix(f"`{member}` is not written as a list of its own")
+        collection = self._collection(node)
+        return tuple(collection.insert([f"{{{item}}}" if collection.flow else item]))
+
     def _insert(self, record: Record, members: Sequence[tuple[str, str]], requested: Requests) -> list[Edit]:
         """Inserts members, with the text of their values, into a record's own mapping."""
         node = record.node
