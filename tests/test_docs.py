@@ -10,6 +10,9 @@ from pathlib import Path
 
 import pytest
 
+from msaa_lint.linter.settings.config_keys import KEYS, MAX_LIMITS
+from msaa_lint.linter.settings.reference import SETTINGS, table
+from msaa_lint.linter.settings.settings import Settings
 from tests.paths import ROOT
 
 GENERATED = {
@@ -30,6 +33,26 @@ def test_generated_pages_are_fresh(page: str) -> None:
     if os.environ.get("UPDATE"):
         (ROOT / page).write_text(done.stdout, encoding="utf-8")
     assert (ROOT / page).read_text(encoding="utf-8") == done.stdout, STALE
+
+
+def test_the_table_of_settings_is_that_of_editors() -> None:
+    page = ROOT / "docs" / "configuration.md"
+    text = page.read_text(encoding="utf-8")
+    stated = next(part for part in text.split("\n\n") if part.startswith("| key |"))
+    if os.environ.get("UPDATE"):
+        page.write_text(text.replace(stated, table()), encoding="utf-8")
+        return
+    assert stated == table(), STALE
+
+
+def test_every_setting_is_documented_with_its_default() -> None:
+    tables = {"limits": list(MAX_LIMITS), "source": ["assume"]}
+    names = [f"{key}.{name}" if name else key for key in KEYS for name in tables.get(key, [""])]
+    assert sorted(SETTINGS) == sorted([*names, "extends"])
+    assert {name: int(SETTINGS[f"limits.{name}"].default) for name in MAX_LIMITS} == MAX_LIMITS
+    defaults = Settings()
+    for key in ("fail-on", "fail-confidence", "min-severity", "respect-gitignore", "strict-inputs"):
+        assert SETTINGS[key].default == f"`{str(getattr(defaults, key.replace('-', '_'))).lower()}`"
 
 
 def test_the_picture_of_a_finding_is_fresh() -> None:

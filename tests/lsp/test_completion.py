@@ -2,17 +2,25 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from pathlib import Path
+
 import pytest
 
-from msaa_lint.cli.lsp.completion import Completion, complete
+from msaa_lint.cli.lsp.completion import KEY, Completion, complete
+from msaa_lint.cli.lsp.places import alternatives
 from msaa_lint.cli.lsp.view import View
+from msaa_lint.frame.description.models import Description
+from msaa_lint.frame.description.record import Record
+from msaa_lint.frame.description.shapes import Shape
 
 from .views import at, engine
 
 
-def items(text: str, kind: str = "description", snippets: bool = False) -> tuple[str, dict[str, Completion]]:
+def items(text: str, kind: str = "description", snippets: bool = False, folder: Path | None = None) -> tuple[str, dict[str, Completion]]:
     text, offset = at(text)
-    return text, {item.label: item for item in complete(View(text, kind, None, engine().registry), offset, snippets)}
+    view = View(text, kind, None, engine().registry, folder=str(folder) if folder is not None else None)
+    return text, {item.label: item for item in complete(view, offset, snippets)}
 
 
 def accepted(text: str, label: str, snippets: bool = False) -> str:
@@ -109,6 +117,12 @@ def test_snippets(text: str, label: str | None, after: str) -> None:
         (f"{FRAME}pipelines: {{p: {{renderPass: forward, subpass: ^}}}}", {"0"}, "1"),
         (f"{FRAME}pipelines: {{p: {{}}}}\ncommands:\n  - draw: {{pipeline: ^}}", {"p"}, "forward"),
         (f"{FRAME}commands:\n  - beginRenderPass: {{renderPass: ^\n  - endRenderPass", {"forward"}, "color"),
+        ("device: {tile: {^}}", {"model", "kind", "colorBytes", "gmemBytes"}, "mali"),
+        ("device: {tile: {model: mali-g76, ^}}", {"kind"}, "model"),
+        ("device: {tile: {model: ^}}", {"mali-g76", "adreno-740"}, "adreno"),
+        ("device: {tile: {kind: ^}}", {"mali", "adreno"}, "mali-g76"),
+        ("device: {compression: {4: 1.0, ^}}", {"1 read", "1 write", "8"}, "4"),
+        ("enabled: {apiVersion: ^}", {"1.2", "1.4"}, "true"),
         ("enabled: {extensions: [^]}", {"VK_KHR_depth_stencil_resolve"}, "sampleRateShading"),
         ("metal: {textures: {t: {pixelFormat: ^}}}", {"bgra8Unorm"}, "R8G8B8A8_UNORM"),
     ],
@@ -181,6 +195,82 @@ def test_every_key_has_documentation() -> None:
 )
 def test_comments_configuration_and_rule_pages(text: str, kind: str, expected: str) -> None:
     assert expected in items(text, kind)[1]
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    for name in ("shaders/a.frag.spv", "shaders/deep/b.frag", "base.toml", "pages/r.md", "reports/gpu.json", ".hidden/c.spv", "build.txt"):
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).write_text("")
+    return tmp_path
+
+
+@pytest.mark.parametrize(
+    ("text", "kind", "expected"),
+    [
+        ("pipelines: {p: {stages: [{stage: FRAGMENT, module: ^}]}}", "description", ["shaders/a.frag.spv", "shaders/deep/b.frag"]),
+        ("pipelines: {p: {stages: [{module: shaders/de^}]}}", "description", ["shaders/a.frag.spv", "shaders/deep/b.frag"]),
+        ("device: ./r^", "description", ["reports/gpu.json"]),
+        ("extends = '^'", "configuration", ["base.toml"]),
+        ("rules = ['pages/^']", "configuration", ["pages/r.md"]),
+        ("baseline = ^", "configuration", ["reports/gpu.json"]),
+    ],
+)
+def test_files(folder: Path, text: str, kind: str, expected: list[str]) -> None:
+    without, found = items(text, kind, folder=folder)
+    assert list(found) == expected
+    item = found[expected[-1]]
+    after = without[: item.start] + item.text + without[item.end :]
+    assert expected[-1] in after and not any(part in after for part in ("de/", "pages/pages", "shaders/shaders", "./r"))
+
+
+def leaves(kind: type[Record], text: str = "^", seen: frozenset[type[Record]] = frozenset()) -> Iterator[tuple[str, str, Shape, str]]:
+    """The structure and name of each key of the schema that holds no structure, its shape, and a text with the cursor in its value."""
+    if kind in seen:
+        return
+    for name, shape in kind.SHAPE.items():
+        yield from leaves_of(kind, name, shape, text.replace("^", f"{{{name}: ^}}"), seen | {kind})
+
+
+def leaves_of(
+    kind: type[Record], name: str, shape: Shape, text: str, seen: frozenset[type[Record]]
+) -> Iterator[tuple[str, str, Shape, str]]:
+    for each in alternatives(shape):
+        if each[0] in ("record", "command"):
+            yield from leaves(each[1], text, seen)
+        elif each[0] == "list":
+            yield from leaves_of(kind, name, each[1], text.replace("^", "[^]"), seen)
+        elif each[0] in ("map", "numbered"):
+            yield from leaves_of(kind, name, each[1], text.replace("^", "{0: ^}"), seen)
+        else:
+            yield kind.__name__, name, each, text
+
+
+FREE_KINDS = {"int", "number", "share"}
+FREE_MEMBERS = {"label", "name", "tile", "compression"}
+"""What a person chooses. The entries of `tile` and `compression` have their own test, since their values depend on their keys."""
+
+NAMED = "images: {i: {}}\nrenderPasses: {r: {attachments: {a: {}}, subpasses: [{}]}}\nframebuffers: {f: {}}\npipelines: {p: {}}\n"
+METAL = "metal: {textures: {t: {}}, renderPasses: {q: {}}, renderPipelines: {s: {}}}\n"
+
+
+def test_every_enumerable_value_is_completed(folder: Path) -> None:
+    """No key of the schema that holds a word, a flag, a name, or a file is without completions."""
+    missing, count = set(), 0
+    for kind, name, shape, text in leaves(Description):
+        if shape[0] in FREE_KINDS or name in FREE_MEMBERS:
+            continue
+        count += 1
+        head, _, tail = text[1:-1].partition(": ")
+        others = "".join(line + "\n" for line in (NAMED + METAL).splitlines() if not line.startswith(f"{head}:"))
+        if head in ("renderPasses", "metal"):
+            # The names are those of the same section.
+            tail = f"{tail[:-1]}, a: {{attachments: {{a: {{}}}}}}}}" if head == "renderPasses" else tail
+            tail = f"{tail[:-1]}, {METAL[8:-2]}}}" if head == "metal" and "textures: " not in tail else tail
+        if all(item.kind == KEY for item in items(f"{others}{head}: {tail}", folder=folder)[1].values()):
+            missing.add((kind, name, shape[0]))
+    assert count > 150
+    assert missing == set()
 
 
 def test_other_tables_of_a_project_are_left_alone() -> None:

@@ -181,3 +181,25 @@ commands:
 """
     found = [(text.count("\n", 0, hint.at) + 1, hint.text) for hint in hints(view(text), Span(0, len(text)))]
     assert found == [(6, "2,000 MB/s, 200 mW"), (8, "2,000 MB/s, 400 of it the resolve")]
+
+
+@pytest.mark.parametrize(
+    ("text", "expected", "other"),
+    [
+        ('fa^il-on = "error"', "**fail-on**: the lowest severity", "(#"),
+        ('fail-on = "er^ror"', "Default: `warning`", "](#"),
+        ("[limits]\ndep^th = 3", "**limits.depth**", "nodes"),
+        ("[lim^its]\ndepth = 3", "`limits.nodes`", "**"),
+        ("[tool.msaa-lint]\ninc^lude = ['a']", "Default: as below", "](#"),
+        ("[tool.msaa-lint.source.ass^ume]\na = 1", "**source.assume**: values that source code does not state", "]("),
+    ],
+)
+def test_settings(text: str, expected: str, other: str) -> None:
+    text, offset = at(text)
+    answer = hover(view(text, "configuration"), offset)
+    assert answer is not None and expected in answer.markdown and other not in answer.markdown
+
+
+def test_keys_of_other_tools_are_no_settings() -> None:
+    text, offset = at("[tool.ruff]\nexc^lude = ['a']")
+    assert hover(view(text, "configuration"), offset) is None

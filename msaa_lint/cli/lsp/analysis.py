@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import enum
+import os
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 from lsprotocol import types
+from pygls.uris import to_fs_path
 
 from msaa_lint.core.finding import Finding, Suppressed, Undecided
 from msaa_lint.core.text.source import Source
@@ -68,9 +70,10 @@ class Analysis:
     def view(self) -> View:
         """What the questions at a position need."""
         resolved = self.resolved
-        return View(
-            self.source.text, self.kind.value, self.result, self.registry, self.findings, resolved.limits, resolved.settings.docs_url or ""
-        )
+        file = to_fs_path(self.uri) if self.uri.startswith("file:") else None
+        folder = os.path.dirname(file) if file is not None else None
+        docs_url = resolved.settings.docs_url or ""
+        return View(self.source.text, self.kind.value, self.result, self.registry, self.findings, resolved.limits, docs_url, folder)
 
     @cached_property
     def positions(self) -> Positions:

@@ -14,6 +14,7 @@ from . import inlay_hints as hints
 from . import navigation
 from . import rename as renames
 from . import symbols as outline
+from .setting_words import setting_text
 from .shape_words import enumerant_documentation, key_documentation
 
 if TYPE_CHECKING:
@@ -69,6 +70,8 @@ def completion(analysis: Analysis, position: types.Position, snippets: bool) -> 
 def _item(analysis: Analysis, item: completions.Completion, place: types.Range, number: int) -> types.CompletionItem:
     quote = analysis.view.text[item.start : item.start + 1]
     text = key_documentation(*item.member) if item.member is not None else enumerant_documentation(*item.enumerant or ("", ""))
+    if not text and item.kind == completions.KEY and analysis.view.kind == "configuration":
+        text = setting_text(item.label)
     return types.CompletionItem(
         item.label,
         kind=_ITEM_KINDS[item.kind],

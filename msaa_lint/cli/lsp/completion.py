@@ -11,15 +11,20 @@ from msaa_lint.frame.description.models import Command
 from msaa_lint.frame.description.record import Record
 from msaa_lint.frame.description.scalars import SAMPLE_COUNTS, SHADING_LEVELS
 from msaa_lint.frame.description.shapes import Shape
+from msaa_lint.input.shader_modules import GLSL
 
-from .completion_texts import rule_names, word_items
+from .completion_texts import map_keys, rule_names, word_items
 from .enumerants import Style, enumerants
+from .file_paths import paths
 from .names import ATTACHMENTS, SUBPASSES, Names, names_of
 from .places import Place, alternatives, content, place_at
 from .recovery import MARK, Marked, Word, lead, marked, word_at
 
 if TYPE_CHECKING:
     from .view import View
+
+SHADERS = (".spv", *GLSL)
+"""File name extensions of shader modules."""
 
 KEY, VALUE, ENUMERANT, REFERENCE = "key", "value", "enumerant", "reference"
 
@@ -48,7 +53,7 @@ def complete(view: View, offset: int, snippets: bool = False) -> list[Completion
     in_text = rule_names(view, offset)
     if in_text is not None:
         start, end, words = in_text
-        return [Completion(label, text, start, end, ENUMERANT, detail) for label, text, detail in words]
+        return [Completion(label, text, start, end, KEY if text.endswith(" = ") else ENUMERANT, detail) for label, text, detail in words]
     if view.kind != "description":
         return []
     word = word_at(view.text, offset)
@@ -58,7 +63,7 @@ def complete(view: View, offset: int, snippets: bool = False) -> list[Completion
     at = place_at(found.roots, found.at) if found is not None else None
     if found is None or at is None:
         return []
-    return list(_Completer(view.text, word, found, at[0], snippets).items(at[1]))
+    return list(_Completer(view, word, found, at[0], snippets).items(at[1]))
 
 
 def _is_free(text: str, word: Word) -> bool:
@@ -74,8 +79,9 @@ def _is_free(text: str, word: Word) -> bool:
 class _Completer:
     """The completions at one cursor. `place` is the value, or the member with the key, that the mark stands for."""
 
-    def __init__(self, text: str, word: Word, marked: Marked, place: Place, snippets: bool) -> None:
-        self.text = text
+    def __init__(self, view: View, word: Word, marked: Marked, place: Place, snippets: bool) -> None:
+        self.text = text = view.text
+        self.folder = view.folder
         self.word = word
         self.marked = marked
         self.place = place
@@ -135,6 +141,8 @@ class _Completer:
                 yield from (self._key(name, kind, inner) for name, inner in kind.SHAPE.items() if name not in present)
             elif shape[0] == "map":
                 yield from self._missing_names(parent)
+                present = set(parent.node.value) if parent.node.kind == "mapping" else set()
+                yield from (self._entry(key) for key in map_keys(parent) if key not in present)
 
     def _key(self, name: str, kind: type[Record], shape: Shape) -> Completion:
         is_item = self._is_flow_item
@@ -146,6 +154,11 @@ class _Completer:
             text = f"{{{text}}}{self._comma}" if is_item else text
         detail = "command" if issubclass(kind, Command) else ""
         return Completion(name, text, self.word.start, self.word.end, KEY, detail, snippet, (kind, name))
+
+    def _entry(self, key: str) -> Completion:
+        """A key of a mapping that is no structure."""
+        text = self._quoted_key(key) + ("" if self._colon_follows else ": ")
+        return Completion(key, text, self.word.start, self.word.end, KEY)
 
     def _quoted_key(self, name: str) -> str:
         quote = self.word.quote or ('"' if self.is_json and self.is_flow else "")
@@ -216,6 +229,8 @@ class _Completer:
         if kind == "command":
             return [self._item(name, ENUMERANT, "command") for name, inner in shape[1].SHAPE.items() if inner[0] == "null"]
         member = next((each.path[-1] for each in place.ancestors if each.record is not None), "")
+        if kind == "text" and (member == "module" or (member == "device" and "/" in self.word.prefix)) and self.folder is not None:
+            return [self._item(path, ENUMERANT) for path in paths(self.folder, SHADERS if member == "module" else (".json",))]
         return [self._item(label, ENUMERANT, detail) for label, detail in word_items(kind, member, place)] or self._subpasses(member, place)
 
     def _enumerants(self, shape: Shape, place: Place) -> Iterator[Completion]:

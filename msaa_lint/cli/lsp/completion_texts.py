@@ -10,14 +10,17 @@ from typing import TYPE_CHECKING
 from msaa_lint.cli.completion import profiles
 from msaa_lint.core.finding import CONFIDENCES
 from msaa_lint.frame.devices import DeviceProfile, builtin, names
+from msaa_lint.frame.devices.tile_models import COUNTS, KINDS, MODELS
 from msaa_lint.frame.facts.table import FACTS, SUBJECTS
 from msaa_lint.linter.rules.rule import APIS, EDITIONS, PASSES
 from msaa_lint.linter.rules.rule_file import KEYS as PAGE_KEYS
 from msaa_lint.linter.settings.config_keys import KEYS, LEVELS, MAX_LIMITS
+from msaa_lint.linter.settings.reference import SETTINGS
 from msaa_lint.linter.settings.selectors import ALL, RuleNames
 from msaa_lint.linter.settings.settings import OUTPUT_FORMATS
 from msaa_lint.linter.suppress.comments import WORDS
 
+from .file_paths import paths
 from .places import Place
 
 if TYPE_CHECKING:
@@ -31,13 +34,14 @@ _SUPPRESSION = re.compile(
 )
 _COMMENT = re.compile(r"(?:^|[ \t])#[^\n]*\Z")
 _WORD = re.compile(r"[\w-]*")
+_PATH = re.compile(r"[\w./-]*")
 _FACT = re.compile(r"[\w.]*\Z")
 
 _TABLE = re.compile(r"^[ \t]*\[([^\[\]\n]+)\]", re.MULTILINE)
 _KEY = re.compile(r"^[ \t]*([\w-]+)[ \t]*=", re.MULTILINE)
 _PAGE_KEY = re.compile(r"^([\w-]+):", re.MULTILINE)
 _BARE_KEY = re.compile(r"^[ \t]*([\w-]*)\Z", re.MULTILINE)
-_STRING = re.compile(r"""(["']?)([\w.-]*)\Z""")
+_STRING = re.compile(r"""(["']?)([\w./-]*)\Z""")
 
 _TABLES = frozenset({"", "severity", "limits", "source", "source.assume", "per-file-ignores"})
 _SELECTORS = frozenset({"select", "extend-select", "ignore", "per-file-ignores"})
@@ -50,6 +54,9 @@ _VALUES: Mapping[str, Sequence[str]] = {
     "respect-gitignore": ("true", "false"),
     "strict-inputs": ("true", "false"),
 }
+_FILES: Mapping[str, str] = {"extends": ".toml", "rules": ".md", "baseline": ".json"}
+"""By key: how the names of the files end that it names."""
+
 _PAGE_VALUES: Mapping[str, Sequence[str]] = {
     "severity": LEVELS,
     "confidence": CONFIDENCES,
@@ -58,6 +65,10 @@ _PAGE_VALUES: Mapping[str, Sequence[str]] = {
     "apis": APIS,
     "passes": PASSES,
 }
+
+
+API_VERSIONS = ("1.0", "1.1", "1.2", "1.3", "1.4")
+"""The versions of Vulkan."""
 
 
 def rule_names(view: View, offset: int) -> tuple[int, int, list[Item]] | None:
@@ -101,7 +112,7 @@ def _configuration(view: View, offset: int) -> tuple[int, int, list[Item]]:
     if bare is not None and not opened:
         present = set(_KEY.findall(body)) | set(_KEY.findall(view.text[offset:].partition("\n[")[0]))
         names: Iterable[str] = {"": [*KEYS, "extends"], "limits": MAX_LIMITS, "source": ["assume"]}.get(table, ())
-        keys: Iterable[Item] = [(name, f"{name} = ", "") for name in names if name not in present]
+        keys: Iterable[Item] = [(name, f"{name} = ", _type(table, name)) for name in names if name not in present]
         if table == "severity":
             keys = ((label, f"{label} = ", detail) for label, _, detail in _rules(view))
         return offset - len(bare[1]), _word_end(view.text, offset), list(keys)
@@ -111,10 +122,15 @@ def _configuration(view: View, offset: int) -> tuple[int, int, list[Item]]:
     key = table if table in ("severity", "per-file-ignores") else keys_before[-1] if keys_before else ""
     is_value = bool(re.search(r"=[ \t]*[\"']?[\w.-]*\Z", body))
     items = list(_configuration_values(view, key, is_value and (table == "severity" or "{" in body)))
-    start, end = offset - len(word) - len(quote), _word_end(view.text, offset)
+    start, end = offset - len(word) - len(quote), _PATH.match(view.text, offset).end()  # type: ignore[union-attr]
     if quote:
         end += view.text.startswith(quote, end)
     return start, end, [(label, text if text in ("true", "false") else f'"{text}"', detail) for label, text, detail in items]
+
+
+def _type(table: str, name: str) -> str:
+    setting = SETTINGS.get(f"{table}.{name}" if table else name)
+    return setting.type if setting is not None else ""
 
 
 def _configuration_values(view: View, key: str, is_entry: bool) -> Iterable[Item]:
@@ -123,6 +139,8 @@ def _configuration_values(view: View, key: str, is_entry: bool) -> Iterable[Item
         return [*_rules(view), (ALL, ALL, "all rules")]
     if key == "profile":
         return [(name, name, detail) for name, detail in profiles()]
+    if key in _FILES and view.folder is not None:
+        return [(path, path, "") for path in paths(view.folder, (_FILES[key],))]
     words = (*LEVELS, "off") if key == "severity" else _VALUES.get(key, ())
     return [(word, word, "") for word in words]
 
@@ -159,11 +177,24 @@ def word_items(kind: str, member: str, place: Place) -> Iterable[tuple[str, str]
     """Texts that a member of a description may hold, beside its enumerants: names of devices, and of what they offer."""
     if kind == "text" and member == "device" and len(place.path) == 1:
         return [(name, profile.name) for name, profile in _profiles()]
+    if kind == "text" and member == "apiVersion":
+        return [(version, "") for version in API_VERSIONS]
+    if kind == "text" and place.path[:2] == ("device", "tile"):
+        return [(name, "") for name in {"model": list(MODELS), "kind": list(KINDS)}.get(place.path[-1], [])]
     if kind == "text" and member in ("extensions", "features"):
         found = sorted({name for _, profile in _profiles() for name in getattr(profile, member) or ()})
         siblings = place.parent.node.value if place.parent is not None else []
         stated = {node.text for node in siblings if node.kind == "scalar"} if isinstance(siblings, list) else set()
         return [(name, "") for name in found if name not in stated]
+    return ()
+
+
+def map_keys(place: Place) -> Sequence[str]:
+    """The keys of a mapping of the device whose values are numbers and names."""
+    if place.path == ("device", "tile"):
+        return list(dict.fromkeys(["model", "kind", *(key for keys in KINDS.values() for key in keys)]))
+    if place.path == ("device", "compression"):
+        return [f"{count}{way}" for count in COUNTS for way in ("", " read", " write")]
     return ()
 
 

@@ -21,6 +21,7 @@ from .alternatives import alternative_costs
 from .inlay_hints import figure
 from .names import names_at
 from .places import Place, content, place_at
+from .setting_words import setting_at, without_links
 from .shape_words import key_documentation, shape_words, value_documentation
 from .traffic import costs_at, image_lines, moved, passes
 
@@ -30,7 +31,6 @@ if TYPE_CHECKING:
 _WORD = re.compile(r"[\w.-]+")
 _CODE = re.compile(r"MSAA\d{3}\Z")
 _COMMENT = re.compile(r"(?:#|//|/\*|<!--)[^\n]*msaa-lint[ \t]*:")
-_LINK = re.compile(r"\[([^\]]+)\]\((?!https?://)[^)\s]*\)")
 
 MAX_MISSING = 3
 """What a hover lists of what could not be counted."""
@@ -49,6 +49,9 @@ def hover(view: View, offset: int) -> Answer | None:
     if rule is not None:
         return rule
     about = _description(view, offset) if view.kind == "description" else None
+    if view.kind == "configuration":
+        setting = setting_at(view.text, offset)
+        about = Answer(*setting) if setting is not None else None
     findings = [found for found in view.findings if found.span is not None and _contains(found.span, offset)]
     pages = [_page_of(view, found) for found in findings]
     if about is None and not pages:
@@ -89,8 +92,8 @@ def _rule_at(view: View, offset: int) -> Answer | None:
 
 
 def _page(view: View, rule: Rule) -> str:
-    """A rule's page; relative links in it lead nowhere from an editor, so their texts alone remain."""
-    text = _LINK.sub(r"\1", markdown(rule)).strip()
+    """A rule's page, without relative links."""
+    text = without_links(markdown(rule)).strip()
     address = rule_address(view.docs_url, rule.code, rule.name)
     name = f"[**{rule.name}**]({address})" if address else f"**{rule.name}**"
     return f"{name} `{rule.code}`, {rule.severity}, {rule.confidence} confidence\n\n{text}"

@@ -19,8 +19,8 @@ MARK = "msaaLintCursor"
 MAX_REPAIRS = 4
 """Lines that are left out of one text; each costs reading it once more."""
 
-_WORD = re.compile(r"[\w.-]*")
-_WORD_BEFORE = re.compile(r"[\w.-]*\Z")
+_WORD = re.compile(r"[\w./-]*")
+_WORD_BEFORE = re.compile(r"[\w./-]*\Z")
 _TOKEN = re.compile(r"""[\[\]{}]|"(?:[^"\\]|\\.)*"?|'[^']*'?|(?:^|(?<=\s))#.*""")
 _CLOSERS = {"[": "]", "{": "}"}
 SYNTAX = ("MSAA901", "MSAA906")

@@ -59,7 +59,7 @@ class View:
     """One version of a text as the questions at a position see it. Offsets are in code points.
 
     `kind` is `description`, `configuration`, `rule` or `code`; `result` is None where the text has not been linted. `docs_url` is
-    the address of the site with the pages of rules; empty if there is none.
+    the address of the site with the pages of rules; empty if there is none. Paths in the text are relative to `folder`, None if unknown.
     """
 
     def __init__(
@@ -71,6 +71,7 @@ class View:
         findings: Sequence[Finding] = (),
         limits: Limits | None = None,
         docs_url: str = "",
+        folder: str | None = None,
     ) -> None:
         self.text = text
         self.kind = kind
@@ -79,6 +80,7 @@ class View:
         self.findings = findings
         self.limits = limits or Limits()
         self.docs_url = docs_url
+        self.folder = folder
 
     @cached_property
     def roots(self) -> list[Node]:

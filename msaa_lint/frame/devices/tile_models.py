@@ -58,7 +58,7 @@ MODELS: dict[str, TileModel] = {
 between it and G720."""
 
 MAX_BYTES = 2**31
-_NUMBERS = {
+KINDS = {
     "mali": {"colorBytes": True, "depthBytes": True, "maxPixels": True, "limitBytes": False},
     "adreno": {"gmemBytes": True},
 }
@@ -88,10 +88,10 @@ def stated_tile(mapping: Mapping[str, float | str | None] | None) -> TileModel |
         found = MODELS.get(name) if isinstance(name, str) else None
         return found or Misstated("model", f"unknown tile model `{str(name)[:40]}`", f"write one of {', '.join(MODELS)}")
     kind = mapping.get("kind")
-    numbers = _NUMBERS.get(kind) if isinstance(kind, str) else None
+    numbers = KINDS.get(kind) if isinstance(kind, str) else None
     if numbers is None:
         where = "kind" if "kind" in mapping else None
-        help = f"the kinds are {', '.join(_NUMBERS)}; the models are {', '.join(MODELS)}"
+        help = f"the kinds are {', '.join(KINDS)}; the models are {', '.join(MODELS)}"
         return Misstated(where, "a tile needs a `model` or a `kind`", help)
     for key, value in mapping.items():
         if key != "kind" and key not in numbers:
@@ -113,7 +113,7 @@ def stated_tile(mapping: Mapping[str, float | str | None] | None) -> TileModel |
 Compression = dict[int, tuple[float, float]]
 """By sample count: the measured bytes read and written, relative to plain arithmetic."""
 
-_COUNTS = ("1", "2", "4", "8", "16", "32", "64")
+COUNTS = ("1", "2", "4", "8", "16", "32", "64")
 MAX_RATIO = 16
 
 
@@ -127,7 +127,7 @@ def stated_compression(mapping: Mapping[str, float | None] | None) -> Compressio
     found: dict[int, list[float | None]] = {}
     for key, value in mapping.items():
         text, _, direction = key.partition(" ")
-        if text not in _COUNTS or direction not in ("", "read", "write"):
+        if text not in COUNTS or direction not in ("", "read", "write"):
             return Misstated(
                 key, f"`{key[:40]}` is not a sample count", "a key is a sample count, optionally followed by ` read` or ` write`"
             )
