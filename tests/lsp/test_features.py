@@ -119,3 +119,19 @@ async def test_symbols_and_hints(client: pytest_lsp.LanguageClient, document: ty
     whole = types.Range(types.Position(0, 0), types.Position(8, 0))
     hints = await client.text_document_inlay_hint_async(types.InlayHintParams(document, whole))
     assert [(hint.position.line, hint.label) for hint in hints] == [(5, "2,000 MB/s, 200 mW"), (7, "1,600 MB/s")]
+
+
+@pytest.mark.asyncio
+async def test_folds_links_and_selections(
+    client: pytest_lsp.LanguageClient, document: types.TextDocumentIdentifier, tmp_path: Path
+) -> None:
+    found = await client.text_document_folding_range_async(types.FoldingRangeParams(document))
+    assert [(fold.start_line, fold.end_line) for fold in found] == [(1, 3), (4, 10), (5, 10), (6, 8), (9, 10)]
+    (chain,) = await client.text_document_selection_range_async(types.SelectionRangeParams(document, [position("STORE", 2)]))
+    assert covered(chain.range) == "STORE" and covered(chain.parent.range) == "storeOp: STORE"
+    (tmp_path / "a.spv").write_bytes(b"")
+    text = "pipelines: {p: {stages: [{stage: FRAGMENT, module: a.spv}]}}\n"
+    item = types.TextDocumentItem((tmp_path / "b.msaa.yaml").as_uri(), types.LanguageKind.Yaml, 1, text)
+    client.text_document_did_open(types.DidOpenTextDocumentParams(item))
+    (link,) = await client.text_document_document_link_async(types.DocumentLinkParams(types.TextDocumentIdentifier(item.uri)))
+    assert link.target == (tmp_path / "a.spv").as_uri()

@@ -14,6 +14,8 @@ from . import inlay_hints as hints
 from . import navigation
 from . import rename as renames
 from . import symbols as outline
+from .folding import folds, selection
+from .links import links
 from .setting_words import setting_text
 from .shape_words import enumerant_documentation, key_documentation
 
@@ -142,3 +144,24 @@ def inlay_hints(analysis: Analysis, place: types.Range) -> list[types.InlayHint]
         types.InlayHint(analysis.position(hint.at), hint.text, padding_left=True, tooltip=hint.tooltip)
         for hint in hints.hints(analysis.view, analysis.span(place))
     ]
+
+
+def folding_ranges(analysis: Analysis) -> list[types.FoldingRange]:
+    """What can be folded."""
+    return [
+        types.FoldingRange(fold.first, fold.last, kind=types.FoldingRangeKind.Comment if fold.is_comment else None)
+        for fold in folds(analysis.view)
+    ]
+
+
+def document_links(analysis: Analysis) -> list[types.DocumentLink]:
+    """The links of a document."""
+    return [types.DocumentLink(analysis.range(link.span), link.target) for link in links(analysis.view)]
+
+
+def selection_range(analysis: Analysis, position: types.Position) -> types.SelectionRange:
+    """What contains a position, from inside outward."""
+    around: types.SelectionRange | None = None
+    for span in reversed(selection(analysis.view, analysis.offset(position))):
+        around = types.SelectionRange(analysis.range(span), around)
+    return around or types.SelectionRange(types.Range(position, position))

@@ -16,7 +16,7 @@ from msaa_lint.linter.rules.rule import APIS, EDITIONS, PASSES
 from msaa_lint.linter.rules.rule_file import KEYS as PAGE_KEYS
 from msaa_lint.linter.settings.config_keys import KEYS, LEVELS, MAX_LIMITS
 from msaa_lint.linter.settings.reference import SETTINGS
-from msaa_lint.linter.settings.selectors import ALL, RuleNames
+from msaa_lint.linter.settings.selectors import ALL
 from msaa_lint.linter.settings.settings import OUTPUT_FORMATS
 from msaa_lint.linter.suppress.comments import WORDS
 
@@ -94,7 +94,7 @@ def _word_end(text: str, offset: int) -> int:
 
 def _rules(view: View) -> Iterator[Item]:
     """The names and codes of the rules."""
-    rules = RuleNames(view.registry.names).rules
+    rules = view.rule_names.rules
     yield from ((rule.name, rule.name, rule.code) for rule in rules)
     yield from ((rule.code, rule.code, rule.name) for rule in rules)
 

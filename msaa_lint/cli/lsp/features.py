@@ -17,7 +17,7 @@ _REQUEST_FAILED = types.LSPErrorCodes.RequestFailed.value
 
 
 def add_features(server: Server) -> None:
-    """Adds hover, completion, navigation, renaming, the outline and inlay hints to a server."""
+    """Adds what is asked at a position, and about a whole document, to a server."""
 
     @server.feature(types.TEXT_DOCUMENT_HOVER)
     async def hover(params: types.HoverParams) -> types.Hover | None:
@@ -67,6 +67,22 @@ def add_features(server: Server) -> None:
     async def inlay_hints(params: types.InlayHintParams) -> list[types.InlayHint]:
         analysis = await server.analysis(params.text_document.uri)
         return answers.inlay_hints(analysis, params.range) if analysis is not None else []
+
+    @server.feature(types.TEXT_DOCUMENT_FOLDING_RANGE)
+    async def folding_ranges(params: types.FoldingRangeParams) -> list[types.FoldingRange] | None:
+        analysis = await server.analysis(params.text_document.uri)
+        # Without an answer, an editor folds as it does by itself.
+        return (answers.folding_ranges(analysis) or None) if analysis is not None else None
+
+    @server.feature(types.TEXT_DOCUMENT_DOCUMENT_LINK)
+    async def document_links(params: types.DocumentLinkParams) -> list[types.DocumentLink]:
+        analysis = await server.analysis(params.text_document.uri)
+        return answers.document_links(analysis) if analysis is not None else []
+
+    @server.feature(types.TEXT_DOCUMENT_SELECTION_RANGE)
+    async def selection_ranges(params: types.SelectionRangeParams) -> list[types.SelectionRange]:
+        analysis = await server.analysis(params.text_document.uri)
+        return [answers.selection_range(analysis, position) for position in params.positions] if analysis is not None else []
 
 
 def takes_snippets(server: Server) -> bool:

@@ -19,6 +19,7 @@ from msaa_lint.linter.fixes.document_fixes import DocumentFixes
 from msaa_lint.linter.prices import PriceAllowance, Prices
 from msaa_lint.linter.results import DocumentResult, FileResult
 from msaa_lint.linter.rules.registry import Registry
+from msaa_lint.linter.settings.selectors import RuleNames
 
 from .names import Names, names_of
 from .recovery import SYNTAX, repaired
@@ -91,6 +92,11 @@ class View:
         if linted and all(each.document.tree is None for each in linted):
             return [each.document.description.node for each in linted]
         return repaired(self.text, self.limits)
+
+    @cached_property
+    def rule_names(self) -> RuleNames:
+        """The rules by name and code."""
+        return RuleNames(self.registry.names)
 
     @cached_property
     def names(self) -> Names:
