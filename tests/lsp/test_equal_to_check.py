@@ -6,9 +6,11 @@ import asyncio
 import json
 from collections.abc import Iterator
 from pathlib import Path
+from typing import NamedTuple
 
 import pytest
-from hypothesis import given, settings
+import yaml
+from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from lsprotocol import types
 
@@ -27,7 +29,7 @@ PIECES = (
     "\u2028", "\t", "&a ", "*a", "---\n", "usage: ", "samples: 8", "'", '"', "\x00", "",
 )  # fmt: skip
 
-edits = st.lists(st.tuples(st.floats(0, 1), st.integers(0, 40), st.sampled_from(PIECES)), max_size=4)
+CODE = Path(__file__).parents[2] / "examples" / "code" / "forward.cpp"
 
 
 def position(text: str, offset: int) -> types.Position:
@@ -64,16 +66,48 @@ def session(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Session]:
     opened.close()
 
 
-@settings(max_examples=20, deadline=None)
-@given(start=st.sampled_from([CLEAN, STORED]), steps=st.lists(edits, min_size=1, max_size=4))
-def test_findings_are_those_of_check_after_edits(session: Session, start: str, steps: list[list[tuple[float, int, str]]]) -> None:
+class Kind(NamedTuple):
+    """A kind of documents: its name in a folder, its language in an editor, texts to begin with, what is likely in them, and the input
+    that is checked with it, if it is none itself."""
+
+    name: str
+    language: str
+    starts: tuple[str, ...]
+    pieces: tuple[str, ...] = ()
+    checked: str = ""
+
+
+JSON = tuple(json.dumps(yaml.safe_load(text), indent=indent) for text, indent in ((STORED, 1), (CLEAN, None)))
+TOML = 'select = ["MSAA2", "MSAA403"]\nfail-on = "warning"\n[severity]\nMSAA201 = "note"\n[limits]\ndepth = 50\n'
+KINDS = [
+    Kind("frame.msaa.yaml", "yaml", (CLEAN, STORED)),
+    Kind("frame.msaa.json", "json", JSON, ('"samples": 8', '"STORE"', "null", ": ")),
+    Kind("msaa-lint.toml", "toml", (TOML, f'extends = "base.toml"\n{TOML}'), ("= ", "[limits]\n", "depth = 0\n", '"off"', "true"), "input"),
+    Kind("main.cpp", "cpp", (CODE.read_text(encoding="utf-8"),), ("VK_SAMPLE_COUNT_1_BIT", ";", "// ", "/*", "(", "#if 1\n")),
+]
+
+
+@pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.language)
+@settings(max_examples=10, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@given(data=st.data())
+def test_findings_are_those_of_check_after_edits(session: Session, kind: Kind, data: st.DataObject) -> None:
+    if kind.language == "cpp":
+        pytest.importorskip("tree_sitter")
+    pieces = st.sampled_from(PIECES + kind.pieces)
+    edits = st.lists(st.tuples(st.floats(0, 1), st.integers(0, 40), pieces), max_size=4)
+    start, steps = data.draw(st.sampled_from(kind.starts)), data.draw(st.lists(edits, min_size=1, max_size=3))
     session.documents += 1
-    session.runner.run(edited(session.editor, f"{session.documents}.msaa.yaml", start, steps))
+    folder = session.editor.folder / str(session.documents)
+    folder.mkdir()
+    if kind.checked:
+        (folder / "input.msaa.yaml").write_text(STORED, encoding="utf-8")
+        (folder / "base.toml").write_text("min-severity = 'warning'\n", encoding="utf-8")
+    session.runner.run(edited(session.editor, f"{session.documents}/{kind.name}", kind, start, steps))
 
 
-async def edited(opened: Editor, name: str, text: str, steps: list[list[tuple[float, int, str]]]) -> None:
+async def edited(opened: Editor, name: str, kind: Kind, text: str, steps: list[list[tuple[float, int, str]]]) -> None:
     """Edits a document step by step, and compares its diagnostics after each."""
-    await opened.open(name, text)
+    await opened.open(name, text, kind.language)
     for step in steps:
         changes: list[types.TextDocumentContentChangeEvent] = []
         for share, length, piece in step:
@@ -84,8 +118,11 @@ async def edited(opened: Editor, name: str, text: str, steps: list[list[tuple[fl
             text = text[:begin] + piece + text[end:]
         found = await opened.change(name, *changes)
         (opened.folder / name).write_bytes(text.encode())
-        report = json.loads(run(opened.folder, "check", "--output", "json", name).stdout)
-        assert [plain(each) for each in found] == [of_report(each, text) for each in report["findings"]]
+        checked = f"{name.partition('/')[0]}/input.msaa.yaml" if kind.checked else name
+        report = json.loads(run(opened.folder, "check", "--output", "json", checked).stdout)
+        expected = [of_report(each, text) for each in report["findings"] if each["file"] == name]
+        assert [plain(each) for each in found] == expected
+    opened.client.text_document_did_close(types.DidCloseTextDocumentParams(types.TextDocumentIdentifier(opened.uri(name))))
 
 
 def plain(found: types.Diagnostic) -> tuple[object, ...]:
