@@ -187,7 +187,7 @@ def _study(arguments: Arguments, options: StudyOptions) -> int:
     outcome = _outcome(size, options.bits, studied, points, failures, costs, errors)
     outcome = conclude(outcome._replace(budget_ms=options.budget_ms))
     if "crops" in arguments:
-        outcome = outcome._replace(pictures=_write_crops(arguments["crops"], bool(arguments.get("force")), options, studied))
+        outcome = _with_crops(outcome, arguments["crops"], bool(arguments.get("force")), options, studied)
     if "plot" in arguments:
         from .report import study_plot
 
@@ -296,7 +296,8 @@ def _progress(total: int, arguments: Arguments) -> Iterator[Any]:
         yield lambda done, _, last: bars.update(bar, completed=done, description=escape(last))
 
 
-def _write_crops(folder: str, force: bool, options: StudyOptions, studied: Sequence[Subject]) -> list[str]:
+def _with_crops(outcome: Study, folder: str, force: bool, options: StudyOptions, studied: Sequence[Subject]) -> Study:
+    """The study with the crops of its scenes, after writing their figures."""
     from msaa_lint.experiments.confirm.png import PictureFolder, signed
     from msaa_lint.experiments.study.crops import crops
 
@@ -304,12 +305,9 @@ def _write_crops(folder: str, force: bool, options: StudyOptions, studied: Seque
     from .report.study_crops import crops_figure
 
     album = PictureFolder(folder, force)
-    paths = []
-    for subject in studied:
-        name = subject.input.name
-        figure = crops_figure(name, crops(subject.picture, options.techniques, options.bits))
-        paths.append(album.write_file(signed(draw(figure, "png")), name, "crops"))
-    return paths
+    found = {subject.input.name: crops(subject.picture, options.techniques, options.bits) for subject in studied}
+    paths = [album.write_file(signed(draw(crops_figure(name, of_scene), "png")), name, "crops") for name, of_scene in found.items()]
+    return outcome._replace(pictures=paths, crops=found)
 
 
 def _write_records(studied: Sequence[Subject], outcome: Study, force: bool) -> list[str]:

@@ -26,7 +26,6 @@ def crops_figure(scene: str, crops: Crops) -> Spec:
 
     cells = _cells(crops)
     columns, rows = (1 + max(cell[axis] for cell in cells) for axis in ("column", "row"))
-    width, height = crops.exact.width, crops.exact.height
     x = altair.X("x:Q", axis=None, scale=altair.Scale(domain=[0, columns * (_SIDE + _GAP)], nice=False))
     y = altair.Y("y:Q", axis=None, scale=altair.Scale(domain=[rows * (_SIDE + _NAME + _GAP), 0], nice=False))
     figure = Figure()
@@ -40,25 +39,36 @@ def crops_figure(scene: str, crops: Crops) -> Spec:
     panel = altair.layer(*layers).properties(
         width=columns * (_SIDE + _GAP), height=rows * (_SIDE + _NAME + _GAP), view=altair.ViewBackground(stroke=None)
     )
-    left, top = crops.corner
-    place = f"pixels {left} to {left + width - 1} from the left, {top} to {top + height - 1} from the top"
-    lines = [f"{place}: where {short_name(crops.pictures[0][0])} differs most", *abbreviation(technique for technique, _ in crops.pictures)]
+    lines = [crops_place(crops), *abbreviation(technique for technique, _ in crops.pictures)]
     figure.add([panel], title(display(scene), lines, columns * (_SIDE + _GAP), size=13))
     return figure.spec()
+
+
+def crops_place(crops: Crops) -> str:
+    """Where the crops are in the picture, and why there."""
+    (left, top), exact = crops.corner, crops.exact
+    place = f"pixels {left} to {left + exact.width - 1} from the left, {top} to {top + exact.height - 1} from the top"
+    return f"{place}: where {short_name(crops.pictures[0][0])} differs most"
+
+
+def crop_rows(crops: Crops) -> list[list[tuple[str, Picture]]]:
+    """The named pictures in rows for each kind of technique, each of which the exact one begins."""
+    rows = []
+    for kind in KINDS:
+        of_kind = [(short_name(technique), picture) for technique, picture in crops.pictures if technique.kind == kind]
+        starts = range(0, len(of_kind), _COLUMNS - 1)
+        rows += [[("exact", crops.exact), *of_kind[start : start + _COLUMNS - 1]] for start in starts]
+    return rows
 
 
 def _cells(crops: Crops) -> list[dict[str, Any]]:
     """The pictures, their names, and the places of both."""
     cells: list[dict[str, Any]] = []
-    row = 0
-    for kind in KINDS:
-        of_kind = [(short_name(technique), picture) for technique, picture in crops.pictures if technique.kind == kind]
-        for start in range(0, len(of_kind), _COLUMNS - 1):
-            for column, (name, picture) in enumerate([("exact", crops.exact), *of_kind[start : start + _COLUMNS - 1]]):
-                x, y = column * (_SIDE + _GAP), row * (_SIDE + _NAME + _GAP) + _NAME
-                place = {"column": column, "row": row, "x": x, "y": y, "right": x + _SIDE, "bottom": y + _SIDE}
-                cells.append({"name": name, **place, "url": _url(picture)})
-            row += 1
+    for row, pictures in enumerate(crop_rows(crops)):
+        for column, (name, picture) in enumerate(pictures):
+            x, y = column * (_SIDE + _GAP), row * (_SIDE + _NAME + _GAP) + _NAME
+            place = {"column": column, "row": row, "x": x, "y": y, "right": x + _SIDE, "bottom": y + _SIDE}
+            cells.append({"name": name, **place, "url": _url(picture)})
     return cells
 
 

@@ -155,9 +155,11 @@ def chart_of(panel: Panel, axes: Axes, labels: Sequence[Label | None], figure: F
         for field, name in _TOOLTIPS.items()
         if any(field in row for row in rows)
     ]
+    # Vega announces a layer to screen readers even if it is empty, without words.
+    line, rule = ({"color": INK, **({} if drawn else {"aria": False})} for drawn in (front, intervals))
     layers = [
-        figure.chart(front).mark_line(interpolate="step-after", color=INK, strokeWidth=1.2).encode(x("x"), y("y")),
-        figure.chart(intervals).mark_rule(color=INK, strokeWidth=1).encode(x("low"), y("y"), x2="high"),
+        figure.chart(front).mark_line(interpolate="step-after", strokeWidth=1.2, **line).encode(x("x"), y("y")),
+        figure.chart(intervals).mark_rule(strokeWidth=1, **rule).encode(x("low"), y("y"), x2="high"),
         figure.chart(leaders).mark_rule(color="#888888", strokeWidth=0.6, aria=False).encode(x("x"), y("y"), x2="end_x", y2="end_y"),
         figure.chart(rows)
         .mark_point(filled=True, size=_AREA, opacity=1, stroke=INK, strokeWidth=0.6)

@@ -1,11 +1,12 @@
 """The result of `msaa-lint study`, for reports."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 from msaa_lint.core.finding import Finding
 
 from .advice import Advice
+from .crops import Crops
 from .measures import ERROR, Measure
 from .points import Point
 from .recommendation import DEFAULT_BUDGET_MS, Recommendation
@@ -42,7 +43,8 @@ class Study(NamedTuple):
 
     `device` is the source of the times, empty without any; `model` is the device whose traffic the cost model estimates, empty for none in
     particular. `points` are in the order of the scenes, shading costs, and techniques. `wrong` are findings that say why an input could not
-    be used; `records` and `pictures` are the paths of the files written. `answer.conclude` marks the Pareto-optimal points, and adds
+    be used; `records` and `pictures` are the paths of the files written, `crops` the crops by
+    scene, if they were asked for. `answer.conclude` marks the Pareto-optimal points, and adds
     `steps`, `recommendations`, and `advice`.
 
     `software` says that the device is a CPU: its times are labelled as such, and advice does not use them. `shadings` are the costs of
@@ -67,6 +69,7 @@ class Study(NamedTuple):
     budget_ms: float = DEFAULT_BUDGET_MS
     steps: Sequence[Step] = ()
     recommendations: Sequence[Recommendation] = ()
+    crops: Mapping[str, Crops] = {}
 
     def of(self, scene: str, shading: str | None = None) -> list[Point]:
         """The points of one scene, or those of one of its shading costs."""

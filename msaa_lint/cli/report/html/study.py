@@ -13,6 +13,7 @@ from ..study_plot import plot
 from ..study_tables import MARK, error_table, has_times, time_table
 from ..study_text import answer, answered, choices, compared, failures, notes, software_warning, summary
 from ..tables import FIGURE, Table
+from .crops import page_crops
 from .page import asset, write_page
 from .study_slider import slider
 from .vega import PageFigures
@@ -22,6 +23,7 @@ def render(study: Study, out: Write, options: Options) -> None:
     """Writes what to take of each scene, then its figures, tables, and reasons, and the origin of the figures."""
     figures = PageFigures()
     names = [scene.name for scene in study.scenes]
+    crops = page_crops(study)
     context = {
         "title": f"Study of {names[0]}" if len(names) == 1 else f"Study of {len(names)} scenes",
         "warning": software_warning(study) if study.software else "",
@@ -30,7 +32,7 @@ def render(study: Study, out: Write, options: Options) -> None:
         "errors": [f"{error.file}: {error.message}" for error in study.wrong],
         "choices": _choices(study),
         "budget": f"{study.budget_ms:.4g} ms",
-        "sections": [_section(scene, study, figures) for scene in study.scenes],
+        "sections": [{**_section(scene, study, figures), "crops": crops.get(scene.name)} for scene in study.scenes],
         "summary": [] if options.quiet else list(summary(study)),
     }
     write_page("study.html", context, out, data={"figures": figures.data}, styles=[asset("study.css")], scripts=figures.scripts)

@@ -11,7 +11,10 @@ import pytest
 
 from msaa_lint.cli.report import Options
 from msaa_lint.cli.report.html.study import render
+from msaa_lint.experiments.confirm.png import Picture
+from msaa_lint.experiments.study.crops import Crops
 from msaa_lint.experiments.study.outcome import Study
+from msaa_lint.experiments.study.points import MSAA, Technique
 from msaa_lint.experiments.study.predictions import predictions
 from tests.command import run
 from tests.experiments.study.gpu import gpu_study
@@ -179,6 +182,58 @@ def test_the_command_writes_a_page(browser: Browser, tmp_path: Path) -> None:
     assert browser.complaints() == []
     assert browser.texts("h1") == ["Study of edge-fan"]
     assert browser.texts("caption") == ["Errors and work"]
+
+
+@pytest.fixture(scope="module")
+def report_with_crops(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Of two scenes, by the command."""
+    folder = tmp_path_factory.mktemp("crops")
+    words = ["edge-fan", "wires", "--size", "64x48", "--samples", "1,4", "--jobs", "1", "--crops", "crops", "--output", "html=study.html"]
+    done = run(folder, "study", "--isolated", *words)
+    assert (done.returncode, done.stderr) == (0, "")
+    return folder / "study.html"
+
+
+def test_crops_are_in_the_page(browser: Browser, report_with_crops: Path) -> None:
+    browser.open(report_with_crops)
+    assert browser.complaints() == []
+    groups = [group.get_attribute("aria-label") for group in browser.all(".crops")]
+    rows = ["1x to 4x", "4x/2 to 4x/4", "SSAA 2x2 to SSAA 4x4"]
+    assert groups == [f"Crops of {scene}: {row}" for scene in ("edge-fan", "wires") for row in rows]
+    first = browser.all(".crops")[0]
+    names = [caption.text for caption in first.find_elements("css selector", "figcaption")]
+    pictures = first.find_elements("css selector", "img")
+    alternatives = [picture.get_attribute("alt") for picture in pictures]
+    assert names == ["exact", "1x", "4x"] and alternatives[0] == "The exact pixels"
+    one, four = (re.fullmatch(r"\dx: differs from the exact pixels by up to (\d+) of 255", text) for text in alternatives[1:])
+    assert one is not None and four is not None and int(one[1]) > int(four[1]) > 0
+    browser.run("arguments[0].scrollIntoView()", first)
+    browser.wait("return [...document.querySelectorAll('.crops:first-of-type img')].every((image) => image.complete)")
+    sizes = [browser.run("return [arguments[0].naturalWidth, arguments[0].width]", picture) for picture in pictures]
+    assert sizes == [[16, 96]] * 3
+
+
+@pytest.mark.parametrize("dark", [False, True], ids=["light", "dark"])
+def test_axe_has_nothing_to_say_of_crops(browser: Browser, report_with_crops: Path, dark: bool) -> None:
+    browser.open(report_with_crops, dark=dark)
+    assert browser.violations() == []
+
+
+def test_crops_fit_a_phone_and_are_on_paper(browser: Browser, report_with_crops: Path) -> None:
+    browser.open(report_with_crops, width=PHONE)
+    assert browser.overflow() == 0
+    browser.open(report_with_crops, media="print")
+    assert all(picture.is_displayed() for picture in browser.all(".crops img"))
+
+
+def test_crops_beyond_the_limit_are_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("msaa_lint.cli.report.html.crops.MAX_PICTURES", 3)
+    exact, drawn = (Picture(1, 1, bytes(codes)) for codes in ((0, 0, 0), (9, 200, 3)))
+    crops = Crops((5, 6), exact, [(Technique(MSAA, 1), drawn)])
+    text = page(tmp_path, gpu_study("edges", HOSTILE, crops={"edges": crops, HOSTILE: crops})).read_text()
+    assert text.count('class="crops"') == 1 and 'alt="1x: differs from the exact pixels by up to 200 of 255"' in text
+    assert "pixels 5 to 5 from the left, 6 to 6 from the top: where 1x differs most" in text
+    assert text.count("A page has at most 3 pictures; those of this scene are in the folder of --crops.") == 1
 
 
 def test_pictures_for_the_documentation(browser: Browser, report: Path, tmp_path: Path) -> None:
