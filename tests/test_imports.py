@@ -12,6 +12,7 @@ import re
 import subprocess
 import sys
 from collections.abc import Iterator, Mapping
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -119,8 +120,7 @@ MAX_ENTRIES = 8
 MAX_LEVELS = 9
 
 MODULES = {".".join(path.relative_to(PACKAGE).with_suffix("").parts): path for path in sorted(PACKAGE.rglob("*.py"))}
-TREES = {name: ast.parse(path.read_text(encoding="utf-8")) for name, path in MODULES.items()}
-"""By name below the package, `report.full` or `report.__init__`; each parsed once."""
+"""By name below the package, `report.full` or `report.__init__`."""
 
 ONLY_IN = {
     "pydantic": {"frame.description.pydantic_models"},
@@ -144,10 +144,15 @@ def module_of(name: str) -> str | None:
     return name if name in MODULES else package if package in MODULES else None
 
 
-def imports(module: str) -> Iterator[str]:
+@cache
+def imports(module: str) -> frozenset[str]:
     """What a module imports, anywhere in it: modules of ours with a dot in front, packages of others by their first name."""
+    return frozenset(_imports(module))
+
+
+def _imports(module: str) -> Iterator[str]:
     folder = module.split(".")[:-1]
-    for node in ast.walk(TREES[module]):
+    for node in ast.walk(ast.parse(MODULES[module].read_text(encoding="utf-8"))):
         if isinstance(node, ast.Import):
             for alias in node.names:
                 own = alias.name.startswith("msaa_lint")
@@ -168,12 +173,15 @@ def imports(module: str) -> Iterator[str]:
                 yield f".{found}"
 
 
-ARROWS = {(module, name[1:]) for module in MODULES for name in imports(module) if name.startswith(".") and name[1:] != module}
+@cache
+def arrows() -> frozenset[tuple[str, str]]:
+    """Which module imports which."""
+    return frozenset((module, name[1:]) for module in MODULES for name in imports(module) if name.startswith(".") and name[1:] != module)
 
 
-def circles(arrows: Mapping[str, set[str]]) -> set[str]:
+def circles(targets_of: Mapping[str, set[str]]) -> set[str]:
     """Those that can be reached from themselves."""
-    left = {name: set(targets) for name, targets in arrows.items()}
+    left = {name: set(targets) for name, targets in targets_of.items()}
     while free := {name for name, targets in left.items() if not targets & left.keys()}:
         left = {name: targets for name, targets in left.items() if name not in free}
     # What is left imports a circle or is on one.
@@ -186,7 +194,7 @@ def within(folder: str) -> dict[str, set[str]]:
     """The arrows between the entries of a folder, a subfolder being one entry; `` is the package itself."""
     depth = len(folder.split(".")) if folder else 0
     found: dict[str, set[str]] = {}
-    for source, target in ARROWS:
+    for source, target in arrows():
         ends = [source.split("."), target.split(".")]
         if all(not folder or end[:depth] == folder.split(".") for end in ends):
             a, b = (end[depth] for end in ends)
@@ -196,8 +204,8 @@ def within(folder: str) -> dict[str, set[str]]:
 
 
 def test_imports_are_found() -> None:
-    assert {".core.finding", ".cli.report.escape", "__future__"} <= set(imports("cli.report.full"))
-    assert ".linter.run" in set(imports("__init__")), "within a function"
+    assert {".core.finding", ".cli.report.escape", "__future__"} <= imports("cli.report.full")
+    assert ".linter.run" in imports("__init__"), "within a function"
 
 
 def test_the_top_is_easy_to_take_in() -> None:
@@ -209,14 +217,14 @@ def test_the_top_is_easy_to_take_in() -> None:
 @pytest.mark.parametrize("room", ROOMS)
 def test_a_room_imports_only_rooms_below_it(room: str) -> None:
     below = {*ROOMS[: ROOMS.index(room) + 1]}
-    assert {arrow for arrow in ARROWS if arrow[0].split(".")[0] == room and arrow[1].split(".")[0] not in below} == set()
+    assert {arrow for arrow in arrows() if arrow[0].split(".")[0] == room and arrow[1].split(".")[0] not in below} == set()
 
 
 def test_no_module_is_in_a_circle() -> None:
-    arrows: dict[str, set[str]] = {}
-    for source, target in ARROWS:
-        arrows.setdefault(source, set()).add(target)
-    assert circles(arrows) == set()
+    targets: dict[str, set[str]] = {}
+    for source, target in arrows():
+        targets.setdefault(source, set()).add(target)
+    assert circles(targets) == set()
 
 
 @pytest.mark.parametrize("folder", sorted({name.rpartition(".")[0] for name in MODULES}))
@@ -225,15 +233,15 @@ def test_no_folder_has_a_circle(folder: str) -> None:
 
 
 def test_rooms_are_few_levels_deep() -> None:
-    arrows = within("")
+    targets = within("")
     levels: dict[str, int] = {}
 
     def level(name: str) -> int:
         if name not in levels:
-            levels[name] = 1 + max(map(level, arrows.get(name, ())), default=0)
+            levels[name] = 1 + max(map(level, targets.get(name, ())), default=0)
         return levels[name]
 
-    assert max(map(level, arrows)) <= MAX_LEVELS
+    assert max(map(level, targets)) <= MAX_LEVELS
 
 
 @pytest.mark.parametrize("package", ONLY_IN)

@@ -270,23 +270,24 @@ def test_flicker_is_the_same_wherever_the_edge_is_and_along_both_axes(technique:
             assert flicker(half_plane(place, upright), technique) == pytest.approx(due, rel=1e-14)
 
 
-ROWS = study_numbers.rows()
+@pytest.fixture(scope="module")
+def rows() -> list[Row]:
+    return study_numbers.rows()
 
 
-@pytest.mark.parametrize("row", ROWS, ids=[row.case for row in ROWS])
-def test_ours_is_exact_in_every_hard_case(row: Row) -> None:
-    assert row.right(row.ours), row
+def test_ours_is_exact_in_every_hard_case(rows: list[Row]) -> None:
+    assert [row for row in rows if not row.right(row.ours)] == []
 
 
-def test_the_tables_have_cases_that_naive_arithmetic_gets_wrong() -> None:
-    wrong = [row for row in ROWS if not row.right(row.naive)]
-    assert len(wrong) >= len(ROWS) * 2 // 3
-    assert any(not row.right(row.double) for row in ROWS)
+def test_the_tables_have_cases_that_naive_arithmetic_gets_wrong(rows: list[Row]) -> None:
+    wrong = [row for row in rows if not row.right(row.naive)]
+    assert len(wrong) >= len(rows) * 2 // 3
+    assert any(not row.right(row.double) for row in rows)
 
 
-def test_the_tables_are_fresh() -> None:
+def test_the_tables_are_fresh(rows: list[Row]) -> None:
     page = study_numbers.PAGE.read_text(encoding="utf-8")
-    fresh = study_numbers.fresh(page, ROWS)
+    fresh = study_numbers.fresh(page, rows)
     if os.environ.get("UPDATE"):
         study_numbers.PAGE.write_text(fresh, encoding="utf-8")
     assert page == fresh or os.environ.get("UPDATE"), "python -m docs.study_numbers writes them anew"

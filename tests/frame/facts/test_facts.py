@@ -69,7 +69,10 @@ def texts() -> Iterator[str]:
         yield example.text
 
 
-ALL = [subject for text in texts() for subject in found(text)]
+@pytest.fixture(scope="module")
+def every() -> list[Subject]:
+    """The subjects of all texts."""
+    return [subject for text in texts() for subject in found(text)]
 
 
 def is_of(fact: Fact, value: object) -> bool:
@@ -90,32 +93,32 @@ def undeclared(subject: Subject) -> list[tuple[str, object]]:
     return [(name, value) for name, value in subject.facts.values.items() if name not in declared or not is_of(declared[name], value)]
 
 
-def test_every_fact_that_is_put_is_declared_with_its_type() -> None:
-    for subject in ALL:
+def test_every_fact_that_is_put_is_declared_with_its_type(every: list[Subject]) -> None:
+    for subject in every:
         assert undeclared(subject) == [], subject.path
         assert set(subject.facts.places) <= {fact.name for fact in SUBJECTS[subject.kind]}, subject.path
 
 
 @pytest.mark.parametrize("kind", SUBJECTS)
-def test_every_declared_fact_is_put_somewhere(kind: str) -> None:
-    put = {name for subject in ALL if subject.kind == kind for name in subject.facts.values}
+def test_every_declared_fact_is_put_somewhere(kind: str, every: list[Subject]) -> None:
+    put = {name for subject in every if subject.kind == kind for name in subject.facts.values}
     assert {fact.name for fact in SUBJECTS[kind]} - put == set()
 
 
 @pytest.mark.parametrize("fact", [fact for fact in FACTS.values() if fact.type == "BOOL"], ids=lambda fact: fact.name)
-def test_a_yes_or_no_is_both_somewhere(fact: Fact) -> None:
+def test_a_yes_or_no_is_both_somewhere(fact: Fact, every: list[Subject]) -> None:
     """A fact that is always the same decides nothing: its test, or its case, is missing."""
-    assert {subject.facts.values[fact.name] for subject in ALL if fact.name in subject.facts.values} == {True, False}
+    assert {subject.facts.values[fact.name] for subject in every if fact.name in subject.facts.values} == {True, False}
 
 
-def test_never_unknown_is_never_unknown() -> None:
+def test_never_unknown_is_never_unknown(every: list[Subject]) -> None:
     """Facts that are declared so stand in every subject that has the rest of their group."""
     for kind, facts in SUBJECTS.items():
         for fact in facts:
             if "never unknown" not in fact.doc or (kind == "pipeline" and fact.name.startswith(("pass.", "subpass."))):
                 continue
             group = fact.name.partition(".")[0]
-            for subject in ALL:
+            for subject in every:
                 within = {name.partition(".")[0] for name in subject.facts.values}
                 if subject.kind == kind and group in within and subject.facts.values.get("image.stated", True):
                     assert fact.name in subject.facts.values, (fact.name, subject.path)
