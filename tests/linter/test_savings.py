@@ -96,13 +96,13 @@ def assert_saved(before: Mapping[str, Sequence[float]], after: Mapping[str, Sequ
 
 def assert_law(folder: Path, texts: Mapping[str, str]) -> dict[str, Savings]:
     """Checks the law on texts by file name; returns what is saved of each file."""
-    savings: dict[str, Savings] = {}
+    for name, text in texts.items():
+        (folder / name).write_text(text)
+    savings = {Path(file).name: entry for file, entry in lint(folder.as_posix(), isolated=True).savings.items()}
+    before = costs(folder)
     for options in (["--fix"], ["--fix", "--unsafe-fixes"]):
         for name, text in texts.items():
             (folder / name).write_text(text)
-        result = lint(folder.as_posix(), isolated=True)
-        savings = {Path(file).name: entry for file, entry in result.savings.items()}
-        before = costs(folder)
         run(folder, "check", "--isolated", *options, ".")
         entries = {name: entry.all if "--unsafe-fixes" in options else entry.safe for name, entry in savings.items()}
         assert_saved(before, costs(folder), {name: entry.price for name, entry in entries.items()})

@@ -23,7 +23,7 @@ SECONDS, LEAST_ROUNDS = 20.0, 7
 """Unless the number of repeats is stated, a measurement ends after so many seconds, but has at least so many rounds: of fewer than six, no
 interval contains the median with a probability of 95 %."""
 
-SOFTWARE_SECONDS, LEAST_SOFTWARE_ROUNDS = 8.0, 3
+SOFTWARE_SECONDS, LEAST_SOFTWARE_ROUNDS = 4.0, 3
 """The same for a software driver, whose times decide nothing."""
 
 CALIBRATION_WARM_SECONDS = 1.0

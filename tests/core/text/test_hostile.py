@@ -216,15 +216,15 @@ def test_ten_megabytes_of_one_scalar(before: str, after: str) -> None:
         ("%{}", "directive"),
     ],
 )
-def test_ten_megabytes_of_one_key_or_name(text: str, code: str | None) -> None:
-    text = text.format("k" * 10_000_000)
+def test_two_megabytes_of_one_key_or_name(text: str, code: str | None) -> None:
+    text = text.format("k" * 2_000_000)
     documents, problems = reading(text)
     assert len(documents) + len(problems) in (0, 1, 2)
     assert all(len(problem.message) < 300 for problem in problems)
     if problems and code is not None:
         assert code in problems[0].message
     if text.startswith("?"):
-        assert plain(documents[0]) == {"k" * 10_000_000: 1}
+        assert plain(documents[0]) == {"k" * 2_000_000: 1}
 
 
 @pytest.mark.usefixtures("stack")

@@ -32,10 +32,15 @@ def test_every_example_is_studied(tmp_path: Path, path: Path) -> None:
     assert "Traceback" not in done.stdout and "internal error" not in done.stdout
 
 
-def test_a_forward_frame_is_timed_as_it_is(tmp_path: Path) -> None:
-    """All techniques under two costs of shading: what the scene draws with more samples takes more invocations, and shading adds time to
-    the passes of the techniques alone."""
-    data = studied(tmp_path, str(EXAMPLES / "phone/forward.msaa.yaml"), *ON_LAVAPIPE, "--shading", "none,200ops")
+@pytest.fixture(scope="module")
+def forward(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
+    """A study of the phone's frame with all techniques under two costs of shading."""
+    return studied(tmp_path_factory.mktemp("forward"), str(EXAMPLES / "phone/forward.msaa.yaml"), *ON_LAVAPIPE, "--shading", "none,200ops")
+
+
+def test_a_forward_frame_is_timed_as_it_is(forward: dict[str, Any]) -> None:
+    """What the scene draws with more samples takes more invocations, and shading adds time to the passes of the techniques alone."""
+    data = forward
     (scene,) = data["scenes"]
     priced = "bytes, power, and memory are those of the frame at its described size, 1080x2400, with a technique's sample count"
     assert scene["assumed"] == ["the techniques apply to scene", priced]
@@ -56,13 +61,11 @@ def test_a_capture_is_timed_as_it_is(tmp_path: Path) -> None:
     assert [(point["name"], point["time_ms"] is not None) for point in data["points"]] == [("1x", True), ("4x", True)]
 
 
-def test_the_bytes_of_a_frame_are_those_of_its_passes(tmp_path: Path) -> None:
+def test_the_bytes_of_a_frame_are_those_of_its_passes(tmp_path: Path, forward: dict[str, Any]) -> None:
     """What `cost` says of the frame as written is what a study says of its sample count; supersampling is not described."""
-    path = str(EXAMPLES / "phone/forward.msaa.yaml")
-    data = studied(tmp_path, path, *ON_LAVAPIPE, "--shading", "none")
-    done = run(tmp_path, "cost", path, "--isolated", "--output", "json")
+    done = run(tmp_path, "cost", str(EXAMPLES / "phone/forward.msaa.yaml"), "--isolated", "--output", "json")
     total = json.loads(done.stdout)["total"]
-    points = {point["name"]: point for point in data["points"]}
+    points = {point["name"]: point for point in forward["points"]}
     assert points["4x"]["milliwatts"] == pytest.approx(total["milliwatts"], abs=0.01)
     assert points["4x"]["bytes_per_frame"] == pytest.approx((total["read_mb_per_s"] + total["write_mb_per_s"]) * 1e6 / 60)
     assert points["SSAA 2x2"]["bytes_per_frame"] is None

@@ -42,7 +42,7 @@ def expected(position: Fraction, technique: Technique, upright: bool, sweeps: tu
         for step in range(65):
             now = position + Fraction(direction * step, 64)
             errors, edges = {}, set()
-            for pixel in range(16, 32):
+            for pixel in range(int(position) - 2, int(position) + 3):
                 exact = min(max(now - pixel, Fraction(0)), Fraction(1))
                 errors[pixel] = Fraction(sum(pixel + place < now for place in samples), len(samples)) - exact
                 if 0 < exact < 1:

@@ -114,16 +114,16 @@ def test_any_text_keeps_its_length_and_its_lines(text: str, page: str) -> None:
 @pytest.mark.parametrize(
     "text",
     [
-        "- " * 200_000,
-        "> " * 200_000,
-        "```" * 100_000,
-        "```cpp\n" * 50_000,
-        "  - x\n" * 20_000,
-        ">" * 300_000,
-        "[source,cpp]\n" * 20_000,
-        "[source,cpp]\n----\n" * 20_000,
-        "[source%a%a" * 30_000,
-        ".. code:: cpp\n  a\n" * 20_000,
+        "- " * 100_000,
+        "> " * 100_000,
+        "```" * 50_000,
+        "```cpp\n" * 25_000,
+        "  - x\n" * 10_000,
+        ">" * 150_000,
+        "[source,cpp]\n" * 10_000,
+        "[source,cpp]\n----\n" * 10_000,
+        "[source%a%a" * 15_000,
+        ".. code:: cpp\n  a\n" * 10_000,
     ],
 )
 @pytest.mark.parametrize("page", ["markdown", *BLOCKS])
