@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from functools import cache
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 from msaa_lint.core.allowance import Allowance
 from msaa_lint.core.diagnostics import DIAGNOSTICS, HIDDEN_CHARACTER, diagnostic
@@ -47,6 +47,8 @@ UNLIMITED = Limits(depth=100, nodes=1 << 40, bytes=1 << 40)
 
 MAX_UNDECODABLE = 200
 """Bytes that an excerpt shows from the first one that is not text."""
+
+ResultType = TypeVar("ResultType", Finding, Undecided)
 
 _COMMENT_MARKS = ("msaa-lint", "msaalint", "msaa_lint", "msaa lint")
 """What a suppression comment contains, in lower case, misspelled ones included."""
@@ -150,7 +152,7 @@ class Engine:
             else:
                 verdicts, device = self.lint_document(document, file, options, bool(parsed.problems))
             findings.extend(_prefixed(verdicts.findings, prefix))
-            undecided.extend(rule._replace(subject=prefix + rule.subject) for rule in verdicts.undecided)
+            undecided.extend(_prefixed(verdicts.undecided, prefix))
             results.append(DocumentResult(document, verdicts.fix_specs, number, device, verdicts.checked))
         if modules is None:
             findings += _untold(hidden_characters(source), findings)
@@ -407,8 +409,9 @@ def _with_fixes(results: Iterable[DocumentResult], findings: list[Finding], opti
     return findings
 
 
-def _prefixed(findings: Iterable[Finding], prefix: str) -> Iterable[Finding]:
-    return (found._replace(subject=prefix + found.subject) for found in findings) if prefix else findings
+def _prefixed(results: Iterable[ResultType], prefix: str) -> Iterable[ResultType]:
+    """Findings, or undecided rules, whose subjects' paths begin with the document's."""
+    return (each._replace(subject=prefix + each.subject) for each in results) if prefix else results
 
 
 def _of_code(finding: Finding) -> Finding:

@@ -34,10 +34,11 @@ class Positions:
 
     def position(self, offset: int) -> types.Position:
         """The position of an offset in code points."""
-        source = self.source
-        place = source.position(min(max(offset, 0), len(source.text)))
-        start = source.starts[place.line - 1]
-        return types.Position(place.line - 1, self._units(source.text[start : start + place.column - 1]))
+        text, starts = self.source.text, self.source.starts
+        offset = min(max(offset, 0), len(text))
+        line = bisect_right(starts, offset) - 1
+        start = starts[line]
+        return types.Position(line, offset - start if text.isascii() else self._units(text[start:offset]))
 
     def _units(self, text: str) -> int:
         return len(text) if text.isascii() else len(text.encode(self._codec, "surrogatepass")) // self._size

@@ -12,7 +12,7 @@ from typing import NamedTuple, TypeVar
 
 from lsprotocol import types
 
-from msaa_lint.core.garbage import MAX_GARBAGE, collect_garbage
+from msaa_lint.core.garbage import MAX_GARBAGE
 
 from .analysis import Analysis
 from .documents import OpenDocument
@@ -108,10 +108,17 @@ class Worker:
             else:
                 self._post(_succeed, future, result)
 
-        with self._changed:
-            self._calls.append(run)
-            self._changed.notify()
+        self._call(run)
         return await future
+
+    def _call(self, function: Callable[[], None]) -> None:
+        with self._changed:
+            self._calls.append(function)
+            self._changed.notify()
+
+    def _collect_garbage(self) -> None:
+        """Collects garbage once what has waited for a result has answered: nothing else runs meanwhile."""
+        self._loop.call_soon(self._call, _collect_garbage)
 
     def _start(self) -> None:
         if not self._started:
@@ -126,9 +133,8 @@ class Worker:
                 self._analyze(work)
             else:
                 work()
-            # The command line disables the collector, and the parts of a frame refer to each other. Sooner than a run does, which would
-            # do it before its result is known.
-            collect_garbage(MAX_GARBAGE // 2)
+            if _has_garbage():
+                self._post(self._collect_garbage)
 
     def _next(self) -> _Job | Callable[[], None]:
         """What to do next, when it is due."""
@@ -177,6 +183,20 @@ class Worker:
         self._done(analysis)
         for future in self._waiting.pop(uri, ()):
             _succeed(future, None)
+
+
+def _has_garbage() -> bool:
+    """Whether there is more than may accumulate. It is less than for a run, which would collect garbage before its result is known."""
+    return gc.get_count()[0] > MAX_GARBAGE // 2
+
+
+def _collect_garbage() -> None:
+    """Collects garbage: the command line disables the collector, and the parts of a frame refer to each other.
+
+    All of it is looked for: the last result of a document outlives a collection, but not the next edits.
+    """
+    if _has_garbage():
+        gc.collect()
 
 
 def _succeed(future: asyncio.Future[T], result: T) -> None:

@@ -38,6 +38,8 @@ class Stop(Exception):
         self.problem = Problem(code, message, Span(start, max(end, start)))
 
 
+_new = tuple.__new__
+
 NO_KEYS: dict[str, Node] = {}
 """The keys of a node that is not a mapping; shared, so never changed."""
 
@@ -76,4 +78,5 @@ class Node:
 
     @property
     def span(self) -> Span:
-        return Span(self.start, self.end)
+        # Span() without the call of a function in between: a frame asks for some ten thousand.
+        return _new(Span, (self.start, self.end))

@@ -56,26 +56,27 @@ class Binder(ValueBinder):
 
     def members(self, record: Record, node: Node, path: str) -> None:
         """Gives a record the members that a mapping states."""
-        kind = type(record)
+        kind, shapes, dumped = type(record), record.SHAPE, self.dumped
         for key_text, value in node.value.items():
-            name = member_name(kind, key_text) if self.dumped else key_text
+            name = member_name(kind, key_text) if dumped else key_text
             if name is None:
                 continue
-            shape = kind.SHAPE.get(name)
+            shape = shapes.get(name)
             key = node.keys[key_text]
+            is_bare = not dumped and has_no_value(value)
             if shape is None:
                 self.unknown_key(kind, key, value, path)
                 if hidden_character(key_text):
                     # The keys below it are indented by such characters too.
                     break
-            elif not self.dumped and has_no_value(value) and key.start < key.end == value.start == value.end:
+            elif is_bare and key.start < key.end == value.start == value.end:
                 self.report("MSAA901", f"`:` is missing after the key {quoted(key_text)}", key.span, f"{path}.{name}".lstrip("."))
                 break
-            elif has_no_value(value) and not self.dumped and (below := key_below(shape, kind, node, key_text)) is not None:
+            elif is_bare and (below := key_below(shape, kind, node, key_text)) is not None:
                 if not hidden_character(below.text):
                     self.unindented(key_text, below, path)
                     break
-            elif not (self.dumped and is_null(value)):
+            elif not (dumped and is_null(value)):
                 record.spelled[name] = (key, value)
                 setattr(record, name, self.value(shape, value, f"{path}.{key_text}" if path else key_text, key_text, key.span))
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Container
-from itertools import pairwise
 from typing import ClassVar
 
 from msaa_lint.core.text.node import Node
@@ -52,9 +51,10 @@ class Record:
 
         The record's head if none of them is stated.
         """
+        spelled = self.spelled
         for name in names:
-            if name in self.spelled:
-                key, value = self.spelled[name]
+            if name in spelled:
+                key, value = spelled[name]
                 return key.span if value.kind != "scalar" and _is_wide(value) else value.span
         return self.head
 
@@ -73,10 +73,12 @@ def _is_wide(value: Node) -> bool:
     if value.kind != "sequence":
         return value.kind == "mapping"
     items: list[Node] = value.value
-    if any(item.kind == "mapping" for item in items):
-        return True
     if not items or value.anchor is not None:
-        return False
+        return any(item.kind == "mapping" for item in items)
+    end = value.start
+    for item in items:
+        if item.kind == "mapping" or item.start - end > 2:
+            return True
+        end = item.end
     # A block list, which has no brackets, ends with its last item.
-    gaps = [items[0].start - value.start, *(after.start - item.end for item, after in pairwise(items))]
-    return value.end == items[-1].end or value.end - items[-1].end > 2 or max(gaps) > 2
+    return value.end == end or value.end - end > 2

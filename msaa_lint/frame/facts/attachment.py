@@ -89,11 +89,12 @@ def aspect_facts(render_pass: Pass, attachment: Attachment, aspect: Aspect, reso
     facts = Facts()
     record = attachment.record
     facts.put("aspect.name", aspect.name, record.head)
-    facts.put("aspect.load", aspect.load, record.place(aspect.load_member))
-    facts.put("aspect.store", aspect.store, record.place(aspect.store_member))
+    load_at, store_at = record.place(aspect.load_member), record.place(aspect.store_member)
+    facts.put("aspect.load", aspect.load, load_at)
+    facts.put("aspect.store", aspect.store, store_at)
     stored = aspect.store == "STORE"
     needs = [op for op, member in ((aspect.store, "STORE"), (aspect.load, "LOAD")) if op == member]
-    facts.put("aspect.memory_operations", needs, record.place(aspect.store_member if stored else aspect.load_member))
+    facts.put("aspect.memory_operations", needs, store_at if stored else load_at)
     if isinstance(record, AttachmentDescription):
         separate = aspect.name == "stencil" and record.stencilInitialLayout is not None
         layout = record.stencilInitialLayout if separate else record.initialLayout
@@ -117,5 +118,5 @@ def aspect_facts(render_pass: Pass, attachment: Attachment, aspect: Aspect, reso
     store = readers.stored_before(render_pass, attachment, aspect)
     facts.put("aspect.stored_by", store.render_pass.name if store else None, store.place if store else None)
     costly = [op for op, costs in (("LOAD", aspect.load == "LOAD"), ("STORE", stored and read_later is False)) if costs]
-    facts.put("aspect.costly_operations", costly, record.place(aspect.load_member if "LOAD" in costly else aspect.store_member))
+    facts.put("aspect.costly_operations", costly, load_at if "LOAD" in costly else store_at)
     return facts

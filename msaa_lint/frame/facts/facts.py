@@ -18,9 +18,10 @@ class Facts:
     __slots__ = ("places", "values")
 
     def __init__(self, *others: Facts) -> None:
-        self.values: dict[str, Value] = {}
-        self.places: dict[str, Span] = {}
-        for other in others:
+        # A copy is made faster than an empty dict is filled.
+        self.values: dict[str, Value] = others[0].values.copy() if others else {}
+        self.places: dict[str, Span] = others[0].places.copy() if others else {}
+        for other in others[1:]:
             self.values.update(other.values)
             self.places.update(other.places)
 

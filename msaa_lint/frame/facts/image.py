@@ -87,10 +87,11 @@ def image_facts(target: Target, bindings: Bindings, frame: Frame, readers: Reade
     facts.put("image.is_data", image is not None and image.encoding == "DATA")
     facts.put("image.samples", target.samples, record.place("samples"))
     format = target.format
-    facts.put("image.format", format.name if format is not None else None, record.place("format"))
+    format_at = record.place("format")
+    facts.put("image.format", format.name if format is not None else None, format_at)
     if format is not None:
-        facts.put("image.is_color", "color" in format.aspects, record.place("format"))
-        facts.put("image.numeric", format.numeric or None, record.place("format"))
+        facts.put("image.is_color", "color" in format.aspects, format_at)
+        facts.put("image.numeric", format.numeric or None, format_at)
         facts.put("image.is_half_float", format.is_float16)
     supported, whole = supported_samples(target, device)
     if supported is not None and device is not None:
@@ -123,10 +124,11 @@ def image_facts(target: Target, bindings: Bindings, frame: Frame, readers: Reade
     if image.usage is not None:
         at = image.place("usage")
         facts.put("image.usage", list(image.usage), at)
-        facts.put("image.transient", "TRANSIENT_ATTACHMENT" in image.usage, image.flag_place("usage", ("TRANSIENT_ATTACHMENT",)))
+        transient_at = image.flag_place("usage", ("TRANSIENT_ATTACHMENT",))
+        facts.put("image.transient", "TRANSIENT_ATTACHMENT" in image.usage, transient_at)
         facts.put("image.attachment_usage", not _ATTACHMENT_USAGES.isdisjoint(image.usage), at)
         conflicts = [usage for usage in image.usage if usage not in BESIDE_TRANSIENT]
-        facts.put("image.transient_conflicts", conflicts, image.flag_place("usage", conflicts or ["TRANSIENT_ATTACHMENT"]))
+        facts.put("image.transient_conflicts", conflicts, image.flag_place("usage", conflicts) if conflicts else transient_at)
         facts.put("image.is_render_target", rendered, at)
     elif rendered:
         facts.put("image.is_render_target", True)
@@ -191,15 +193,17 @@ def _multisampling_conflicts(image: Image) -> list[tuple[str, Span]]:
 
 
 def _compression_blockers(image: Image, device: DeviceProfile | None) -> list[tuple[str, Span]]:
-    stated = {
-        "STORAGE": ("STORAGE" in (image.usage or ()), image.flag_place("usage", ("STORAGE",))),
-        "MUTABLE_FORMAT": ("MUTABLE_FORMAT" in image.flags, image.flag_place("flags", ("MUTABLE_FORMAT",))),
-        "CONCURRENT": (image.sharingMode == "CONCURRENT", image.place("sharingMode")),
-        "LINEAR": (image.tiling == "LINEAR", image.place("tiling")),
-    }
-    vendor = device.vendor if device is not None else None
-    names = COMPRESSION_BLOCKERS.get(vendor or "", tuple(stated))
-    return [(name, at) for name, (there, at) in stated.items() if there and name in names]
+    stated = []
+    if "STORAGE" in (image.usage or ()):
+        stated.append(("STORAGE", image.flag_place("usage", ("STORAGE",))))
+    if "MUTABLE_FORMAT" in image.flags:
+        stated.append(("MUTABLE_FORMAT", image.flag_place("flags", ("MUTABLE_FORMAT",))))
+    if image.sharingMode == "CONCURRENT":
+        stated.append(("CONCURRENT", image.place("sharingMode")))
+    if image.tiling == "LINEAR":
+        stated.append(("LINEAR", image.place("tiling")))
+    names = COMPRESSION_BLOCKERS.get(device.vendor or "") if device is not None else None
+    return stated if names is None else [(name, at) for name, at in stated if name in names]
 
 
 def _loaded(bound: list[Attachment], frame: Frame) -> bool | None:

@@ -62,23 +62,6 @@ class MissingKeys:
         document = analysis.frame.document
         self._converted = document.tree is not None or document.source.origins is not None
         self._steps = Allowance(MAX_STEPS)
-        self._parts: dict[str, Callable[[Subject, str], Iterable[Place]]] = {
-            "image": lambda subject, member: self._of_images(self._images(subject), member),
-            "attachment": self._attachment,
-            "attachments": self._attachments,
-            "pipelines": self._pipelines,
-            "pass": self._pass,
-            "resolve": lambda subject, member: _of_resolve(subject.resolve, member),
-            "pair": lambda subject, member: _of_resolve(subject.resolve.pair if subject.resolve is not None else None, member),
-            "source": lambda subject, member: self._of_end(subject, member, "source"),
-            "target": lambda subject, member: self._of_end(subject, member, "target"),
-            "dependency": lambda subject, member: _one(subject.dependency, member),
-            "pipeline": self._pipeline,
-            "read": self._read,
-            "choice": lambda subject, member: _one(self._choice(subject), member),
-            "begins": self._begins,
-            "device": lambda subject, member: self._device(subject, member),
-        }
 
     def of(self, subject: Subject, fact: str) -> list[MissingKey]:
         """The keys to write next so that a fact of a subject is known; empty if no key is missing."""
@@ -103,7 +86,7 @@ class MissingKeys:
 
     def _places(self, subject: Subject, key: str) -> Iterator[Place]:
         part, _, member = key.partition(".")
-        places = self._parts[part](subject, member) if part in self._parts else [(self.description, key)]
+        places = _PARTS[part](self, subject, member) if part in _PARTS else [(self.description, key)]
         for record, path in places:
             yield from [(record, path)] if self.lowered is None else self._in_metal(record, path, subject)
 
@@ -328,6 +311,27 @@ class MissingKeys:
                 yield from ((each, _METAL_ATTACHMENT[path]) for each in structures)
         elif record is self.description:
             yield (metal, path) if path == "commands" else (record, path)
+
+
+# Not in each object, which would refer to itself: it would keep all that is known of a frame until garbage is collected.
+_PARTS: dict[str, Callable[[MissingKeys, Subject, str], Iterable[Place]]] = {
+    "image": lambda keys, subject, member: keys._of_images(keys._images(subject), member),
+    "attachment": MissingKeys._attachment,
+    "attachments": MissingKeys._attachments,
+    "pipelines": MissingKeys._pipelines,
+    "pass": MissingKeys._pass,
+    "resolve": lambda _, subject, member: _of_resolve(subject.resolve, member),
+    "pair": lambda _, subject, member: _of_resolve(subject.resolve.pair if subject.resolve is not None else None, member),
+    "source": lambda keys, subject, member: keys._of_end(subject, member, "source"),
+    "target": lambda keys, subject, member: keys._of_end(subject, member, "target"),
+    "dependency": lambda _, subject, member: _one(subject.dependency, member),
+    "pipeline": MissingKeys._pipeline,
+    "read": MissingKeys._read,
+    "choice": lambda keys, subject, member: _one(keys._choice(subject), member),
+    "begins": MissingKeys._begins,
+    "device": MissingKeys._device,
+}
+"""What finds the records for each part of the frame."""
 
 
 def _parts(render_pass: Pass) -> Iterator[Record]:

@@ -12,7 +12,7 @@ from msaa_lint.core.finding import CONFIDENCES, Finding, Fix, MissingKey, Undeci
 from msaa_lint.core.quote import quoted, shortened
 from msaa_lint.core.text.span import Label, Span
 from msaa_lint.frame.facts.facts import Facts, Subject, Value
-from msaa_lint.frame.facts.table import PASS_PARTS
+from msaa_lint.frame.facts.table import FACTS, PASS_PARTS
 
 from .budget import REPORT, UNDECIDED, Budget, OverBudget
 from .condition import Condition, activation, named
@@ -80,7 +80,7 @@ class RuleRunner:
             for api in rule.apis:
                 self._by_subject.setdefault(api.upper(), {}).setdefault(rule.subject, []).append(rule)
         self._conditions: dict[str, Condition] = {}
-        self._fact_names: dict[tuple[str, str], tuple[str, ...]] = {}
+        self._fact_names: dict[tuple[str, str], tuple[tuple[str, ...], tuple[str, ...], tuple[str, ...]]] = {}
         self._cache: dict[tuple[object, ...], _Cached] = {}
         self._cached_characters = 0
         self._severity: object = None
@@ -190,10 +190,11 @@ class RuleRunner:
         return self._conditions[text]
 
     def _evaluation(self, subject: Subject, api: str) -> _Evaluation:
-        names = self._facts_used(api, subject.kind)
+        names, single, lists = self._facts_used(api, subject.kind)
         values = subject.facts.values
         # A fact has one type and is never None: values that are equal here are equal in a condition.
-        facts = (api, subject.kind, *[tuple(value) if type(value) is list else value for value in map(values.get, names)])
+        of_lists = [tuple(value) if isinstance(value, list) else None for value in map(values.get, lists)]
+        facts = (api, subject.kind, *map(values.get, single), *of_lists)
         cached = self._cache.get(facts)
         if cached is None:
             self._cached_characters += sum(len(each) for each in facts if isinstance(each, str))
@@ -203,13 +204,16 @@ class RuleRunner:
             cached = self._cache[facts] = _Cached()
         return _Evaluation(names, values, cached, self._budget)
 
-    def _facts_used(self, api: str, kind: str) -> tuple[str, ...]:
-        names = self._fact_names.get((api, kind))
-        if names is None:
+    def _facts_used(self, api: str, kind: str) -> tuple[tuple[str, ...], tuple[str, ...], tuple[str, ...]]:
+        """The facts that the rules for a kind of subject name: all of them, those with single values, and those with lists."""
+        found = self._fact_names.get((api, kind))
+        if found is None:
             rules = self._by_subject.get(api, {}).get(kind, ())
             conditions = [text for rule in rules for text in (rule.when, *(case.when for case in rule.cases))]
-            names = self._fact_names[api, kind] = tuple(dict.fromkeys(name for text in conditions for name in named(text)))
-        return names
+            names = tuple(dict.fromkeys(name for text in conditions for name in named(text)))
+            lists = tuple(name for name in names if FACTS[name].type in ("LIST", "INTS"))
+            found = self._fact_names[api, kind] = (names, tuple(name for name in names if name not in lists), lists)
+        return found
 
 
 class _Cached:
@@ -342,6 +346,8 @@ def _within(labels: object) -> str:
 
 def fill_in(text: str, facts: Facts) -> str:
     """A page's text with the facts in braces replaced by their values."""
+    if "{" not in text:
+        return text
     return _PLACEHOLDER.sub(lambda match: shortened(_format(facts.values.get(match[1])), MAX_VALUE), text)
 
 
@@ -363,6 +369,8 @@ def _if_begun(found: Finding) -> Finding:
 
 def _without_superseded(fired: list[tuple[Rule, Finding]]) -> list[Finding]:
     """The findings of one subject without those that a more specific one supersedes, which says so in a note."""
+    if len(fired) < 2:
+        return [found for _, found in fired]
     by_name = {rule.name: found for rule, found in fired}
     superseded = {name for rule, _ in fired for name in rule.supersedes if name in by_name}
     findings = []
