@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from msaa_lint.cli.lsp.completion import KEY, Completion, complete
+from msaa_lint.cli.lsp.file_paths import paths
 from msaa_lint.cli.lsp.places import alternatives
 from msaa_lint.cli.lsp.view import View
 from msaa_lint.frame.description.models import Description
@@ -222,6 +223,15 @@ def test_files(folder: Path, text: str, kind: str, expected: list[str]) -> None:
     item = found[expected[-1]]
     after = without[: item.start] + item.text + without[item.end :]
     assert expected[-1] in after and not any(part in after for part in ("de/", "pages/pages", "shaders/shaders", "./r"))
+
+
+def test_files_of_a_large_folder_are_bounded(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    assert paths(str(folder), (".spv", ".frag")) == ["shaders/a.frag.spv", "shaders/deep/b.frag"]
+    (folder / "link").symlink_to(folder / "shaders")
+    assert paths(str(folder), (".spv",)) == ["shaders/a.frag.spv"]
+    monkeypatch.setattr("msaa_lint.cli.lsp.file_paths.MAX_ENTRIES", 3)
+    assert len(paths(str(folder), ("",))) <= 3
+    assert paths(str(folder / "none"), (".spv",)) == []
 
 
 def leaves(kind: type[Record], text: str = "^", seen: frozenset[type[Record]] = frozenset()) -> Iterator[tuple[str, str, Shape, str]]:

@@ -60,6 +60,7 @@ def covered(place: types.Range) -> str:
 @pytest.mark.asyncio
 async def test_hover(client: pytest_lsp.LanguageClient, document: types.TextDocumentIdentifier) -> None:
     answer = await client.text_document_hover_async(types.HoverParams(document, position("STORE", 2)))
+    assert "Cost of the whole frame with this value and with others:" in answer.contents.value
     assert "| `DONT_CARE` | 400 (−1,600) |" in answer.contents.value and covered(answer.range) == "STORE"
     assert await client.text_document_hover_async(types.HoverParams(document, types.Position(99, 0))) is None
 
@@ -135,3 +136,15 @@ async def test_folds_links_and_selections(
     client.text_document_did_open(types.DidOpenTextDocumentParams(item))
     (link,) = await client.text_document_document_link_async(types.DocumentLinkParams(types.TextDocumentIdentifier(item.uri)))
     assert link.target == (tmp_path / "a.spv").as_uri()
+
+
+@pytest.mark.asyncio
+async def test_settings_are_explained(client: pytest_lsp.LanguageClient, tmp_path: Path) -> None:
+    item = types.TextDocumentItem((tmp_path / "msaa-lint.toml").as_uri(), "toml", 1, "strict-inputs = true\nfail-on")
+    client.text_document_did_open(types.DidOpenTextDocumentParams(item))
+    document = types.TextDocumentIdentifier(item.uri)
+    answer = await client.text_document_completion_async(types.CompletionParams(document, types.Position(1, 7)))
+    (cost,) = [each for each in answer.items if each.label == "fail-on-cost"]
+    assert cost.detail == "a cost, such as `50MB/s`, `100mW`, or `16MiB`" and cost.documentation.value.startswith("**fail-on-cost**")
+    hovered = await client.text_document_hover_async(types.HoverParams(document, types.Position(0, 3)))
+    assert hovered.contents.value.endswith("Default: `false`") and hovered.range.end.character == len("strict-inputs")

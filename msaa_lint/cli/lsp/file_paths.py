@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator, Sequence
+from itertools import islice
 
 from msaa_lint.input.discovery import SKIPPED_FOLDERS
 
@@ -21,14 +22,15 @@ def paths(folder: str, endings: Sequence[str]) -> list[str]:
 
 def _paths(folder: str, endings: tuple[str, ...]) -> Iterator[str]:
     pending, left = [("", 0)], MAX_ENTRIES
-    while pending:
+    while pending and left:
         inner, depth = pending.pop(0)
         try:
-            entries = sorted(os.scandir(os.path.join(folder, inner)), key=lambda entry: entry.name)
+            with os.scandir(os.path.join(folder, inner)) as listed:
+                entries = sorted(islice(listed, left), key=lambda entry: entry.name)
         except OSError:
             continue
-        for entry in entries[:left]:
-            left -= 1
+        left -= len(entries)
+        for entry in entries:
             path = f"{inner}{entry.name}"
             if entry.name.startswith(".") or entry.name in SKIPPED_FOLDERS or entry.is_symlink():
                 continue
