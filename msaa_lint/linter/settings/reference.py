@@ -49,7 +49,7 @@ SETTINGS: dict[str, Setting] = {
     "source.assume": Setting(
         "a table from names to values", "values that [source code does not state](source-code.md#stating-what-the-code-does-not)"
     ),
-    "output": Setting("a list of output formats", "the formats to print, as for `--output`", "`full`; `concise` in a pipe"),
+    "output": Setting("a list of output formats", "the formats that `check` prints, as for its `--output`", "`full`; `concise` in a pipe"),
     "docs-url": Setting(
         "an http or https address", 'the documentation\'s site, for links to the pages of rules; `""` for none', "that of the package"
     ),
