@@ -222,9 +222,9 @@ def write_figure(path: str, option: str, figure: Callable[[], dict[str, Any]]) -
         atomic_write.write_file(path, data)
 
 
-def require_figures(option: str) -> None:
-    """UsageError if the extra `chart` is not installed."""
-    if find_spec("altair") is None or find_spec("vl_convert") is None:
+def require_figures(option: str, format: str = "svg") -> None:
+    """UsageError if what figures of a format need is not installed: the extra `chart`, of which JSON needs altair alone."""
+    if any(find_spec(package) is None for package in ("altair", *(["vl_convert"] if format != "json" else []))):
         raise UsageError(needs_extra(option, "chart"))
 
 

@@ -98,10 +98,10 @@ def parse_options(arguments: Arguments) -> StudyOptions:
     if not chosen:
         raise UsageError("--samples and --techniques leave nothing to measure: sample shading needs a count above 1")
     if "plot" in arguments:
-        figure_format(arguments["plot"], "--plot")
+        require_figures("--plot", figure_format(arguments["plot"], "--plot"))
     targets = parse_outputs(arguments.get("output", ()), PAGE_FORMATS, "json=study.json") or [Target("full", None)]
     drawn = ["--output html"] if any(target.format == "html" for target in targets) else []
-    for option in (*(f"--{name}" for name in ("plot", "crops") if name in arguments), *drawn):
+    for option in (*(["--crops"] if "crops" in arguments else []), *drawn):
         require_figures(option)
     if "budget" in arguments and "device" not in arguments:
         raise UsageError("--budget needs times: name the GPU that measures them with `--device NAME`")

@@ -126,9 +126,11 @@ def subject_costs(
                 notes = []
                 if plans is not None:
                     model = CostModel(subject.device, described=subject.frame)
-                    notes += [*plans.notes, _priced(subject.frame)]
+                    notes += plans.notes
                 with _source(subject, request, clock, model, stages, plans) as source:
                     timed = costs(techniques, shadings, size, source, checkpoint)
+                if plans is not None:
+                    notes.append(_priced(subject.frame, timed))
                 notes += _fewer_rounds(timed, arguments)
                 found[subject.input.name] = SubjectCosts(shadings, timed, tuple(notes))
         if clock is None:
@@ -151,10 +153,12 @@ def _shadings(
     return shadings
 
 
-def _priced(frame: Any) -> str:
+def _priced(frame: Any, timed: Costs) -> str:
     """A note on what the cost model estimates for a frame."""
     from msaa_lint.experiments.study.frame_plans import described_size
 
+    if all(cost.bytes_per_frame is None for cost in timed.values()):
+        return "bytes, power, and memory are not estimated, as the frame leaves out what they depend on: see msaa-lint cost"
     size = described_size(frame)
     stated = f", {size[0]}x{size[1]}" if size is not None else ""
     return f"bytes, power, and memory are those of the frame at its described size{stated}, with a technique's sample count"

@@ -40,11 +40,11 @@ PIPELINE_STATISTICS = 1
 
 
 class _Built(NamedTuple):
-    """An item on the device."""
+    """An item on the device. `segments` are the steps of its passes, by the number of the pass."""
 
     number: int
     objects: FrameObjects
-    steps: list[Step]
+    segments: list[tuple[int, list[Step]]]
     works: tuple[Work, ...]
 
 
@@ -58,7 +58,8 @@ def measure(session: Session, items: Sequence[Item], want: TimingOptions, emit: 
     """Times items in rounds; each round times every item under each of its costs, in another order.
 
     The events are `pass` with the number of an item before it is touched, `created`, `warmed`, `invocations` (those of fragment shaders in
-    a frame, where the device counts them), `time` with the item, the cost, the round, and milliseconds, and `done`.
+    a pass of the frame, whose number is `of`, where the device counts them), `time` with the item, the cost, the round, and milliseconds,
+    and `done`.
     """
     session.at = None
     session.telling(emit)
@@ -114,8 +115,7 @@ def _built(opened: OpenDevice, items: Sequence[Item], shared: SharedImages, emit
             emit({"event": "created", "pass": number, "ok": False, "error": error.name})
             continue
         emit({"event": "created", "pass": number, "ok": True, "error": ""})
-        steps = [step for _, group in segments(item.plan, passes) for step in group]
-        yield _Built(number, objects, steps, item.works)
+        yield _Built(number, objects, list(segments(item.plan, passes)), item.works)
 
 
 class _Timer:
@@ -128,10 +128,6 @@ class _Timer:
         self.recorded: dict[tuple[int, int], tuple[Submitter, int]] = {}
         """The commands of an item under one of its costs, and how many frames they draw."""
         self.long: set[tuple[int, int]] = set()
-        self.statistics: Any = None
-        if opened.session.device["features"].get("pipelineStatisticsQuery"):
-            create = self.vk.VkQueryPoolCreateInfo(queryType=PIPELINE_STATISTICS, queryCount=1, pipelineStatistics=FRAGMENT_INVOCATIONS)
-            self.statistics = self.vk.vkCreateQueryPool(opened.handle, create, None)
 
     def frame(self, each: _Built, number: int) -> float:
         """The milliseconds of one frame of an item under one of its costs, as the mean of those that are recorded."""
@@ -152,10 +148,16 @@ class _Timer:
         submitter.finish()
 
     def _steps(self, buffer: Any, each: _Built, number: int) -> None:
+        recorder = self._recorder(buffer, each, number)
+        for _, steps in each.segments:
+            for step in steps:
+                recorder.step(buffer, step)
+
+    def _recorder(self, buffer: Any, each: _Built, number: int) -> Recorder:
+        """What records the steps of an item under one of its costs."""
         recorder = Recorder(each.objects, (self.workload, each.works[number]))
         recorder.layouts.fence(buffer)
-        for step in each.steps:
-            recorder.step(buffer, step)
+        return recorder
 
     def warm(self, built: Sequence[_Built], seconds: float, emit: Emit) -> None:
         """Draws the first item until its times are stable, or for `seconds`. A CPU needs no warming."""
@@ -184,8 +186,9 @@ class _Timer:
                 self.long.add((each.number, number))
             if 0 < span < MIN_SPAN:
                 self._record(each, number, min(int(MIN_SPAN / span) + 1, MAX_LOOPS))
-        if self.statistics is not None:
-            emit({"event": "invocations", "pass": each.number, "count": self._invocations(each)})
+        if self.opened.session.device["features"].get("pipelineStatisticsQuery"):
+            for (frame_pass, _), count in zip(each.segments, self._invocations(each), strict=True):
+                emit({"event": "invocations", "pass": each.number, "of": frame_pass, "count": count})
 
     def times(self, each: _Built, number: int, frames: int) -> Iterator[float]:
         """The milliseconds of some frames in succession, on a GPU after one that is not counted; of one frame if it is long."""
@@ -198,24 +201,31 @@ class _Timer:
             if ms > LONG:
                 break
 
-    def _invocations(self, each: _Built) -> int:
-        vk, handle = self.vk, self.opened.handle
+    def _invocations(self, each: _Built) -> list[int]:
+        """The invocations of fragment shaders in each segment of an item."""
+        vk, handle, size = self.vk, self.opened.handle, len(each.segments)
+        if not size:
+            return []
+        create = vk.VkQueryPoolCreateInfo(queryType=PIPELINE_STATISTICS, queryCount=size, pipelineStatistics=FRAGMENT_INVOCATIONS)
+        queries = vk.vkCreateQueryPool(handle, create, None)
         submitter = Submitter(self.opened)
         buffer = submitter.begin()
-        vk.vkCmdResetQueryPool(buffer, self.statistics, 0, 1)
-        vk.vkCmdBeginQuery(buffer, self.statistics, 0, 0)
-        self._steps(buffer, each, 0)
-        vk.vkCmdEndQuery(buffer, self.statistics, 0)
+        vk.vkCmdResetQueryPool(buffer, queries, 0, size)
+        recorder = self._recorder(buffer, each, 0)
+        for place, (_, steps) in enumerate(each.segments):
+            vk.vkCmdBeginQuery(buffer, queries, place, 0)
+            for step in steps:
+                recorder.step(buffer, step)
+            vk.vkCmdEndQuery(buffer, queries, place)
         submitter.end()
         submitter.close()
-        read = vk.ffi.new("uint64_t[1]")
+        read = vk.ffi.new(f"uint64_t[{size}]")
         # VK_QUERY_RESULT_64_BIT and VK_QUERY_RESULT_WAIT_BIT.
-        vk.vkGetQueryPoolResults(handle, self.statistics, 0, 1, 8, read, 8, 3)
-        return int(read[0])
+        vk.vkGetQueryPoolResults(handle, queries, 0, size, 8 * size, read, 8, 3)
+        vk.vkDestroyQueryPool(handle, queries, None)
+        return [int(count) for count in read]
 
     def close(self) -> None:
         """Destroys its objects."""
-        if self.statistics is not None:
-            self.vk.vkDestroyQueryPool(self.opened.handle, self.statistics, None)
         for submitter, _ in self.recorded.values():
             submitter.close()

@@ -73,7 +73,9 @@ _WELL_FORMED: dict[str, Callable[[Event], bool]] = {
     "sample": lambda found: _image(found, "format", "width", "height", "samples"),
     "time": lambda found: _numbered(found) and isinstance(found.get("ms"), (int, float)) and 0 <= found["ms"] < 1e9,
     "warmed": lambda found: isinstance(found.get("stable"), bool),
-    "invocations": lambda found: _numbered(found) and isinstance(found.get("count"), int) and found["count"] >= 0,
+    "invocations": lambda found: (
+        _numbered(found) and _number(found.get("of", 0)) and isinstance(found.get("count"), int) and found["count"] >= 0
+    ),
     "failed": lambda found: isinstance(found.get("reason"), str),
     "opened": lambda found: isinstance(found.get("device"), dict),
     "devices": lambda found: isinstance(found.get("devices"), list),

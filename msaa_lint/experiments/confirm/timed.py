@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from statistics import median
 from typing import NamedTuple
 
@@ -38,12 +38,18 @@ class TimingOptions(NamedTuple):
 
 
 class TimedItem(NamedTuple):
-    """The times of an item: for each of its works the median of every round, in milliseconds. `invocations` are the fragment shader
-    invocations of a frame, None where the device does not count them. `reason` says why there are no times."""
+    """The times of an item: for each of its works the median of every round, in milliseconds. `counts` are the fragment shader invocations
+    of each pass of a frame, by its number, None where the device does not count them. `reason` says why there are no times."""
 
     times: tuple[tuple[float, ...], ...] = ()
-    invocations: int | None = None
+    counts: Mapping[int, int] | None = None
     reason: str = ""
+
+    def invocations(self, passes: Collection[int] | None = None) -> int | None:
+        """The fragment shader invocations of a frame, or of some of its passes."""
+        if self.counts is None:
+            return None
+        return sum(count for number, count in self.counts.items() if passes is None or number in passes)
 
 
 class TimedRun(NamedTuple):
@@ -69,7 +75,7 @@ class TimedCollector:
         self.reasons = dict(ended)
         self.source, self.stable = "", False
         self._times: dict[tuple[int, int], dict[int, list[float]]] = {}
-        self._invocations: dict[int, int] = {}
+        self._counts: dict[int, dict[int, int]] = {}
 
     def add(self, event: Event) -> None:
         """Takes up an event."""
@@ -87,7 +93,9 @@ class TimedCollector:
         elif kind == "created" and not event["ok"]:
             self.reasons[item] = f"the driver does not create it: {event.get('error')}"
         elif kind == "invocations":
-            self._invocations[item] = event["count"]
+            counts = self._counts.setdefault(item, {})
+            number = event.get("of", 0)
+            counts[number] = counts.get(number, 0) + event["count"]
         elif kind == "time":
             rounds = self._times.setdefault((item, int(event.get("work", 0))), {})
             rounds.setdefault(int(event.get("round", 0)), []).append(float(event["ms"]))
@@ -102,4 +110,4 @@ class TimedCollector:
             return TimedItem(reason=self.reasons[item])
         works = sorted(work for number, work in self._times if number == item)
         times = tuple(tuple(median(frames) for frames in self._times[item, work].values()) for work in works)
-        return TimedItem(times, self._invocations.get(item), "" if times else "no time was measured")
+        return TimedItem(times, self._counts.get(item), "" if times else "no time was measured")

@@ -11,6 +11,10 @@ from .points import Point
 SAME = 1.05
 """Times without an interval count as equal within this factor."""
 
+REPEATED = 1.001
+"""Measured times are not more certain than this factor: repeated on another machine of a kind, medians differ by 0.15 % although their
+intervals are narrower (docs/study.md), as where a buffer lies in memory differs."""
+
 Vector = tuple[float, ...]
 """Quantities of which less is better: the error, then costs."""
 
@@ -42,14 +46,14 @@ def _groups(points: Sequence[Point]) -> dict[tuple[str, str, int, int], list[int
 
 
 def interval(point: Point) -> tuple[float, float]:
-    """The bounds of a point's time, in milliseconds: those measured, else its time within half of the factor SAME on both sides; NaN where
-    there is no time."""
+    """The bounds of a point's time, in milliseconds: those measured, at least the factor REPEATED on both sides, else its time within half
+    of the factor SAME; NaN where there is no time."""
     if not has_time(point):
         return math.nan, math.nan
     time, low, high = point.time_ms or 0.0, point.low_ms, point.high_ms
     if low is None or high is None or not low <= time <= high:
         return time / math.sqrt(SAME), time * math.sqrt(SAME)
-    return low, high
+    return min(low, time / REPEATED), max(high, time * REPEATED)
 
 
 def has_time(point: Point) -> bool:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from msaa_lint.linter.study_record import AS_DESCRIBED
 
-from .points import MSAA, SAMPLE_SHADING, Technique
+from .points import MSAA, SAMPLE_SHADING, SSAA, Technique
 from .shading import NONE, Shading
 from .technique_frames import frame_of
 from .time_model import Terms
@@ -100,8 +100,9 @@ class SceneClock:
                 items[technique, _OWN] = own_shaders(each.whole, self.stages), [none]
         timed = dict(zip(items, self.clock.time(list(items.values())).items, strict=True))
         costs: dict[tuple[Technique, str], Cost] = {}
+        passes = self._plans.passes if self._plans is not None else None
         counts = {
-            technique: timed[technique, _BARE if each.bare is not None else _WHOLE].invocations
+            technique: timed[technique, _BARE if each.bare is not None else _WHOLE].invocations(passes)
             for technique, each in plans.items()
             if not each.reason
         }
@@ -121,7 +122,7 @@ class SceneClock:
     def _with_terms(
         self, cost: Cost, technique: Technique, plan: Any, size: tuple[int, int], counts: Mapping[Technique, int | None]
     ) -> Cost:
-        """The cost with what its time depends on. What frames draw is not known by pixel: theirs are the invocations of the device."""
+        """The cost with what its time depends on. What frames draw is not known by pixel: theirs follow from the counts of the device."""
         written, resolved = plan_gigabytes(plan)
         if self._plans is None:
             from .invocations import count
@@ -129,14 +130,8 @@ class SceneClock:
             found = count(self._triangles, size, technique)
             terms = Terms(written, resolved, *(self._overdraw * number / 1e6 for number in found))
             return cost._replace(expected_invocations=self._overdraw * found.total, terms=tuple(terms))
-        one, whole = counts.get(Technique(MSAA, technique.samples)), counts[technique]
-        if whole is None:
-            return cost
-        fragments = whole if technique.kind != SAMPLE_SHADING or one is None else min(one, whole)
-        # With sample shading, an invocation for each sample that is drawn.
-        every = counts.get(Technique(SAMPLE_SHADING, technique.samples, 1.0))
-        drawn = every if every is not None else fragments * technique.samples
-        return cost._replace(terms=tuple(Terms(written, resolved, drawn / 1e6, fragments / 1e6, 0.0, (whole - fragments) / 1e6)))
+        drawn = drawn_by_frame(technique, counts)
+        return cost._replace(terms=tuple(Terms(written, resolved, *drawn))) if drawn else cost
 
     def _supported(self, technique: Technique, size: tuple[int, int]) -> TechniquePlans:
         """The plans of a technique, with the reason why the device cannot run them, if any."""
@@ -191,7 +186,7 @@ def _cost(model: Cost, whole: Any, bare: Any, timed: Any, place: int) -> Cost:
     # A part is never longer than the whole, or negative but for noise.
     fill = min(fill, none)
     # Some devices resolve and downscale with fragment shaders of their own.
-    invocations = timed.invocations if bare is None else bare.invocations
+    invocations = (bare or timed).invocations()
     return model._replace(
         time_ms=found.median, low_ms=found.low, high_ms=found.high, fill_ms=fill, resolve_ms=none - fill,
         shading_ms=max(found.median - none, 0.0), invocations=invocations, rounds=tuple(rounds),
@@ -211,6 +206,26 @@ def own_shaders(plan: Any, stages: tuple[Any, ...]) -> Any:
 def _with_pipelines(plan: Any, change: Callable[[Any], Any]) -> Any:
     passes = (each._replace(pipelines=tuple(map(change, each.pipelines))) for each in plan.passes)
     return plan._replace(passes=tuple(passes))
+
+
+def drawn_by_frame(technique: Technique, counts: Mapping[Technique, int | None]) -> tuple[float, ...]:
+    """The terms of a frame's draws from `samples_drawn` on (study/time_model.py), empty where the device counts nothing: `counts` are the
+    invocations of each technique in the passes to which techniques apply, as the time of the others is the same under all.
+
+    Helpers are not counted. They are as many as the edges are long, in pixels of the picture that is drawn; and so are the invocations
+    that more samples add to one, which stand in for them: the model has a coefficient of its own for them.
+    """
+    whole, single = counts.get(technique), counts.get(Technique(MSAA, 1))
+    if whole is None:
+        return ()
+    one = counts.get(Technique(MSAA, technique.samples))
+    fragments = whole if technique.kind != SAMPLE_SHADING or one is None else min(one, whole)
+    # With sample shading, an invocation for each sample that is drawn.
+    every = counts.get(Technique(SAMPLE_SHADING, technique.samples, 1.0))
+    drawn = whole if technique.kind == SSAA else every if every is not None else fragments * technique.samples
+    edges = max((count for each, count in counts.items() if each.kind == MSAA and count), default=0) - (single or 0) if single else 0
+    helpers = edges * technique.grid, edges * (technique.shaded - 1) if technique.kind == SAMPLE_SHADING else 0
+    return tuple(number / 1e6 for number in (drawn, fragments, helpers[0], whole - fragments, helpers[1]))
 
 
 def plan_gigabytes(plan: Any) -> tuple[float, float]:

@@ -105,7 +105,7 @@ class CostModel:
         else:
             set_samples(frame, technique.samples)
         found = frame_cost(frame, self.device)
-        if found.unknown:
+        if any(each.unknown for each in found.passes) or any(image.bytes is None for image in found.images):
             return Cost()
         return Cost(None, round(found.total.traffic_mb_per_s * 1e6 / found.fps), found.total.milliwatts, found.total.memory_mib)
 

@@ -229,6 +229,14 @@ def test_figures_without_their_extra_are_refused_before_anything_is_measured(
     assert os.listdir(tmp_path) == []
 
 
+def test_a_specification_needs_nothing_that_draws_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "vl_convert", None)
+    command.parse_options({"paths": ["edge-fan"], "plot": "a.json"})
+    monkeypatch.setitem(sys.modules, "altair", None)
+    with pytest.raises(UsageError, match=re.escape(needs_extra("--plot", "chart"))):
+        command.parse_options({"paths": ["edge-fan"], "plot": "a.json"})
+
+
 def test_a_plot_is_also_a_specification(tmp_path: Path) -> None:
     assert run(tmp_path, "edge-fan", *SMALL, "--samples", "1,4", "--plot", "a.json").returncode == 0
     spec = json.loads((tmp_path / "a.json").read_text())

@@ -71,6 +71,30 @@ def test_the_bytes_of_a_frame_are_those_of_its_passes(tmp_path: Path, forward: d
     assert points["SSAA 2x2"]["bytes_per_frame"] is None
 
 
+def test_passes_that_are_never_begun_cost_nothing(tmp_path: Path) -> None:
+    """A program creates render passes that a captured frame does not use."""
+    path = str(ROOT / "tests/data/programs/wgpu-store.gfxr.jsonl.xz")
+    data = studied(tmp_path, path, *ON_LAVAPIPE, "--shading", "none", "--techniques", "msaa")
+    done = run(tmp_path, "cost", path, "--isolated", "--output", "json")
+    cost = json.loads(done.stdout)
+    (frame,) = cost["frames"]
+    assert frame["unknown"] == ["`pass 4x #106`: no command begins it"]
+    assert [point["bytes_per_frame"] is not None for point in data["points"]] == [True, True]
+    assert data["points"][1]["memory_mib"] == pytest.approx(frame["total"]["memory_mib"], abs=1e-6)
+
+
+def test_bytes_that_are_not_known_are_not_promised(tmp_path: Path) -> None:
+    (tmp_path / "frame.msaa.yaml").write_text(
+        "images: {c: {format: UNDEFINED, samples: 4, extent: {width: 64, height: 64}}}\n"
+        "renderPasses: {p: {attachments: {c: {image: c, loadOp: CLEAR, storeOp: STORE}}, subpasses: [{colorAttachments: [c]}]}}\n"
+    )
+    data = studied(tmp_path, "frame.msaa.yaml", *ON_LAVAPIPE, "--shading", "none", "--techniques", "msaa")
+    (scene,) = data["scenes"]
+    unknown = "bytes, power, and memory are not estimated, as the frame leaves out what they depend on: see msaa-lint cost"
+    assert unknown in scene["assumed"]
+    assert {point["bytes_per_frame"] for point in data["points"]} == {None}
+
+
 def test_a_frame_with_shaders_has_their_cost(tmp_path: Path) -> None:
     """No cost of shading applies where all that draws has a shader of its own."""
     data = studied(tmp_path, str(EXAMPLES / "lit/forward.msaa.yaml"), *ON_LAVAPIPE, "--techniques", "msaa")
