@@ -289,6 +289,7 @@ def input_options(arguments: Arguments) -> dict[str, Any]:
         "log": log(arguments),
         "traceback": bool(arguments.get("traceback")),
         "cache": not arguments.get("no_cache"),
+        "jobs": arguments.get("jobs"),
     }
 
 

@@ -105,7 +105,7 @@ _CONFIGURATION = (
     Option("config", "text", "Use this configuration file.", "FILE"),
     Option("isolated", "flag", "Ignore configuration files."),
     Option("no_respect_gitignore", "flag", "In folders, also lint files that .gitignore ignores."),
-    Option("no_cache", "flag", "Neither use nor keep what was read of source code in the user's cache folder."),
+    Option("no_cache", "flag", "Neither use nor keep results in the user's cache folder."),
 )
 
 
@@ -142,6 +142,7 @@ _FRAME_END = Option(
 SHARED = (_STDIN_FILENAME, _input_format(*INPUT_FORMATS), _FRAME_END, *_CONFIGURATION, _COLOR, *GLOBAL)
 """Options of `check`, `cost`, `confirm`, and `study`."""
 
+_JOBS = Option("jobs", "integer", "Inputs to read at once.", "N", default="the cores, for more than a few inputs")
 _INPUTS = SHARED[:3]
 _SIZE = Option("size", "text", "Size in pixels of inputs that state none.", "WxH")
 
@@ -195,6 +196,7 @@ COMMANDS = {
             ),
             "Inputs": (
                 *_INPUTS,
+                _JOBS,
                 Option("max_depth", "integer", "Maximum nesting depth of an input.", "N", default=str(_LIMITS.depth)),
                 Option("max_nodes", "integer", "Maximum number of nodes in an input, aliases expanded.", "N", default=str(_LIMITS.nodes)),
                 Option("max_bytes", "integer", "Maximum size of an input in bytes.", "N", default=str(_LIMITS.bytes)),

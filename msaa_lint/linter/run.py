@@ -1,33 +1,25 @@
 """Runs `check`: lints every input of a request, and fixes it if asked to. The command line and `msaa_lint.lint` both use it."""
 
 import os
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
-from msaa_lint.core.diagnostics import diagnostic
-from msaa_lint.core.finding import Finding, InputSummary, Result, Savings, Suppressed, Undecided, is_confident, rank
+from msaa_lint.core.finding import Finding, InputSummary, Result, Savings, Suppressed, Undecided, rank
 from msaa_lint.core.garbage import collect_garbage
-from msaa_lint.core.text.source import Source
-from msaa_lint.input.file_types import STDIN
 
 from .engine import rule_infos
-from .input_summary import input_summaries
-from .results import FileResult, can_try_fixes, finding_kind, price_order
+from .part_linter import Contents, PartLinter, Results, Unit
+from .results import price_order
 from .run_part import RunPart
 from .settings.settings import Settings
 from .source_programs import ProgramInput
-from .workspace import InputFile, Request, Workspace
+from .workspace import Request, Workspace
 
 if TYPE_CHECKING:
     from msaa_lint.frame.cost.input_cost import CostedFrame
 
     from .fixes.file_fixes import FixedText
-    from .program_runs import ProgramRuns
-    from .savings import Trials
     from .suppress.baseline import Baseline
-
-Results = Callable[[InputFile, FileResult], None]
-"""Called with each input that was linted, and its result."""
 
 Progress = Callable[[int, int, str], None]
 """Called before each input with the number of inputs done, the number of all inputs, and the input's path."""
@@ -68,15 +60,17 @@ def run(request: Request, progress: Progress | None = None, results: Results | N
 class _Run:
     def __init__(self, request: Request, results: Results | None) -> None:
         self.request = request
-        self.results = results
         self.workspace = Workspace(request)
         self.settings = self.workspace.current.settings
         self.baseline = self._load_baseline()
         outputs = request.formats or [text.partition("=")[0] for text in self.settings.output] or [request.fallback]
         limited = self.settings.fail_on_cost is not None
-        self.with_prices = request.by_price or limited or not PRICED_FORMATS.isdisjoint(outputs)
-        self.with_savings = limited or request.fix is not None or not SUMMARIZED_FORMATS.isdisjoint(outputs)
-        self.with_frames = "html" in outputs
+        contents = Contents(
+            prices=request.by_price or limited or not PRICED_FORMATS.isdisjoint(outputs),
+            savings=limited or request.fix is not None or not SUMMARIZED_FORMATS.isdisjoint(outputs),
+            frames="html" in outputs,
+        )
+        self.linter = PartLinter(self.workspace, contents, self.baseline, results)
         self.with_pages = request.full_rules or not RULE_PAGE_FORMATS.isdisjoint(outputs)
         self.frames: list[CostedFrame] = []
         self.findings: list[Finding] = []
@@ -104,26 +98,18 @@ class _Run:
 
     def run(self, progress: Progress | None) -> Outcome:
         discovered = self.workspace.discover(sources=True)
-        programs = self.workspace.programs(discovered)
-        numbers = {path: number for number, program in enumerate(programs) for path in program.inputs}
-        done: set[int] = set()
-        runs = self._program_runs(programs)
-        try:
-            for number, path in enumerate(discovered.files):
-                if progress is not None:
-                    progress(number, len(discovered.files), path)
-                if runs is not None and path in numbers and numbers[path] not in done:
-                    done.add(numbers[path])
-                    self._add(runs.part(numbers[path]))
-                name = self.request.input_name(path)
-                if name not in self.summaries and path not in self.workspace.failed:
-                    with self.workspace.guard(path):
-                        self._run_input(path)
+        units = _units(discovered.files, self.workspace.programs(discovered))
+        done = 0
+        parts = self._parts(units)
+        for unit in units:
+            paths = [unit] if isinstance(unit, str) else unit.inputs
+            if progress is not None:
+                progress(done, len(discovered.files), paths[0])
+            self._add(next(parts))
+            for name in map(self.request.input_name, paths):
                 self.summaries.setdefault(name, InputSummary(name, failed=True))
-                collect_garbage()
-        finally:
-            if runs is not None:
-                runs.close()
+            done += len(paths)
+            collect_garbage()
         self.workspace.close()
         files = [self.request.input_name(path) for path in discovered.files]
         notes = [*discovered.notes, *self.notes, *self._stale_entries(files)]
@@ -152,108 +138,32 @@ class _Run:
         )
         return Outcome(result, self.settings, notes, self.fixed, self.failing, self.frames)
 
-    def _program_runs(self, programs: Sequence[ProgramInput]) -> "ProgramRuns | None":
-        """The results for programs; None if there are none."""
-        if not programs:
+    def _parts(self, units: Sequence[Unit]) -> Iterator[RunPart]:
+        """What the units add to the result, in their order."""
+        from .input_runs import InputRuns, processes
+
+        request = self.request
+        has_effects = request.fix is not None or request.log is not None or request.traceback or self.linter.has_callback
+        runs = InputRuns(self.linter, units, None if has_effects else self._parts_depend_on())
+        count = 1 if has_effects else processes(self.workspace, units, request.jobs)
+        if count == 1:
+            return runs.in_this_process()
+        from msaa_lint.core.execution.processes import Processes
+
+        return runs.divided(Processes(count))
+
+    def _parts_depend_on(self) -> str | None:
+        """What the parts of inputs depend on besides their files and settings; None if they are not kept, which have no frames."""
+        if self.linter.contents.frames:
             return None
-        from .program_runs import ProgramRuns
-
-        return ProgramRuns(self.workspace, programs, self._lint_program, self._result_depends_on())
-
-    def _result_depends_on(self) -> str | None:
-        """What the result for an input depends on besides its content and settings; None if it has other effects, or depends on other
-        inputs."""
-        if self.request.fix is not None or self.settings.fail_on_cost is not None or self.request.log or self.request.traceback:
-            return None
-        if self.with_frames:
-            # The cache does not hold frames.
-            return None
-        return repr((self.with_prices, self.with_savings, self.request.ignores, self.settings.min_severity))
-
-    def _lint_program(self, program: ProgramInput) -> RunPart:
-        """Lints a program; empty if it cannot be read."""
-        file = self.workspace.open_program(program)
-        return self._lint(file) if file is not None else RunPart()
-
-    def _run_input(self, path: str) -> None:
-        file = self.workspace.open(path)
-        if file is not None:
-            self._add(self._lint(file))
-
-    def _lint(self, file: InputFile) -> RunPart:
-        result = file.lint(prices=self.with_prices)
-        if not isinstance(file.data, bytes):
-            self.notes.extend(file.data.notes)
-        if self.request.fix is not None:
-            result = self._fix(file, result)
-        if self.results is not None:
-            self.results(file, result)
-        return self._part(file, result)
-
-    def _fix(self, file: InputFile, result: FileResult) -> FileResult:
-        """Fixes an input; the result for its new contents, or the old result if it was not written."""
-        from msaa_lint.input.source_file import SourceFile
-
-        from .fixes.file_fixes import FixedText, fix_input
-
-        is_stdin = file.path == STDIN
-        if not isinstance(file.data, bytes):
-            kind = "source code" if isinstance(file.data, SourceFile) else "a capture"
-            self.notes.append(f"{file.name} is {kind} and is not fixed: `msaa-lint convert` writes a description that can be fixed")
-            if is_stdin and isinstance(file.data, SourceFile):
-                # The fixed text of standard input is printed: print it unchanged.
-                text = file.data.source.text
-                self.fixed.append(FixedText(file.name, text, text, file.data.data, result))
-            return result
-        if not is_stdin and not any(found.fix is not None for found in result.findings):
-            return result
-        write = self.request.fix == "write"
-        if write and not is_stdin and os.path.exists(file.path) and not os.path.isfile(file.path):
-            self.notes.append(f"{file.name} is not a regular file and is not fixed: name `-` to print the fixed text")
-            return result
-        target = file.path if write and not is_stdin else None
-        fixed = fix_input(file.data, result, file.lint, file.fixable(result), self.request.unsafe_fixes, target)
-        self.fixed.append(fixed)
-        if fixed.write_error:
-            self.findings.append(diagnostic("MSAA921", f"cannot write the fixed text: {fixed.write_error}", file.name))
-        elif write and fixed.changed:
-            return file.lint(fixed.data, prices=True) if self.with_prices else fixed.result
-        return result
-
-    def _part(self, file: InputFile, result: FileResult) -> RunPart:
-        """What an input adds to the result of the run, after settings and before the baseline."""
-        summaries = input_summaries(file.data, result)
-        sources = _sources_shown(result)
-        diagnostics: list[Finding] = []
-        for summary in summaries:
-            if summary.unread is not None:
-                # The text of an input that creates something multisampled but shows no pass to check.
-                source = result.sources.get(summary.file, result.source)
-                sources |= {summary.file: source} if source is not None else {}
-                if file.resolved.settings.strict_inputs:
-                    help = "check a capture or a description of its frame instead, or exclude the file"
-                    diagnostics.append(diagnostic("MSAA931", summary.unread.message, summary.file, summary.unread.span, help=help))
-        findings = [found for found in map(file.resolved.selection.settle, result.findings) if found is not None]
-        part = RunPart(diagnostics, findings, result.undecided, result.suppressed, summaries, sources)
-        if not self.with_savings or all(found.fix is None for found in findings):
-            return self._with_frames(part, result, None)
-        if can_try_fixes(result) or self.settings.fail_on_cost is not None:
-            return self._try_fixes(file, result, part)
-        return self._with_frames(part._replace(untried={result.file: not isinstance(file.data, bytes)}), result, None)
-
-    def _with_frames(self, part: RunPart, result: FileResult, trials: "Trials | None") -> RunPart:
-        """Adds the frames of an input with their costs, if a report shows them; none of an input with errors."""
-        if not self.with_frames or any(finding.fatal for finding in result.findings):
-            return part
-        from msaa_lint.frame.cost.amounts import Terms
-
-        from .costed_frames import costed_frames
-
-        return part._replace(frames=costed_frames(result, result.documents, trials, Terms(), (1,), steps=True))
+        request, settings = self.request, self.settings
+        accepted = (settings.fail_confidence, self.baseline) if settings.fail_on_cost is not None else None
+        stated = (request.ignores, request.format, request.frame_end, request.keys, request.all_keys, request.edits, settings.min_severity)
+        return repr((self.linter.contents, stated, accepted))
 
     def _add(self, part: RunPart) -> None:
         """Adds what an input adds to the result of the run, after the baseline."""
-        findings, accepted = self._apply_baseline(part.findings)
+        findings, accepted = self.linter.apply_baseline(part.findings)
         self.findings.extend([*part.diagnostics, *findings])
         self.accepted.extend(accepted)
         self.undecided.extend(part.undecided)
@@ -266,39 +176,11 @@ class _Run:
         self.failing.update(part.failing)
         self.untried.update(part.untried)
         self.frames.extend(part.frames)
-
-    def _try_fixes(self, file: InputFile, result: FileResult, part: RunPart) -> RunPart:
-        """Determines what fixes of an input save, and adds to its findings the reasons why fixes are not made."""
-        from .savings import savings, try_fixes
-
-        description, lint = file.description(result)
-        converted = not isinstance(file.data, bytes)
-        fixable = file.fixable(result)
-        trials = try_fixes(description, lint, fixable)
-        part = part._replace(savings={result.file: savings(description, trials, self.with_prices, converted)})
-        part = self._with_frames(part, result, trials)
-        if self.settings.fail_on_cost is not None:
-            findings, _ = self._apply_baseline(part.findings)
-            failing = {finding_kind(found) for found in findings if is_confident(found, self.settings.fail_confidence)}
-            if len(failing) < len({finding_kind(found) for found in part.findings}):
-                trials = try_fixes(description, lint, lambda found: finding_kind(found) in failing and fixable(found))
-            part = part._replace(failing={result.file: savings(description, trials, True, converted)})
-        refusals = {finding_kind(failed.finding): failed.reason for failed in trials.all.failed_fixes}
-        findings = [
-            found._replace(fix=found.fix._replace(refusal=refusals.get(finding_kind(found), ""))) if found.fix else found
-            for found in part.findings
-        ]
-        return part._replace(findings=findings)
+        self.notes.extend(part.notes)
+        self.fixed.extend(part.fixed)
 
     def _is_shown(self, found: Finding) -> bool:
         return found.fatal or rank(found.severity) >= rank(self.settings.min_severity)
-
-    def _apply_baseline(self, findings: Sequence[Finding]) -> tuple[Sequence[Finding], Sequence[Suppressed]]:
-        if self.baseline is None:
-            return findings, ()
-        from .suppress import baseline
-
-        return baseline.apply(findings, self.baseline)
 
     def _stale_entries(self, files: Sequence[str]) -> list[str]:
         """A line for each entry of the baseline that counts more findings than there are."""
@@ -310,11 +192,7 @@ class _Run:
         return list(map(str, baseline.stale(self.baseline, findings, files, self.workspace.current.selection.names())))
 
 
-def _sources_shown(result: FileResult) -> dict[str, Source]:
-    """The texts that the findings of an input are about, of a program those of the files that they name."""
-    if not result.sources:
-        is_shown = result.findings or result.suppressed or result.undecided
-        return {result.file: result.source} if result.source is not None and is_shown else {}
-    findings = [*result.findings, *(entry.finding for entry in result.suppressed)]
-    names = {file for finding in findings for file in (finding.file, *(label.file for label in finding.labels))}
-    return {name: source for name, source in result.sources.items() if name in names}
+def _units(files: Sequence[str], programs: Sequence[ProgramInput]) -> list[Unit]:
+    """What is linted at once, in the order of the files: a program comes where its first input does."""
+    of = {path: program for program in programs for path in program.inputs}
+    return list(dict.fromkeys(of.get(path, path) for path in files))

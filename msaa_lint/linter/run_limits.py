@@ -1,4 +1,4 @@
-"""What the inputs of one run share of what strangers' rules and shaders may take."""
+"""What strangers' rules and shaders may take: rules in a run, shaders in each of its inputs."""
 
 from __future__ import annotations
 
@@ -17,9 +17,13 @@ class RunLimits:
     def __init__(self) -> None:
         self.rules = Budget()
 
+    def begin_input(self) -> None:
+        """Forgets the shaders of the input before: what is found out about one input does not depend on others."""
+        self.__dict__.pop("shaders", None)
+
     @cached_property
     def shaders(self) -> ShaderAnalyses:
-        """Created with the first shader that a rule asks for."""
+        """Created with the first shader of an input that a rule asks for."""
         from msaa_lint.input.shader_modules import ShaderAnalyses
 
         return ShaderAnalyses()

@@ -6,8 +6,12 @@ from typing import TYPE_CHECKING, NamedTuple
 from msaa_lint.core.finding import Finding, InputSummary, Savings, Suppressed, Undecided
 from msaa_lint.core.text.source import Source
 
+from .rules.budget import Spent
+
 if TYPE_CHECKING:
     from msaa_lint.frame.cost.input_cost import CostedFrame
+
+    from .fixes.file_fixes import FixedText
 
 
 class RunPart(NamedTuple):
@@ -15,7 +19,8 @@ class RunPart(NamedTuple):
 
     `findings` are those after settings and before the baseline, which does not apply to `diagnostics`. `sources` has the texts that
     reports show. `savings`, `failing`, and `untried` are by file. `problems` and `failed` are the findings about files that cannot be
-    read, and these files. `frames` are the frames with their costs, if a report shows them.
+    read, and these files. `frames` are the frames with their costs, if a report shows them. `notes` are lines for standard error, `fixed`
+    the fixed texts, and `spent` is what custom rules took.
     """
 
     diagnostics: Sequence[Finding] = ()
@@ -30,3 +35,25 @@ class RunPart(NamedTuple):
     problems: Sequence[Finding] = ()
     failed: frozenset[str] = frozenset()
     frames: "Sequence[CostedFrame]" = ()
+    notes: Sequence[str] = ()
+    fixed: "Sequence[FixedText]" = ()
+    spent: Spent = Spent()
+
+    def __add__(self, other: "RunPart") -> "RunPart":  # type: ignore[override]
+        """Both together."""
+        return RunPart(
+            [*self.diagnostics, *other.diagnostics],
+            [*self.findings, *other.findings],
+            [*self.undecided, *other.undecided],
+            [*self.suppressed, *other.suppressed],
+            [*self.summaries, *other.summaries],
+            {**self.sources, **other.sources},
+            {**self.savings, **other.savings},
+            {**self.failing, **other.failing},
+            {**self.untried, **other.untried},
+            [*self.problems, *other.problems],
+            self.failed | other.failed,
+            [*self.frames, *other.frames],
+            [*self.notes, *other.notes],
+            [*self.fixed, *other.fixed],
+        )

@@ -2,7 +2,7 @@
 
 import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -37,19 +37,21 @@ if TYPE_CHECKING:
     from msaa_lint.input.code.project.index import Index
     from msaa_lint.input.source_file import SourceFile, SourceText
 
+    from .rules.budget import Budget, Spent
+
 
 class Request(NamedTuple):
     """What a run is asked to do.
 
     `overrides` are keyword arguments of `settings.override`. `data` replaces standard input, which findings call `stdin_filename`.
     `format` forces a reader, `frame_end` says what ends the frames of captures. `formats` are the outputs to print instead of those in the
-    settings, and `fallback` is the output if neither
-    names one: findings get prices only if an output shows them. `by_price` sorts findings by price, highest first. `fix` is `write` to
-    fix files in place, or `show` to compute the fixes only; `unsafe_fixes` includes fixes that may change the picture. Standard input is
-    never written. `keys` is the number of undecided rules for which a key is looked up
-    that they lack (None: of all), and `all_keys` finds all keys that undecided rules lack, and not only the next one. `log` is called with
-    a line for each configuration and each input that is used. `traceback` raises an exception that linting an input causes, instead of
-    reporting it. `cache` uses and keeps results in the user's cache folder. `edits` writes the edits of fixes into the findings.
+    settings, and `fallback` is the output if neither names one: findings get prices only if an output shows them. `by_price` sorts findings
+    by price, highest first. `fix` is `write` to fix files in place, or `show` to compute the fixes only; `unsafe_fixes` includes fixes that
+    may change the picture. Standard input is never written. `keys` is the number of undecided rules of an input for which a key is looked
+    up that they lack (None: of all), and `all_keys` finds all keys that undecided rules lack, and not only the next one. `log` is called
+    with a line for each configuration and each input that is used. `traceback` raises an exception that linting an input causes, instead
+    of reporting it. `cache` uses and keeps results in the user's cache folder. `jobs` is the number of processes that lint inputs (None:
+    the cores, if there is enough to do). `edits` writes the edits of fixes into the findings.
     """
 
     paths: Sequence[str]
@@ -73,6 +75,7 @@ class Request(NamedTuple):
     log: Callable[[str], None] | None = None
     traceback: bool = False
     cache: bool = False
+    jobs: int | None = 1
     edits: bool = True
 
     def input_name(self, path: str) -> str:
@@ -163,10 +166,11 @@ class Workspace:
         self._programs: list[ProgramInput] | None = None
         self.failed: set[str] = set()
         """The inputs that could not be read as part of a program."""
-        self.contents: dict[str, str] | None = None
-        """Names for the contents of the files of the program that was read last, if they are asked for."""
+        self.contents: dict[str, str] = {}
+        """Names for the contents of the files of the program that was read last."""
         self._limits = RunLimits()
-        self._keys = Allowance() if request.keys is None else Allowance(request.keys)
+        self._begun: Budget | None = None
+        self._keys = self._new_keys()
         self.current = self.resolve(os.curdir)
 
     def settings(self, path: str) -> Settings:
@@ -216,11 +220,6 @@ class Workspace:
             self._engines[key] = Engine(registry, self._limits)
         return self._engines[key]
 
-    @property
-    def has_own_rules(self) -> bool:
-        """Whether a configuration names rule pages of the user, which have one budget for all inputs."""
-        return any(resolved.settings.rules for resolved in self._resolved.values())
-
     def broken_pages(self) -> list[str]:
         """The files of the custom rules that cannot be used."""
         return [page.page for engine in self._engines.values() for page in engine.registry.broken]
@@ -254,6 +253,41 @@ class Workspace:
             self.findings.append(opening.unreadable(error, name))
             return None
         return self._input(path, name, data, resolved)
+
+    def length(self, unit: "str | ProgramInput") -> int:
+        """The number of bytes of an input, or of the files of a program; 0 if that is unknown."""
+        if isinstance(unit, ProgramInput):
+            return sum(map(self.index.length, unit.paths))
+        with suppress(OSError, ValueError):
+            return os.path.getsize(unit)
+        return 0
+
+    def begin_input(self) -> "Budget":
+        """Prepares for the next input or program. Returns the budget of custom rules as it is now."""
+        self._limits.begin_input()
+        self._keys = self._new_keys()
+        return self._limits.rules.copy()
+
+    def spent_since(self, before: "Budget") -> "Spent":
+        """What custom rules have spent of their budget since it was as `before`."""
+        return self._limits.rules.spent_since(before)
+
+    def _new_keys(self) -> Allowance:
+        return Allowance() if self.request.keys is None else Allowance(self.request.keys)
+
+    def forget_spent(self) -> None:
+        """Makes the budget of custom rules what it was when this was called first: what they spend is counted by another process."""
+        if self._begun is None:
+            self._begun = self._limits.rules.copy()
+        self._limits.rules.restore(self._begun)
+
+    def include(self, spent: "Spent") -> bool:
+        """Counts what custom rules have spent elsewhere; False if that may be more than is left here."""
+        return self._limits.rules.include(spent)
+
+    def project(self, path: str) -> str | None:
+        """The project that an input must be in; None for one that is named."""
+        return self._projects.get(path)
 
     def _input(self, path: str, name: str, data: "bytes | CaptureInput | SourceFile", resolved: ResolvedSettings) -> InputFile:
         """An input that has been read."""
@@ -328,7 +362,7 @@ class Workspace:
             text._replace(definitions=definitions) if (text := self._text(path, path in inputs, root)) is not None else None
             for path, root, definitions in zip(program.paths, program.roots, program.definitions, strict=True)
         ]
-        if self.contents is not None:
+        if self.request.cache:
             from msaa_lint.core.cache import digest
 
             self.contents = {path: digest(text.data) for path, text in zip(program.paths, texts, strict=True) if text is not None}

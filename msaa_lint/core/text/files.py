@@ -26,9 +26,10 @@ _KINDS = {
 }
 
 # O_NONBLOCK: opening a pipe must not wait for a writer.
-_FLAGS = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_CLOEXEC", 0) | getattr(os, "O_BINARY", 0)
+FILE_FLAGS = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_CLOEXEC", 0) | getattr(os, "O_BINARY", 0)
 _NO_LINK = getattr(os, "O_NOFOLLOW", 0)
 _buffers: ContextVar[Mapping[str, bytes]] = ContextVar("buffers")
+_opened: ContextVar[dict[str, bool]] = ContextVar("opened")
 _FOLDER = getattr(os, "O_PATH", os.O_RDONLY) | getattr(os, "O_DIRECTORY", 0) | getattr(os, "O_CLOEXEC", 0)
 
 
@@ -40,6 +41,25 @@ def with_buffers(buffers: Mapping[str, bytes]) -> Iterator[None]:
         yield
     finally:
         _buffers.reset(token)
+
+
+@contextmanager
+def recording() -> Iterator[Mapping[str, bool]]:
+    """Records the absolute paths of the files that this thread opens or tries to open, and the names of programs that it looks up, with
+    whether they are names of programs."""
+    opened: dict[str, bool] = {}
+    token = _opened.set(opened)
+    try:
+        yield opened
+    finally:
+        _opened.reset(token)
+
+
+def record(name: str, is_program: bool = False) -> None:
+    """Adds a path, or the name of a program, to what is recorded, if anything is."""
+    opened = _opened.get(None)
+    if opened is not None:
+        opened[name if is_program else os.path.abspath(name)] = is_program
 
 
 def _buffer(path: str, project: str | None) -> bytes | None:
@@ -58,6 +78,7 @@ def open_file(path: str, project: str | None) -> tuple[BinaryIO, int | None]:
     what is there.
     """
     try:
+        record(path)
         unsaved = _buffer(path, project)
         if unsaved is not None:
             return io.BytesIO(unsaved), len(unsaved)
@@ -83,10 +104,11 @@ def open_file(path: str, project: str | None) -> tuple[BinaryIO, int | None]:
 
 def open_entry(path: str) -> BinaryIO:
     """A regular file, according to the listing of its folder, open for reading; a link is not followed. Raises OSError."""
+    record(path)
     unsaved = _buffer(path, None)
     if unsaved is not None:
         return io.BytesIO(unsaved)
-    file = open(os.open(path, _FLAGS | _NO_LINK), "rb")  # noqa: SIM115 - the caller closes it
+    file = open(os.open(path, FILE_FLAGS | _NO_LINK), "rb")  # noqa: SIM115 - the caller closes it
     try:
         _check_regular(os.fstat(file.fileno()).st_mode)
     except OSError:
@@ -112,7 +134,7 @@ def _open_named(path: str) -> int:
     mode = os.stat(path).st_mode
     if stat.S_ISDIR(mode) or stat.S_ISSOCK(mode):
         _check_regular(mode)
-    return os.open(path, _FLAGS)
+    return os.open(path, FILE_FLAGS)
 
 
 def _open_inside(path: str, project: str) -> int:
@@ -124,7 +146,7 @@ def _open_inside(path: str, project: str) -> int:
     *folders, name = os.path.relpath(real, root).split(os.sep)
     if os.open not in os.supports_dir_fd or os.stat not in os.supports_follow_symlinks:
         _check_regular(os.lstat(real).st_mode)
-        return os.open(real, _FLAGS)
+        return os.open(real, FILE_FLAGS)
     parent = os.open(root, _FOLDER)
     try:
         for folder in folders:
@@ -132,7 +154,7 @@ def _open_inside(path: str, project: str) -> int:
             os.close(above)
         # Opening a device may have an effect.
         _check_regular(os.stat(name, dir_fd=parent, follow_symlinks=False).st_mode)
-        return os.open(name, _FLAGS | _NO_LINK, dir_fd=parent)
+        return os.open(name, FILE_FLAGS | _NO_LINK, dir_fd=parent)
     finally:
         os.close(parent)
 

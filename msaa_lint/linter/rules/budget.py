@@ -7,6 +7,9 @@ a page that takes much cannot turn off one that takes little.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import NamedTuple
+
 MAX_STEPS = 150_000_000
 """Of all pages of a run, however small its inputs: some 8 seconds."""
 
@@ -33,6 +36,14 @@ class OverBudget(ArithmeticError):
     """A page takes too much; the message says what."""
 
 
+class Spent(NamedTuple):
+    """What an input added to the budget, what pages took of it, by path, and whether one was turned off."""
+
+    added: int = 0
+    used: Mapping[str, int] = {}
+    turned_off: bool = False
+
+
 class Budget:
     """What is left of the steps of a run, and the pages that are turned off."""
 
@@ -42,6 +53,32 @@ class Budget:
         self.off: set[str] = set()
         """The paths of pages that are turned off."""
         self._used: dict[str, int] = {}
+
+    def copy(self) -> Budget:
+        """A budget of its own that begins where this one is."""
+        other = Budget(self.steps)
+        other.left, other.off, other._used = self.left, set(self.off), dict(self._used)
+        return other
+
+    def spent_since(self, before: Budget) -> Spent:
+        """What was spent since this budget was as `before`."""
+        used = {page: steps - before._used.get(page, 0) for page, steps in self._used.items() if steps != before._used.get(page, 0)}
+        return Spent(self.steps - before.steps, used, self.off != before.off)
+
+    def restore(self, before: Budget) -> None:
+        """Makes this budget as `before` is."""
+        self.steps, self.left, self.off, self._used = before.steps, before.left, set(before.off), dict(before._used)
+
+    def include(self, spent: Spent) -> bool:
+        """Counts what was spent elsewhere; False, without counting it, if it may be more than a page has here."""
+        used = {page: self._used.get(page, 0) + steps for page, steps in spent.used.items()}
+        left = self.left + spent.added - sum(spent.used.values())
+        if spent.turned_off or any(page in self.off or steps > left for page, steps in used.items()):
+            return False
+        self.steps += spent.added
+        self.left = left
+        self._used |= used
+        return True
 
     def extend(self, size: int) -> None:
         """Adds the steps for an input of that many bytes."""

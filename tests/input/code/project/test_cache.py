@@ -87,7 +87,7 @@ def test_a_run_of_many_programs_says_the_same_as_their_runs(tmp_path: Path, monk
     for name in "abc":
         write(tmp_path / name, {"pass.cpp": PASS + filler, "settings.h": settings(4)})
     divided = run(tmp_path, "check", "a", "b", "c", "--isolated", "--no-cache", "--output", "json")
-    monkeypatch.setattr("msaa_lint.linter.program_runs.MIN_DIVIDED", 1 << 40)
+    monkeypatch.setattr("msaa_lint.linter.input_runs.MIN_DIVIDED", 1 << 40)
     assert divided.stdout == run(tmp_path, "check", "a", "b", "c", "--isolated", "--no-cache", "--output", "json").stdout
     assert divided.stdout.count("MSAA201") == 3
 

@@ -1,0 +1,234 @@
+"""What is kept between runs of what inputs add to their results, in the user's cache folder.
+
+What an input adds depends on its settings, on what the run determines, and on the files that were opened for it, whose contents are kept
+with it by name: the input itself, shader modules, and the compilers that were looked up.
+"""
+
+from __future__ import annotations
+
+import os
+import stat
+import time
+import zlib
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from msaa_lint.core.cache import digest
+from msaa_lint.core.finding import (
+    CaptureLocation,
+    CaptureSummary,
+    Finding,
+    Fix,
+    InputSummary,
+    MissingKey,
+    Price,
+    Saving,
+    Savings,
+    Suppressed,
+    Undecided,
+    Unread,
+)
+from msaa_lint.core.serialized import by_name, dumps, loads
+from msaa_lint.core.text.files import FILE_FLAGS, recording
+from msaa_lint.core.text.source import Origin, Source, Unreadable, decode
+from msaa_lint.core.text.span import Edit, Label, Span
+from msaa_lint.input.file_types import STDIN
+
+from .part_linter import PartLinter, Unit
+from .rules.budget import Spent
+from .run_part import RunPart
+from .source_programs import ProgramInput, related_text
+
+if TYPE_CHECKING:
+    from msaa_lint.core.cache import Cache
+
+MAX_TEXT = 16 << 20
+"""The number of bytes of an input up to which its text is read again, and not kept."""
+
+MIN_AGE = 10_000_000
+"""Nanoseconds: clocks of file systems are coarse. A file that may have been written while it was linted is not relied on."""
+
+MIN_PROGRAM = 4000
+"""The number of bytes of a program from which on its part is kept; that of a shorter one takes as little time."""
+
+_KIND = "part"
+
+State = list[Any]
+"""A name for the content of a file, and what differs if it has been written; of a program, only the latter. Empty if there is none."""
+
+
+class _Text(NamedTuple):
+    """A text that reports show. `text` is None if it is that of the file of its name."""
+
+    name: str
+    text: str | None
+    origins: Sequence[Origin | None] | None
+
+
+class _Entry(NamedTuple):
+    """A kept part without its texts; `files` are the states of the files that it depends on, and `programs` those of programs."""
+
+    part: RunPart
+    texts: list[_Text]
+    files: dict[str, State]
+    programs: dict[str, State]
+
+
+_TYPES = by_name(
+    RunPart, CaptureLocation, CaptureSummary, Edit, Finding, Fix, InputSummary, Label, MissingKey, Origin, Price, Saving, Savings, Span,
+    Spent, Suppressed, Undecided, Unread, _Entry, _Text,
+)  # fmt: skip
+
+
+class KeptParts:
+    """The kept parts of the inputs of a run, as `linter` would determine them."""
+
+    def __init__(self, linter: PartLinter, cache: Cache, depends_on: str) -> None:
+        self._linter = linter
+        self._workspace = linter.workspace
+        self._cache = cache
+        self._depends_on = depends_on
+        self._settings: dict[str | None, str] = {}
+        """What parts depend on by configuration."""
+
+    def part(self, unit: Unit) -> RunPart:
+        """What an input or a program adds, which is then kept."""
+        before = time.time_ns() - MIN_AGE
+        with recording() as opened:
+            part = self._linter.part(unit)
+        key = self._key(unit)
+        if key is not None and part.summaries and not part.problems and not part.spent.turned_off:
+            entry = self._program_entry(unit, part) if isinstance(unit, ProgramInput) else _entry(part, opened, before)
+            if entry is not None:
+                with suppress(RecursionError):
+                    self._cache.write(_KIND, key, zlib.compress(dumps(entry), 1))
+        return part
+
+    def find(self, unit: Unit) -> RunPart | None:
+        """What an input or a program adds, if that is kept, and its files are as they were."""
+        key = self._key(unit)
+        data = self._cache.read(_KIND, key) if key is not None else None
+        if data is None:
+            return None
+        with suppress(ValueError, RecursionError, zlib.error):
+            entry = loads(zlib.decompress(data), _TYPES)
+            if isinstance(entry, _Entry):
+                return self._unchanged(unit, entry)
+        return None
+
+    def _unchanged(self, unit: Unit, entry: _Entry) -> RunPart | None:
+        """The part of an entry with its texts, if the files that it depends on are as they were."""
+        texts: dict[str, str] = {}
+        if isinstance(unit, ProgramInput):
+            roots = dict(zip(unit.paths, unit.roots, strict=True))
+            index = self._workspace.index
+            if any(index.content(path, roots.get(path)) != state[0] for path, state in entry.files.items()):
+                return None
+            for each in entry.texts:
+                text = related_text(each.name, roots.get(each.name))
+                if text is None or digest(text.data) != entry.files[each.name][0]:
+                    return None
+                texts[each.name] = text.source.text
+        else:
+            if any(_program_state(name) != state for name, state in entry.programs.items()):
+                return None
+            if any(not _is_unchanged(path, state) for path, state in entry.files.items()):
+                return None
+            for each in entry.texts:
+                if each.text is None:
+                    data = _content(os.path.abspath(each.name))
+                    if data is None or digest(data) != entry.files[os.path.abspath(each.name)][0]:
+                        return None
+                    texts[each.name] = decode(data)
+        sources = {each.name: Source(each.name, each.text or texts[each.name], each.origins) for each in entry.texts}
+        return entry.part._replace(sources=sources)
+
+    def _program_entry(self, program: ProgramInput, part: RunPart) -> _Entry | None:
+        """What is kept of a program; None if its files have changed since they were first read."""
+        index, contents = self._workspace.index, self._workspace.contents
+        if any(index.content(path, root) != contents.get(path) for path, root in zip(program.paths, program.roots, strict=True)):
+            return None
+        texts = [_Text(name, None, source.origins) for name, source in part.sources.items()]
+        return _Entry(part._replace(sources={}), texts, {path: [name] for path, name in contents.items()}, {})
+
+    def _key(self, unit: Unit) -> str | None:
+        """The name of the part of an input or a program; None if it is not kept."""
+        if isinstance(unit, str):
+            if unit == STDIN:
+                return None
+            path, stated = unit, repr((unit, self._workspace.project(unit)))
+        else:
+            if self._workspace.length(unit) < MIN_PROGRAM:
+                return None
+            path, stated = unit.inputs[0], repr(unit._replace(roots=()))
+        resolved = self._workspace.resolve(path)
+        if resolved.configuration not in self._settings:
+            settings = resolved.settings._replace(origin={}, baseline=None, output=())
+            pages = {
+                name: digest(source.text.encode("utf-8", "surrogatepass")) for name, source in resolved.engine.registry.sources.items()
+            }
+            values = (os.getcwd(), self._depends_on, settings, resolved.device, resolved.limits, pages)
+            self._settings[resolved.configuration] = digest(repr(values).encode("utf-8", "surrogatepass"))
+        return digest(f"{self._settings[resolved.configuration]} {stated}".encode("utf-8", "surrogatepass"))
+
+
+def _entry(part: RunPart, opened: Mapping[str, bool], before: int) -> _Entry | None:
+    """What is kept of an input; None if a file that it depends on has just been written."""
+    files: dict[str, State] = {}
+    contents: dict[str, bytes] = {}
+    for path in (name for name, is_program in opened.items() if not is_program):
+        state, data = _state(path), _content(path)
+        if state and (data is None or max(state[2:4]) >= before):
+            return None
+        files[path] = [digest(data), *state] if data is not None else []
+        if data is not None and len(data) <= MAX_TEXT:
+            contents[path] = data
+    texts = []
+    for name, source in part.sources.items():
+        data = contents.get(os.path.abspath(name))
+        texts.append(_Text(name, None if data is not None and _is_text(data, source.text) else source.text, source.origins))
+    programs = {name: _program_state(name) for name, is_program in opened.items() if is_program}
+    return _Entry(part._replace(sources={}), texts, files, programs)
+
+
+def _is_text(data: bytes, text: str) -> bool:
+    try:
+        return decode(data) == text
+    except Unreadable:
+        return False
+
+
+def _is_unchanged(path: str, known: State) -> bool:
+    """Whether a file is as it was: nobody can set when its state changed last, and a file that was written may have the same content."""
+    state = _state(path)
+    if state == known[1:]:
+        return True
+    data = _content(path) if state and known else None
+    return data is not None and digest(data) == known[0]
+
+
+def _content(path: str) -> bytes | None:
+    """The bytes of a regular file; None if there is none."""
+    try:
+        with open(os.open(path, FILE_FLAGS), "rb") as file:
+            status = os.fstat(file.fileno())
+            return file.read(status.st_size) if stat.S_ISREG(status.st_mode) else None
+    except (OSError, ValueError):
+        return None
+
+
+def _state(path: str) -> State:
+    try:
+        status = os.stat(path)
+    except (OSError, ValueError):
+        return []
+    return [status.st_mode, status.st_size, status.st_mtime_ns, status.st_ctime_ns, status.st_ino]
+
+
+def _program_state(name: str) -> State:
+    """The state of a program that is installed; empty if it is not."""
+    from msaa_lint.input.child_program import installed
+
+    path = installed(name)
+    return [path, *_state(path)] if path is not None else []

@@ -1,0 +1,212 @@
+"""Lints one input, or the files of a program, and says what it adds to the result of a run."""
+
+import os
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, NamedTuple
+
+from msaa_lint.core.diagnostics import diagnostic
+from msaa_lint.core.finding import Finding, Suppressed, is_confident
+from msaa_lint.core.garbage import collect_garbage
+from msaa_lint.core.text.source import Source
+from msaa_lint.input.file_types import STDIN
+
+from .input_summary import input_summaries
+from .results import FileResult, can_try_fixes, finding_kind
+from .run_part import RunPart
+from .source_programs import ProgramInput
+from .workspace import InputFile, Workspace
+
+if TYPE_CHECKING:
+    from .savings import Trials
+    from .suppress.baseline import Baseline
+
+Results = Callable[[InputFile, FileResult], None]
+"""Called with each input that was linted, and its result."""
+
+Unit = str | ProgramInput
+"""What is linted at once: an input by its path, or the files of a program."""
+
+
+class Contents(NamedTuple):
+    """What a run determines of each input besides its findings: what fixes save, in all and as prices, and its frames with their costs."""
+
+    prices: bool = False
+    savings: bool = False
+    frames: bool = False
+
+
+class PartLinter:
+    """Lints the inputs of a workspace one by one. What it says of an input does not depend on the others, except that custom rules have one
+    budget; `results` are called in this process."""
+
+    def __init__(
+        self, workspace: Workspace, contents: Contents, baseline: "Baseline | None" = None, results: Results | None = None
+    ) -> None:
+        self.workspace = workspace
+        self.request = workspace.request
+        self.settings = workspace.current.settings
+        self.contents = contents
+        self.baseline = baseline
+        self._results = results
+
+    @property
+    def has_callback(self) -> bool:
+        """Whether this process is told the result of each input."""
+        return self._results is not None
+
+    def part(self, unit: Unit) -> RunPart:
+        """Lints an input or a program; problems of its files are in the result, not in the workspace."""
+        workspace = self.workspace
+        name = unit if isinstance(unit, str) else unit.inputs[0]
+        # Problems of a configuration are not those of the first input that it applies to.
+        workspace.resolve(self.request.stdin_filename or os.curdir if name == STDIN else name)
+        findings, failed = workspace.findings, workspace.failed
+        workspace.findings, workspace.failed = [], set()
+        before = workspace.begin_input()
+        try:
+            part = self._input(unit) if isinstance(unit, str) else self._program(unit)
+            return part._replace(problems=workspace.findings, failed=frozenset(workspace.failed), spent=workspace.spent_since(before))
+        finally:
+            workspace.findings, workspace.failed = findings, failed
+            collect_garbage()
+
+    def _input(self, path: str) -> RunPart:
+        with self.workspace.guard(path):
+            file = self.workspace.open(path)
+            if file is not None:
+                return self._lint(file)
+        return RunPart()
+
+    def _program(self, program: ProgramInput) -> RunPart:
+        """The files of a program, and those of its inputs that cannot be read together with the others."""
+        part = RunPart()
+        with self.workspace.guard(program.inputs[0]):
+            file = self.workspace.open_program(program)
+            if file is not None:
+                part = self._lint(file)
+        done = {summary.file for summary in part.summaries} | self.workspace.failed
+        for path in program.inputs:
+            if path not in done:
+                part += self._input(path)
+        return part
+
+    def _lint(self, file: InputFile) -> RunPart:
+        result = file.lint(prices=self.contents.prices)
+        part = RunPart(notes=() if isinstance(file.data, bytes) else file.data.notes)
+        if self.request.fix is not None:
+            result, part = self._fix(file, result, part)
+        if self._results is not None:
+            self._results(file, result)
+        return self._part(file, result, part)
+
+    def _fix(self, file: InputFile, result: FileResult, part: RunPart) -> tuple[FileResult, RunPart]:
+        """Fixes an input; the result for its new contents, or the old result if it was not written, and what fixes add to the part."""
+        from msaa_lint.input.source_file import SourceFile
+
+        from .fixes.file_fixes import FixedText, fix_input
+
+        is_stdin = file.path == STDIN
+        if not isinstance(file.data, bytes):
+            kind = "source code" if isinstance(file.data, SourceFile) else "a capture"
+            note = f"{file.name} is {kind} and is not fixed: `msaa-lint convert` writes a description that can be fixed"
+            part = part._replace(notes=[*part.notes, note])
+            if is_stdin and isinstance(file.data, SourceFile):
+                # The fixed text of standard input is printed: print it unchanged.
+                text = file.data.source.text
+                part = part._replace(fixed=[FixedText(file.name, text, text, file.data.data, result)])
+            return result, part
+        if not is_stdin and not any(found.fix is not None for found in result.findings):
+            return result, part
+        write = self.request.fix == "write"
+        if write and not is_stdin and os.path.exists(file.path) and not os.path.isfile(file.path):
+            note = f"{file.name} is not a regular file and is not fixed: name `-` to print the fixed text"
+            return result, part._replace(notes=[*part.notes, note])
+        target = file.path if write and not is_stdin else None
+        fixed = fix_input(file.data, result, file.lint, file.fixable(result), self.request.unsafe_fixes, target)
+        part = part._replace(fixed=[fixed])
+        if fixed.write_error:
+            return result, part._replace(
+                diagnostics=[diagnostic("MSAA921", f"cannot write the fixed text: {fixed.write_error}", file.name)]
+            )
+        if write and fixed.changed:
+            return file.lint(fixed.data, prices=True) if self.contents.prices else fixed.result, part
+        return result, part
+
+    def _part(self, file: InputFile, result: FileResult, part: RunPart) -> RunPart:
+        """What an input adds to the result of the run, after settings and before the baseline."""
+        summaries = input_summaries(file.data, result)
+        sources = _sources_shown(result)
+        diagnostics: list[Finding] = [*part.diagnostics]
+        for summary in summaries:
+            if summary.unread is not None:
+                # The text of an input that creates something multisampled but shows no pass to check.
+                source = result.sources.get(summary.file, result.source)
+                sources |= {summary.file: source} if source is not None else {}
+                if file.resolved.settings.strict_inputs:
+                    help = "check a capture or a description of its frame instead, or exclude the file"
+                    diagnostics.append(diagnostic("MSAA931", summary.unread.message, summary.file, summary.unread.span, help=help))
+        findings = [found for found in map(file.resolved.selection.settle, result.findings) if found is not None]
+        part = part._replace(
+            diagnostics=diagnostics,
+            findings=findings,
+            undecided=result.undecided,
+            suppressed=result.suppressed,
+            summaries=summaries,
+            sources=sources,
+        )
+        if not self.contents.savings or all(found.fix is None for found in findings):
+            return self._with_frames(part, result, None)
+        if can_try_fixes(result) or self.settings.fail_on_cost is not None:
+            return self._try_fixes(file, result, part)
+        return self._with_frames(part._replace(untried={result.file: not isinstance(file.data, bytes)}), result, None)
+
+    def _with_frames(self, part: RunPart, result: FileResult, trials: "Trials | None") -> RunPart:
+        """Adds the frames of an input with their costs, if a report shows them; none of an input with errors."""
+        if not self.contents.frames or any(finding.fatal for finding in result.findings):
+            return part
+        from msaa_lint.frame.cost.amounts import Terms
+
+        from .costed_frames import costed_frames
+
+        return part._replace(frames=costed_frames(result, result.documents, trials, Terms(), (1,), steps=True))
+
+    def _try_fixes(self, file: InputFile, result: FileResult, part: RunPart) -> RunPart:
+        """Determines what fixes of an input save, and adds to its findings the reasons why fixes are not made."""
+        from .savings import savings, try_fixes
+
+        description, lint = file.description(result)
+        converted = not isinstance(file.data, bytes)
+        fixable = file.fixable(result)
+        trials = try_fixes(description, lint, fixable)
+        part = part._replace(savings={result.file: savings(description, trials, self.contents.prices, converted)})
+        part = self._with_frames(part, result, trials)
+        if self.settings.fail_on_cost is not None:
+            findings, _ = self.apply_baseline(part.findings)
+            failing = {finding_kind(found) for found in findings if is_confident(found, self.settings.fail_confidence)}
+            if len(failing) < len({finding_kind(found) for found in part.findings}):
+                trials = try_fixes(description, lint, lambda found: finding_kind(found) in failing and fixable(found))
+            part = part._replace(failing={result.file: savings(description, trials, True, converted)})
+        refusals = {finding_kind(failed.finding): failed.reason for failed in trials.all.failed_fixes}
+        findings = [
+            found._replace(fix=found.fix._replace(refusal=refusals.get(finding_kind(found), ""))) if found.fix else found
+            for found in part.findings
+        ]
+        return part._replace(findings=findings)
+
+    def apply_baseline(self, findings: Sequence[Finding]) -> tuple[Sequence[Finding], Sequence[Suppressed]]:
+        """The findings of an input that the baseline does not count, and those that it does."""
+        if self.baseline is None:
+            return findings, ()
+        from .suppress import baseline
+
+        return baseline.apply(findings, self.baseline)
+
+
+def _sources_shown(result: FileResult) -> dict[str, Source]:
+    """The texts that the findings of an input are about, of a program those of the files that they name."""
+    if not result.sources:
+        is_shown = result.findings or result.suppressed or result.undecided
+        return {result.file: result.source} if result.source is not None and is_shown else {}
+    findings = [*result.findings, *(entry.finding for entry in result.suppressed)]
+    names = {file for finding in findings for file in (finding.file, *(label.file for label in finding.labels))}
+    return {name: source for name, source in result.sources.items() if name in names}
