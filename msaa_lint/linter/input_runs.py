@@ -3,7 +3,7 @@ to do."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Container, Iterator, Sequence
 from itertools import accumulate
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -37,21 +37,26 @@ MAX_PROCESSES = 8
 
 
 class Numbered(NamedTuple):
-    """An input or a program, by its number in the run."""
+    """An input or a program, by its number in the run, and the project that an input must be in."""
 
     number: int
     unit: Unit
+    project: str | None = None
 
 
-Task = tuple[Numbered, ...]
-"""What a process lints before it returns what it found."""
+class Task(NamedTuple):
+    """What a process lints before it returns what it found: units with the same configuration, which is named by its path."""
+
+    units: Sequence[Numbered]
+    configuration: str | None
 
 
 class InputRuns:
     """The parts of the units of a run. `depends_on` is what parts depend on besides files and settings, None if they are not kept."""
 
     def __init__(self, linter: PartLinter, units: Sequence[Unit], depends_on: str | None) -> None:
-        self._linter = linter
+        self.linter = linter
+        self.depends_on = depends_on
         self._workspace = linter.workspace
         self._units = units
         self._kept: KeptParts | None = None
@@ -64,32 +69,32 @@ class InputRuns:
         """Yields the parts."""
         return map(self._part, self._units)
 
-    def divided(self, backend: Backend) -> Iterator[RunPart]:
-        """Yields the parts, which `backend` determines. They are what one process would say."""
+    def divided(self, backend: Backend, job: Callable[[Task], list[RunPart]]) -> Iterator[RunPart]:
+        """Yields the parts, which `backend` determines by `job`. They are what one process would say."""
         kept = {number: part for number, unit in enumerate(self._units) if isinstance(unit, ProgramInput) and (part := self._found(unit))}
         for unit in self._units:
             # Here, what the rules of a configuration take is counted once.
-            self._workspace.resolve(unit if isinstance(unit, str) else unit.inputs[0])
-        results = backend.results(self._parts, self._tasks(kept), list_of_each)
+            self._configuration(unit)
+        results = backend.results(job, self._tasks(kept), list_of_each)
         waiting: dict[int, RunPart] = dict(kept)
         try:
             for number, unit in enumerate(self._units):
                 while number not in waiting and unit != STDIN:
                     task, found = next(results)
                     if isinstance(found, Failure):
-                        waiting.update((each.number, self._failed(each.unit, found)) for each in task)
+                        waiting.update((each.number, self._failed(each.unit, found)) for each in task.units)
                     else:
-                        waiting.update(zip((each.number for each in task), found, strict=True))
+                        waiting.update(zip((each.number for each in task.units), found, strict=True))
                 part = waiting.pop(number, None)
                 # What custom rules have taken elsewhere counts as if it had been taken here; what may be too much is done here.
-                yield part if part is not None and (number in kept or self._workspace.include(part.spent)) else self._linter.part(unit)
+                yield part if part is not None and (number in kept or self._workspace.include(part.spent)) else self.linter.part(unit)
         finally:
             results.close()  # type: ignore[attr-defined]
             backend.close()
 
     def _part(self, unit: Unit) -> RunPart:
         if self._kept is None:
-            return self._linter.part(unit)
+            return self.linter.part(unit)
         return self._found(unit) or self._kept.part(unit)
 
     def _found(self, unit: Unit) -> RunPart | None:
@@ -97,43 +102,49 @@ class InputRuns:
         part = self._kept.find(unit) if self._kept is not None else None
         return part if part is not None and self._workspace.include(part.spent) else None
 
-    def _parts(self, task: Task) -> list[RunPart]:
-        """The parts of a task, in another process."""
+    def parts_of(self, task: Task) -> list[RunPart]:
+        """What the units of a task add to the result."""
         parts = []
-        for _, unit in task:
+        self._workspace.use(task.configuration)
+        for _, unit, project in task.units:
+            if isinstance(unit, str):
+                self._workspace.enter(unit, project)
             self._workspace.forget_spent()
             parts.append(self._part(unit))
         return parts
 
-    def _tasks(self, done: dict[int, RunPart]) -> Iterator[Task]:
+    def _configuration(self, unit: Unit) -> str | None:
+        return self._workspace.resolve(unit if isinstance(unit, str) else unit.inputs[0]).configuration
+
+    def _tasks(self, done: Container[int]) -> Iterator[Task]:
         """The units in groups: long programs first, so that all processes end together, then inputs in their order."""
         programs = [
             Numbered(number, unit) for number, unit in enumerate(self._units) if isinstance(unit, ProgramInput) and number not in done
         ]
         for each in sorted(programs, key=lambda each: -self._workspace.length(each.unit)):
-            yield (each,)
+            yield Task((each,), self._configuration(each.unit))
         group: list[Numbered] = []
-        length = 0
+        length, common = 0, None
         for number, unit in enumerate(self._units):
             if isinstance(unit, ProgramInput) or unit == STDIN:
                 continue
-            size = self._workspace.length(unit)
-            if group and (len(group) == MAX_UNITS or length + size > MAX_BYTES):
-                yield tuple(group)
+            size, configuration = self._workspace.length(unit), self._configuration(unit)
+            if group and (len(group) == MAX_UNITS or length + size > MAX_BYTES or configuration != common):
+                yield Task(group, common)
                 group, length = [], 0
-            group.append(Numbered(number, unit))
-            length += size
+            group.append(Numbered(number, unit, self._workspace.project(unit)))
+            length, common = length + size, configuration
         if group:
-            yield tuple(group)
+            yield Task(group, common)
 
     def _failed(self, unit: Unit, failure: Failure) -> RunPart:
         path = unit if isinstance(unit, str) else unit.inputs[0]
-        return RunPart(problems=[diagnostic("MSAA941", f"internal error: {failure.reason}", self._linter.request.input_name(path))])
+        return RunPart(problems=[diagnostic("MSAA941", f"not linted: {failure.reason}", self.linter.request.input_name(path))])
 
 
 def list_of_each(task: Task) -> list[Task]:
     """The units of a task, each of them a task."""
-    return [(each,) for each in task]
+    return [task._replace(units=(each,)) for each in task.units]
 
 
 def workspace_keeps(workspace: Workspace, units: Sequence[Unit]) -> bool:

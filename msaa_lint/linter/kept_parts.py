@@ -7,7 +7,6 @@ with it by name: the input itself, shader modules, and the compilers that were l
 from __future__ import annotations
 
 import os
-import stat
 import time
 import zlib
 from collections.abc import Mapping, Sequence
@@ -30,7 +29,7 @@ from msaa_lint.core.finding import (
     Unread,
 )
 from msaa_lint.core.serialized import by_name, dumps, loads
-from msaa_lint.core.text.files import FILE_FLAGS, recording
+from msaa_lint.core.text.files import content, recording
 from msaa_lint.core.text.source import Origin, Source, Unreadable, decode
 from msaa_lint.core.text.span import Edit, Label, Span
 from msaa_lint.input.file_types import STDIN
@@ -137,7 +136,7 @@ class KeptParts:
                 return None
             for each in entry.texts:
                 if each.text is None:
-                    data = _content(os.path.abspath(each.name))
+                    data = content(os.path.abspath(each.name))
                     if data is None or digest(data) != entry.files[os.path.abspath(each.name)][0]:
                         return None
                     texts[each.name] = decode(data)
@@ -178,7 +177,7 @@ def _entry(part: RunPart, opened: Mapping[str, bool], before: int) -> _Entry | N
     files: dict[str, State] = {}
     contents: dict[str, bytes] = {}
     for path in (name for name, is_program in opened.items() if not is_program):
-        state, data = _state(path), _content(path)
+        state, data = _state(path), content(path)
         if state and (data is None or max(state[2:4]) >= before):
             return None
         files[path] = [digest(data), *state] if data is not None else []
@@ -204,18 +203,8 @@ def _is_unchanged(path: str, known: State) -> bool:
     state = _state(path)
     if state == known[1:]:
         return True
-    data = _content(path) if state and known else None
+    data = content(path) if state and known else None
     return data is not None and digest(data) == known[0]
-
-
-def _content(path: str) -> bytes | None:
-    """The bytes of a regular file; None if there is none."""
-    try:
-        with open(os.open(path, FILE_FLAGS), "rb") as file:
-            status = os.fstat(file.fileno())
-            return file.read(status.st_size) if stat.S_ISREG(status.st_mode) else None
-    except (OSError, ValueError):
-        return None
 
 
 def _state(path: str) -> State:

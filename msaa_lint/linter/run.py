@@ -150,7 +150,9 @@ class _Run:
             return runs.in_this_process()
         from msaa_lint.core.execution.processes import Processes
 
-        return runs.divided(Processes(count))
+        from .job import Job
+
+        return runs.divided(Processes(count), Job(runs))
 
     def _parts_depend_on(self) -> str | None:
         """What the parts of inputs depend on besides their files and settings; None if they are not kept, which have no frames."""

@@ -11,6 +11,7 @@ from msaa_lint.core.diagnostics import diagnostic, internal_error
 from msaa_lint.core.finding import Finding, rank
 from msaa_lint.core.project import shown
 from msaa_lint.core.quote import quoted
+from msaa_lint.core.text.files import is_there
 from msaa_lint.core.text.source import Source, Unreadable, encode
 from msaa_lint.core.text.tree import Limits
 from msaa_lint.frame.devices import DeviceProfile
@@ -25,7 +26,7 @@ from .results import FileResult, finding_kind, unmerged
 from .rules.registry import folder as pages_folder
 from .rules.rule import EDITIONS
 from .run_limits import RunLimits
-from .settings.config import Configurations, Loaded
+from .settings.config import Configurations, KnownConfigurations, Loaded
 from .settings.selection import Selection
 from .settings.selectors import Weighed, unknown_selectors
 from .settings.settings import COMMAND_LINE, Settings, override
@@ -154,11 +155,13 @@ class Workspace:
     `current` are the settings that apply to the current folder.
     """
 
-    def __init__(self, request: Request) -> None:
+    def __init__(self, request: Request, configurations: Configurations | KnownConfigurations | None = None) -> None:
         self.request = request
         self.findings: list[Finding] = []
         self.sources: dict[str, Source] = {}
-        self._configurations = Configurations(request.config, request.isolated)
+        self.configurations = configurations or Configurations(request.config, request.isolated)
+        self.loaded: dict[str | None, Loaded] = {}
+        """The configurations that are used, by path."""
         self._settings: dict[str | None, Settings] = {}
         self._resolved: dict[str | None, ResolvedSettings] = {}
         self._engines: dict[object, Engine] = {}
@@ -175,7 +178,7 @@ class Workspace:
 
     def settings(self, path: str) -> Settings:
         """The settings that apply to a file or folder."""
-        return self._override(self._configurations.load(path))
+        return self._override(self.configurations.load(path))
 
     def _override(self, loaded: Loaded) -> Settings:
         if loaded.path not in self._settings:
@@ -188,8 +191,12 @@ class Workspace:
 
     def resolve(self, path: str) -> ResolvedSettings:
         """The resolved settings for a file or folder."""
-        loaded = self._configurations.load(path)
+        return self.resolve_loaded(self.configurations.load(path))
+
+    def resolve_loaded(self, loaded: Loaded) -> ResolvedSettings:
+        """The resolved settings of a configuration."""
         if loaded.path not in self._resolved:
+            self.loaded[loaded.path] = loaded
             settings = self._override(loaded)
             engine = self._engine(settings)
             self.findings.extend(unknown_selectors(settings, engine.registry.names))
@@ -213,7 +220,7 @@ class Workspace:
         projects = settings.page_projects()
         key = settings.rules, tuple(sorted(projects.items()))
         if key not in self._engines:
-            paths = [path for path in settings.rules if os.path.exists(path)]
+            paths = [path for path in settings.rules if is_there(path)]
             registry = load_rules(paths, projects, self._limits.rules, self.request.traceback)
             self.findings.extend(registry.problems)
             self.sources.update(registry.sources)
@@ -284,6 +291,16 @@ class Workspace:
     def include(self, spent: "Spent") -> bool:
         """Counts what custom rules have spent elsewhere; False if that may be more than is left here."""
         return self._limits.rules.include(spent)
+
+    def use(self, configuration: str | None) -> None:
+        """Makes a configuration apply to all inputs from here on, where the files that state them need not be."""
+        if isinstance(self.configurations, KnownConfigurations):
+            self.configurations.current = configuration
+
+    def enter(self, path: str, project: str | None) -> None:
+        """Makes an input known, with the project that it must be in."""
+        if project is not None:
+            self._projects = {path: project}
 
     def project(self, path: str) -> str | None:
         """The project that an input must be in; None for one that is named."""
@@ -438,5 +455,5 @@ def _invalid_values(settings: Settings) -> list[Finding]:
     if isinstance(profile, Problem):
         findings.append(settings.problem("profile", profile.message, profile.help))
     # Those of a configuration are checked where it is read.
-    missing = [quoted(os.path.relpath(path), 200) for path in settings.rules if not os.path.exists(path)]
+    missing = [quoted(os.path.relpath(path), 200) for path in settings.rules if not is_there(path)]
     return findings + [diagnostic("MSAA921", f"no such file or folder {path} in `--rules`", COMMAND_LINE) for path in missing]

@@ -86,5 +86,7 @@ def attempt(work: Work[Task, Result], task: Task) -> Result | Failure:
     """The result of a task, or the exception that it raised."""
     try:
         return work(task)
+    except Unusable as error:
+        return Failure(str(error))
     except Exception as error:
         return Failure(f"{type(error).__name__}: {str(error)[:300]}" if str(error) else type(error).__name__)

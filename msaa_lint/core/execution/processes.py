@@ -128,7 +128,7 @@ class _Process(Generic[Task, Result]):
         for other in others:
             waiting.repeat(*other)
         if not waiting.died(task, deaths):
-            yield task, Failure(f"the process that did it ended: {_reason(self._process.exitcode)}")
+            yield task, Failure(f"it ended the process that read it ({_reason(self._process.exitcode)})")
         self.connection.close()
 
     def end(self) -> None:

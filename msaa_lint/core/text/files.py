@@ -26,7 +26,7 @@ _KINDS = {
 }
 
 # O_NONBLOCK: opening a pipe must not wait for a writer.
-FILE_FLAGS = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_CLOEXEC", 0) | getattr(os, "O_BINARY", 0)
+_FLAGS = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_CLOEXEC", 0) | getattr(os, "O_BINARY", 0)
 _NO_LINK = getattr(os, "O_NOFOLLOW", 0)
 _buffers: ContextVar[Mapping[str, bytes]] = ContextVar("buffers")
 _opened: ContextVar[dict[str, bool]] = ContextVar("opened")
@@ -35,7 +35,7 @@ _FOLDER = getattr(os, "O_PATH", os.O_RDONLY) | getattr(os, "O_DIRECTORY", 0) | g
 
 @contextmanager
 def with_buffers(buffers: Mapping[str, bytes]) -> Iterator[None]:
-    """Makes this thread read `buffers`, by real path, in place of the files."""
+    """Makes this thread read `buffers`, by real or absolute path, in place of the files."""
     token = _buffers.set(buffers)
     try:
         yield
@@ -62,12 +62,18 @@ def record(name: str, is_program: bool = False) -> None:
         opened[name if is_program else os.path.abspath(name)] = is_program
 
 
+def is_there(path: str) -> bool:
+    """Whether there is a file or folder at a path, or what takes the place of a file."""
+    return os.path.exists(path) or os.path.abspath(path) in _buffers.get({})
+
+
 def _buffer(path: str, project: str | None) -> bytes | None:
     """The unsaved text of a file, if it has one. Raises Outside."""
     buffers = _buffers.get({})
     if not buffers:
         return None
-    return buffers.get(os.path.realpath(path) if project is None else real_path(path, project))
+    real = os.path.realpath(path) if project is None else real_path(path, project)
+    return buffers.get(real, buffers.get(os.path.abspath(path)))
 
 
 def open_file(path: str, project: str | None) -> tuple[BinaryIO, int | None]:
@@ -108,7 +114,7 @@ def open_entry(path: str) -> BinaryIO:
     unsaved = _buffer(path, None)
     if unsaved is not None:
         return io.BytesIO(unsaved)
-    file = open(os.open(path, FILE_FLAGS | _NO_LINK), "rb")  # noqa: SIM115 - the caller closes it
+    file = open(os.open(path, _FLAGS | _NO_LINK), "rb")  # noqa: SIM115 - the caller closes it
     try:
         _check_regular(os.fstat(file.fileno()).st_mode)
     except OSError:
@@ -130,11 +136,21 @@ def read(path: str, max_bytes: int, project: str | None) -> bytes:
     return data
 
 
+def content(path: str) -> bytes | None:
+    """The bytes of a regular file on disk; None if there is none."""
+    try:
+        with open(os.open(path, _FLAGS), "rb") as file:
+            status = os.fstat(file.fileno())
+            return file.read(status.st_size) if stat.S_ISREG(status.st_mode) else None
+    except (OSError, ValueError):
+        return None
+
+
 def _open_named(path: str) -> int:
     mode = os.stat(path).st_mode
     if stat.S_ISDIR(mode) or stat.S_ISSOCK(mode):
         _check_regular(mode)
-    return os.open(path, FILE_FLAGS)
+    return os.open(path, _FLAGS)
 
 
 def _open_inside(path: str, project: str) -> int:
@@ -146,7 +162,7 @@ def _open_inside(path: str, project: str) -> int:
     *folders, name = os.path.relpath(real, root).split(os.sep)
     if os.open not in os.supports_dir_fd or os.stat not in os.supports_follow_symlinks:
         _check_regular(os.lstat(real).st_mode)
-        return os.open(real, FILE_FLAGS)
+        return os.open(real, _FLAGS)
     parent = os.open(root, _FOLDER)
     try:
         for folder in folders:
@@ -154,7 +170,7 @@ def _open_inside(path: str, project: str) -> int:
             os.close(above)
         # Opening a device may have an effect.
         _check_regular(os.stat(name, dir_fd=parent, follow_symlinks=False).st_mode)
-        return os.open(name, FILE_FLAGS | _NO_LINK, dir_fd=parent)
+        return os.open(name, _FLAGS | _NO_LINK, dir_fd=parent)
     finally:
         os.close(parent)
 

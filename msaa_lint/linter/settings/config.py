@@ -97,6 +97,18 @@ class Configurations:
             folder = above
 
 
+class KnownConfigurations:
+    """Configurations that were found elsewhere, by path, and the path of the one that applies."""
+
+    def __init__(self, configurations: Mapping[str | None, Loaded], current: str | None) -> None:
+        self._configurations = configurations
+        self.current = current
+
+    def load(self, path: str) -> Loaded:
+        """The configuration that applies."""
+        return self._configurations[self.current]
+
+
 def _read_named(path: str) -> Loaded:
     text = _text(path, None)
     if isinstance(text, Finding):

@@ -1,0 +1,120 @@
+"""Linting in other processes: in copies of this one, which know what it knows, and in those that what they need travels to."""
+
+from __future__ import annotations
+
+import os
+import pickle
+import socket
+import threading
+from collections.abc import Mapping, Sequence
+from contextlib import chdir
+from typing import TYPE_CHECKING, NamedTuple
+
+from msaa_lint.core.execution.backend import Unusable
+from msaa_lint.core.text.files import content, recording, with_buffers
+
+from .input_runs import InputRuns, Task
+from .part_linter import Contents, PartLinter
+from .rules.registry import pages
+from .run_part import RunPart
+from .settings.config import KnownConfigurations, Loaded
+from .workspace import Request, Workspace
+
+if TYPE_CHECKING:
+    from .suppress.baseline import Baseline
+
+
+class Snapshot(NamedTuple):
+    """What linting depends on besides the inputs.
+
+    `folder` is the current one, `current` the path of its configuration, and `configurations` are all of them by path. `files` are the
+    contents of the files that the settings name, such as rule pages, by absolute path.
+    """
+
+    request: Request
+    folder: str
+    contents: Contents
+    baseline: Baseline | None
+    depends_on: str | None
+    current: str | None
+    configurations: Mapping[str | None, Loaded]
+    files: Mapping[str, bytes]
+
+
+class Job:
+    """Lints tasks, in this process and in its copies. Elsewhere it is a `TravelledJob`."""
+
+    def __init__(self, runs: InputRuns) -> None:
+        self._runs = runs
+        self._data: bytes | None = None
+
+    def __call__(self, task: Task) -> list[RunPart]:
+        """What the units of a task add to the result."""
+        return self._runs.parts_of(task)
+
+    def __reduce__(self) -> tuple[type[TravelledJob], tuple[bytes]]:
+        if self._data is None:
+            self._data = pickle.dumps(_snapshot(self._runs))
+        return TravelledJob, (self._data,)
+
+
+class TravelledJob:
+    """Lints tasks in a process that knows nothing of the run, and prepares it once."""
+
+    _lock = threading.Lock()
+    """One task at a time: the current folder is that of the process."""
+
+    _prepared: tuple[bytes, Snapshot, InputRuns] | None = None
+
+    def __init__(self, data: bytes) -> None:
+        self._data = data
+
+    def __reduce__(self) -> tuple[type[TravelledJob], tuple[bytes]]:
+        return TravelledJob, (self._data,)
+
+    def __call__(self, task: Task) -> list[RunPart]:
+        """What the units of a task add to the result. Raises Unusable if this machine lacks the folder that their paths are relative to."""
+        with self._lock:
+            known = TravelledJob._prepared
+            snapshot = known[1] if known is not None and known[0] == self._data else pickle.loads(self._data)
+            if not os.path.isdir(snapshot.folder):
+                where = f"the worker on {socket.gethostname()} has no folder {snapshot.folder}"
+                raise Unusable(f"{where}: inputs must have the same paths on all machines, or be URLs")
+            with chdir(snapshot.folder), with_buffers(snapshot.files):
+                if known is None or known[0] != self._data:
+                    known = TravelledJob._prepared = (self._data, snapshot, _runs(snapshot))
+                return known[2].parts_of(task)
+
+
+def _snapshot(runs: InputRuns) -> Snapshot:
+    workspace = runs.linter.workspace
+    request = workspace.request._replace(overrides=_with_pages(workspace.request.overrides))
+    with recording() as opened:
+        # What was read for the settings is read again, to see what that is.
+        again = Workspace(workspace.request, workspace.configurations)
+        for path in workspace.loaded.values():
+            again.resolve_loaded(path)
+    configurations = {
+        key: loaded._replace(settings=loaded.settings._replace(rules=_pages(loaded.settings.rules)))
+        for key, loaded in workspace.loaded.items()
+    }
+    files = {path: data for path in opened if (data := content(path)) is not None}
+    linter = runs.linter
+    return Snapshot(
+        request, os.getcwd(), linter.contents, linter.baseline, runs.depends_on, workspace.current.configuration, configurations, files
+    )
+
+
+def _with_pages(overrides: Mapping[str, object]) -> dict[str, object]:
+    rules = overrides.get("rules")
+    return {**overrides, **({"rules": list(_pages(rules))} if isinstance(rules, Sequence) and rules else {})}
+
+
+def _pages(paths: Sequence[str]) -> tuple[str, ...]:
+    """Rule pages, those of folders among them one by one."""
+    return tuple(os.path.abspath(page) for path in paths for page in (pages(path) if os.path.isdir(path) else [path]))
+
+
+def _runs(snapshot: Snapshot) -> InputRuns:
+    workspace = Workspace(snapshot.request, KnownConfigurations(snapshot.configurations, snapshot.current))
+    return InputRuns(PartLinter(workspace, snapshot.contents, snapshot.baseline), (), snapshot.depends_on)
