@@ -13,7 +13,7 @@ from msaa_lint.core.diagnostics import diagnostic
 from msaa_lint.core.finding import Finding
 from msaa_lint.core.project import Outside, folder_of, project_root
 from msaa_lint.core.quote import quoted_path
-from msaa_lint.core.text.files import read
+from msaa_lint.core.text.files import read, record
 from msaa_lint.core.text.source import Unreadable
 from msaa_lint.core.text.span import Span
 from msaa_lint.frame.description.document import Document
@@ -22,12 +22,12 @@ from msaa_lint.frame.spirv.module import MAX_BYTES, Module
 from msaa_lint.frame.spirv.reflect import Reflected, reflected
 from msaa_lint.frame.spirv.words import SpirvError
 
-MAX_WORK = 16_000_000
-"""The budget of a run, however small its modules: the words of modules, for each analysis, and the instructions followed, each of which
-counts as STEP words. It corresponds to about 8 seconds; a game's frame takes a twentieth of it."""
+MAX_WORK = 8_000_000
+"""The budget of an input, however small its modules: the words of modules, for each analysis, and the instructions followed, each of which
+counts as STEP words. It corresponds to about 4 seconds; a game's frame takes a tenth of it."""
 
 ANALYSES = 16
-"""The budget's part that grows with the modules of a run, as a multiple of their words."""
+"""The budget's part that grows with the modules of an input, as a multiple of their words."""
 
 STEP, ANALYSIS = 16, 1000
 """What an instruction that is followed, and any analysis, count as, in words."""
@@ -54,14 +54,28 @@ class _Unusable(Exception):
 
 
 class ShaderAnalyses:
-    """The shader modules of one run. Each is analyzed once for each entry point and specialization, all within one budget."""
+    """The shader modules of one run. Each is analyzed once for each entry point and specialization.
+
+    The modules of an input have one budget, from which an analysis is taken also if it was done for an input before: whether a module is
+    analyzed does not depend on other inputs.
+    """
 
     def __init__(self) -> None:
         self.left = MAX_WORK
+        self._work: dict[object, int] = {}
+        """What a source or an analysis took, in words."""
+        self._charged: set[object] = set()
+        """The analyses that were taken from the budget of this input."""
         self._known: dict[object, Reflected | _Unusable] = {}
         self._modules: dict[object, Module | _Unusable] = {}
         self._words = 0
         self._sources: set[object] = set()
+        """The sources that this input has."""
+
+    def begin_input(self) -> None:
+        """Begins a budget."""
+        self.left = MAX_WORK
+        self._charged, self._sources = set(), set()
 
     def reflected(self, source: object, name: str, code: Callable[[], bytes], query: tuple[Any, ...]) -> Reflected:
         """What a module says. `source` identifies it in the run, `code` reads it; the query is the entry point, the constants, and whether
@@ -75,6 +89,10 @@ class ShaderAnalyses:
                     raise
                 found = error
             self._known[key] = found
+        elif key not in self._charged:
+            self._charge(source, self._work.get(source, 0))
+            self.spend(self._work.get(key, 0))
+        self._charged.add(key)
         known = self._known[key]
         if isinstance(known, _Unusable):
             raise known
@@ -95,10 +113,13 @@ class ShaderAnalyses:
         except SpirvError as error:
             raise _Unusable("MSAA904" if "entry point" in str(error) else "MSAA903", f"{quoted_path(name)}: {error}") from None
         self.left -= STEP * found.steps
+        self._work[(source, *query)] = ANALYSIS + len(module.words) + STEP * found.steps
         return found
 
     def _module(self, source: object, name: str, code: Callable[[], bytes]) -> Module:
         kept = self._modules.pop(source, None)
+        if kept is not None:
+            self._charge(source, self._work.get(source, 0))
         if kept is None:
             try:
                 kept = self._read(source, name, code())
@@ -115,11 +136,19 @@ class ShaderAnalyses:
             raise kept
         return kept
 
-    def _read(self, source: object, name: str, code: bytes) -> Module:
+    def _charge(self, source: object, words: int) -> None:
+        """Counts the reading of a module of so many words, the first time in an input."""
         if source not in self._sources:
             self._sources.add(source)
-            self.left += ANALYSES * (len(code) // 4)
-        self.spend(ANALYSIS + len(code) // 4)
+            self.left += ANALYSES * words
+            self.spend(ANALYSIS + words)
+
+    def _read(self, source: object, name: str, code: bytes) -> Module:
+        self._work[source] = len(code) // 4
+        if source in self._sources:
+            # It was dropped meanwhile.
+            self.spend(ANALYSIS + len(code) // 4)
+        self._charge(source, len(code) // 4)
         if name.endswith(GLSL) and code[:4] not in MAGIC:
             self.spend(STEP * len(code))
             code = _of_text(name, code)
@@ -166,6 +195,8 @@ class Modules:
         """What identifies a module in the run, and a function that reads it: of a capture its content, else the file."""
         own = self._own.get(name)
         if own is None:
+            # What was found out for another input is not read again.
+            record(os.path.join(self._folder, name))
             return (self._project, os.path.abspath(os.path.join(self._folder, name))), lambda: self._bytes(name)
         if name not in self._digests:
             from hashlib import blake2b

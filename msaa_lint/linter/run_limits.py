@@ -18,12 +18,13 @@ class RunLimits:
         self.rules = Budget()
 
     def begin_input(self) -> None:
-        """Forgets the shaders of the input before: what is found out about one input does not depend on others."""
-        self.__dict__.pop("shaders", None)
+        """Begins the budget of the shaders of another input."""
+        if "shaders" in self.__dict__:
+            self.shaders.begin_input()
 
     @cached_property
     def shaders(self) -> ShaderAnalyses:
-        """Created with the first shader of an input that a rule asks for."""
+        """Created with the first shader that a rule asks for."""
         from msaa_lint.input.shader_modules import ShaderAnalyses
 
         return ShaderAnalyses()

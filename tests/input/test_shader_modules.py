@@ -1,4 +1,4 @@
-"""What the inputs of a run share of shader modules: analyses, and the work that they may take."""
+"""What the inputs of a run share of shader modules: analyses, but not the work that they may take."""
 
 from __future__ import annotations
 
@@ -58,20 +58,23 @@ def test_a_module_is_analyzed_once_in_a_run(tmp_path: Path, analyses: list[Analy
     assert all(analyses.count(each) == 1 for each in analyses)
 
 
-def test_the_budget_is_that_of_the_run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, analyses: list[Analysis]) -> None:
-    """Each document says that its modules were not analyzed; what was analyzed before is known to all."""
+def test_the_budget_is_that_of_an_input(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, analyses: list[Analysis]) -> None:
+    """Each document says that its modules were not analyzed. What was analyzed for an input before counts as if it had not been."""
     monkeypatch.setattr(shader_modules, "ANALYSES", 0)
-    monkeypatch.setattr(shader_modules, "MAX_WORK", 3 * (len(CODE) // 4 + shader_modules.ANALYSIS))
-    special = description(1, ", specialization: {{0: 7}}")
+    monkeypatch.setattr(shader_modules, "MAX_WORK", 4 * (len(CODE) // 4 + shader_modules.ANALYSIS))
+    two = [description(1), description(1, ", specialization: {{0: 7}}")]
     files = {
-        "a.msaa.yaml": description(1),
-        "b.msaa.yaml": description(2, ", specialization: {{0: {}}}"),
-        "c.msaa.yaml": f"{special}---\n{special}",
+        "a.msaa.yaml": "---\n".join(two),
+        "b.msaa.yaml": "---\n".join([*two, description(1, ", specialization: {{0: 8}}")]),
+        "c.msaa.yaml": "---\n".join([*two, description(1, ", specialization: {{0: 9}}"), *two]),
     }
-    found, code = reported(tmp_path, {**files, "d.msaa.yaml": description(1)})
-    assert [place for place, _ in found][-2:] == ["c.msaa.yaml:2:43", "c.msaa.yaml:5:43"]
-    assert all(place.startswith(("b.", "c.")) and severity == "warning" for place, severity in found)
-    assert (len(analyses) < 4, code) == (True, 1)
+    found, code = reported(tmp_path, files)
+    assert found == [("b.msaa.yaml:8:43", "warning"), ("c.msaa.yaml:8:43", "warning")]
+    assert ([constants for constants, alpha in analyses if alpha], code) == ([{}, {0: 7}], 1)
+    for name, text in files.items():
+        (tmp_path / name[0]).mkdir()
+        alone, _ = reported(tmp_path / name[0], {name: text})
+        assert alone == [each for each in found if each[0].startswith(name)]
 
 
 def test_a_shader_that_takes_too_many_steps_says_so(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
