@@ -229,7 +229,7 @@ COMMANDS = {
                 Option("chart", "text", "Draw a chart to an .svg, .png, or .json (Vega-Lite) file (extra `chart`).", "FILE"),
                 _COLOR,
             ),
-            "Inputs": _INPUTS,
+            "Inputs": (*_INPUTS, _JOBS),
             "Configuration": _CONFIGURATION,
             "Other": GLOBAL,
         },

@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from typing import NamedTuple
 
-from msaa_lint.core.finding import Result
+from msaa_lint.core.finding import Finding, Result
+from msaa_lint.core.text.source import Source
 from msaa_lint.frame.cost.amounts import Terms
 from msaa_lint.frame.cost.input_cost import CostedFrame
 
 from .costed_frames import costed_frames
 from .input_summary import input_summary
+from .job import parts
 from .results import DocumentResult, FileResult, can_try_fixes
+from .rules.budget import Spent
 from .savings import Trials
-from .workspace import InputFile, Request, Workspace
+from .workspace import InputFile, Request, Unit, Workspace
 
 
 class CostResult(NamedTuple):
@@ -35,37 +39,77 @@ def run_costs(request: Request, terms: Terms, counts: Sequence[int]) -> CostResu
     """
     workspace = Workspace(request)
     discovered = workspace.discover()
-    findings = workspace.findings
     frames: list[CostedFrame] = []
+    findings: list[Finding] = []
     notes = list(discovered.notes)
-    for path in discovered.files:
-        with workspace.guard(path):
-            frames += _frames(workspace, path, terms, counts, notes)
-    errors = [finding for finding in dict.fromkeys(findings) if finding.fatal]
+    for part in parts(CostLinter(workspace, terms, counts), discovered.files, 1 if request.traceback else request.jobs):
+        frames.extend(part.frames)
+        findings.extend(part.errors)
+        workspace.sources.update(part.sources)
+        notes.extend(part.notes)
+    errors = [finding for finding in dict.fromkeys([*workspace.findings, *findings]) if finding.fatal]
     files = dict.fromkeys([*map(request.input_name, discovered.files), *(finding.file for finding in errors)])
     return CostResult(frames, Result(errors, [], [], list(files), workspace.sources, []), notes)
 
 
-def _frames(workspace: Workspace, path: str, terms: Terms, counts: Sequence[int], notes: list[str]) -> list[CostedFrame]:
-    """The frames of one input."""
-    file = workspace.open(path)
-    if file is None:
-        return []
-    steps = "html" in workspace.request.formats
-    result = file.lint(prices=steps)
-    errors = [finding for finding in result.findings if finding.fatal]
-    workspace.findings.extend(errors)
-    if result.source is None:
-        return []
-    workspace.sources[result.file] = result.source
-    capture = input_summary(file.data, result).capture
-    if capture is not None and capture.left_out:
-        notes.append(f"{result.file}: the costs do not include {capture.left_out}")
-    documents = _valid_documents(result) if errors else list(result.documents)
-    trials = _trials(file, result) if not errors and can_try_fixes(result) else None
-    if not can_try_fixes(result):
-        notes.append(f"{result.file} is too large to try fixes: costs are those of the frame as written")
-    return costed_frames(result, documents, trials, terms, counts, steps)
+class CostPart(NamedTuple):
+    """What an input adds to the result. `errors` are its problems, `sources` has the text that they are about."""
+
+    frames: Sequence[CostedFrame] = ()
+    errors: Sequence[Finding] = ()
+    sources: Mapping[str, Source] = {}
+    notes: Sequence[str] = ()
+    spent: Spent = Spent()
+
+
+class CostLinter:
+    """Determines the costs of the inputs of a workspace one by one."""
+
+    def __init__(self, workspace: Workspace, terms: Terms, counts: Sequence[int]) -> None:
+        self.workspace = workspace
+        self._terms = terms
+        self._counts = counts
+
+    def part(self, unit: Unit) -> CostPart:
+        """The costs of the frames of an input, which is not a program."""
+        part = CostPart()
+        with self.workspace.reading(unit) as read, self.workspace.guard(str(unit)):
+            file = self.workspace.open(str(unit))
+            if file is not None:
+                part = self._costs(file)
+        return part._replace(errors=[*read.findings, *part.errors], spent=read.spent)
+
+    def found(self, unit: Unit) -> None:
+        """Costs are not kept between runs."""
+
+    def included(self, part: CostPart) -> bool:
+        """Whether custom rules may take what they took for a part in another process, which then counts here."""
+        return self.workspace.include(part.spent)
+
+    def failed(self, unit: Unit, reason: str) -> CostPart:
+        """What an input adds that ended the processes that read it."""
+        return CostPart(errors=[self.workspace.not_read(unit, reason)])
+
+    def travelling(self) -> Callable[[Workspace], CostLinter]:
+        """Creates such a linter in another process."""
+        return partial(CostLinter, terms=self._terms, counts=self._counts)
+
+    def _costs(self, file: InputFile) -> CostPart:
+        steps = "html" in self.workspace.request.formats
+        result = file.lint(prices=steps)
+        errors = [finding for finding in result.findings if finding.fatal]
+        if result.source is None:
+            return CostPart(errors=errors)
+        notes = []
+        capture = input_summary(file.data, result).capture
+        if capture is not None and capture.left_out:
+            notes.append(f"{result.file}: the costs do not include {capture.left_out}")
+        documents = _valid_documents(result) if errors else list(result.documents)
+        trials = _trials(file, result) if not errors and can_try_fixes(result) else None
+        if not can_try_fixes(result):
+            notes.append(f"{result.file} is too large to try fixes: costs are those of the frame as written")
+        frames = costed_frames(result, documents, trials, self._terms, self._counts, steps)
+        return CostPart(frames, errors, {result.file: result.source} if errors else {}, notes)
 
 
 def _valid_documents(result: FileResult) -> list[DocumentResult]:

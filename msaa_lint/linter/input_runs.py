@@ -5,19 +5,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Container, Iterator, Sequence
 from itertools import accumulate
-from typing import TYPE_CHECKING, NamedTuple
+from typing import Generic, NamedTuple, Protocol, TypeVar
 
-from msaa_lint.core.diagnostics import diagnostic
 from msaa_lint.core.execution.backend import Backend, Failure
 from msaa_lint.input.file_types import STDIN
 
-from .part_linter import PartLinter, Unit
-from .run_part import RunPart
 from .source_programs import ProgramInput
-from .workspace import Workspace
+from .workspace import Unit, Workspace
 
-if TYPE_CHECKING:
-    from .kept_parts import KeptParts
+Part = TypeVar("Part")
 
 MIN_DIVIDED = 300_000
 """The number of bytes of inputs from which on they are divided among processes, unless a number of processes is asked for: starting these
@@ -51,58 +47,70 @@ class Task(NamedTuple):
     configuration: str | None
 
 
-class InputRuns:
-    """The parts of the units of a run. `depends_on` is what parts depend on besides files and settings, None if they are not kept."""
+class Linter(Protocol[Part]):
+    """What reads the inputs of a workspace one by one: `Part` is what an input adds to the result of the run."""
 
-    def __init__(self, linter: PartLinter, units: Sequence[Unit], depends_on: str | None) -> None:
+    workspace: Workspace
+
+    def part(self, unit: Unit) -> Part:
+        """What an input or a program adds."""
+        ...
+
+    def found(self, unit: Unit) -> Part | None:
+        """What an input or a program adds, if that is known from an earlier run."""
+        ...
+
+    def included(self, part: Part) -> bool:
+        """Counts what custom rules took for a part in another process; False if that may be more than they have left in this one."""
+        ...
+
+    def failed(self, unit: Unit, reason: str) -> Part:
+        """What an input or a program adds that could not be read."""
+        ...
+
+    def travelling(self) -> Callable[[Workspace], Linter[Part]]:
+        """Creates such a linter in another process, for the workspace there."""
+        ...
+
+
+class InputRuns(Generic[Part]):
+    """What the inputs and programs of a run add to its result."""
+
+    def __init__(self, linter: Linter[Part], units: Sequence[Unit]) -> None:
         self.linter = linter
-        self.depends_on = depends_on
         self._workspace = linter.workspace
         self._units = units
-        self._kept: KeptParts | None = None
-        if depends_on is not None and workspace_keeps(self._workspace, units) and (cache := self._workspace.cache) is not None:
-            from .kept_parts import KeptParts
 
-            self._kept = KeptParts(linter, cache, depends_on)
-
-    def in_this_process(self) -> Iterator[RunPart]:
+    def in_this_process(self) -> Iterator[Part]:
         """Yields the parts."""
-        return map(self._part, self._units)
+        return map(self.linter.part, self._units)
 
-    def divided(self, backend: Backend, job: Callable[[Task], list[RunPart]]) -> Iterator[RunPart]:
+    def divided(self, backend: Backend, job: Callable[[Task], list[Part]]) -> Iterator[Part]:
         """Yields the parts, which `backend` determines by `job`. They are what one process would say."""
-        kept = {number: part for number, unit in enumerate(self._units) if isinstance(unit, ProgramInput) and (part := self._found(unit))}
         for unit in self._units:
             # Here, what the rules of a configuration take is counted once.
             self._configuration(unit)
-        results = backend.results(job, self._tasks(kept), list_of_each)
-        waiting: dict[int, RunPart] = dict(kept)
+        done = {
+            number: part for number, unit in enumerate(self._units) if isinstance(unit, ProgramInput) and (part := self.linter.found(unit))
+        }
+        waiting: dict[int, Part] = {}
+        results = backend.results(job, self._tasks(done), list_of_each)
         try:
             for number, unit in enumerate(self._units):
+                if number in done:
+                    yield done.pop(number)
+                    continue
                 while number not in waiting and unit != STDIN:
                     task, found = next(results)
-                    if isinstance(found, Failure):
-                        waiting.update((each.number, self._failed(each.unit, found)) for each in task.units)
-                    else:
-                        waiting.update(zip((each.number for each in task.units), found, strict=True))
+                    parts = [self.linter.failed(each.unit, found.reason) for each in task.units] if isinstance(found, Failure) else found
+                    waiting.update(zip((each.number for each in task.units), parts, strict=True))
                 part = waiting.pop(number, None)
-                # What custom rules have taken elsewhere counts as if it had been taken here; what may be too much is done here.
-                yield part if part is not None and (number in kept or self._workspace.include(part.spent)) else self.linter.part(unit)
+                yield part if part is not None and self.linter.included(part) else self.linter.part(unit)
         finally:
             results.close()  # type: ignore[attr-defined]
             backend.close()
 
-    def _part(self, unit: Unit) -> RunPart:
-        if self._kept is None:
-            return self.linter.part(unit)
-        return self._found(unit) or self._kept.part(unit)
-
-    def _found(self, unit: Unit) -> RunPart | None:
-        """What is kept of a unit, if custom rules may take that much."""
-        part = self._kept.find(unit) if self._kept is not None else None
-        return part if part is not None and self._workspace.include(part.spent) else None
-
-    def parts_of(self, task: Task) -> list[RunPart]:
+    def parts_of(self, task: Task) -> list[Part]:
         """What the units of a task add to the result."""
         parts = []
         self._workspace.use(task.configuration)
@@ -110,7 +118,7 @@ class InputRuns:
             if isinstance(unit, str):
                 self._workspace.enter(unit, project)
             self._workspace.forget_spent()
-            parts.append(self._part(unit))
+            parts.append(self.linter.part(unit))
         return parts
 
     def _configuration(self, unit: Unit) -> str | None:
@@ -137,19 +145,15 @@ class InputRuns:
         if group:
             yield Task(group, common)
 
-    def _failed(self, unit: Unit, failure: Failure) -> RunPart:
-        path = unit if isinstance(unit, str) else unit.inputs[0]
-        return RunPart(problems=[diagnostic("MSAA941", f"not linted: {failure.reason}", self.linter.request.input_name(path))])
-
 
 def list_of_each(task: Task) -> list[Task]:
     """The units of a task, each of them a task."""
     return [task._replace(units=(each,)) for each in task.units]
 
 
-def workspace_keeps(workspace: Workspace, units: Sequence[Unit]) -> bool:
-    """Whether the parts of units are kept."""
-    return workspace.request.cache and (_reach(workspace, units, MIN_KEPT) or any(not isinstance(unit, str) for unit in units))
+def is_worth_keeping(workspace: Workspace, units: Sequence[Unit]) -> bool:
+    """Whether keeping what units add takes less time than it may save."""
+    return any(not isinstance(unit, str) for unit in units) or _reach(workspace, units, MIN_KEPT)
 
 
 def _reach(workspace: Workspace, units: Sequence[Unit], length: int) -> bool:

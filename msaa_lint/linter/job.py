@@ -4,51 +4,55 @@ from __future__ import annotations
 
 import os
 import pickle
-import socket
 import threading
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import chdir
-from typing import TYPE_CHECKING, NamedTuple
+from typing import Any, Generic, NamedTuple
 
 from msaa_lint.core.execution.backend import Unusable
 from msaa_lint.core.text.files import content, recording, with_buffers
 
-from .input_runs import InputRuns, Task
-from .part_linter import Contents, PartLinter
+from .input_runs import InputRuns, Linter, Part, Task, processes
 from .rules.registry import pages
-from .run_part import RunPart
 from .settings.config import KnownConfigurations, Loaded
-from .workspace import Request, Workspace
+from .workspace import Request, Unit, Workspace
 
-if TYPE_CHECKING:
-    from .suppress.baseline import Baseline
+
+def parts(linter: Linter[Part], units: Sequence[Unit], jobs: int | None = 1) -> Iterator[Part]:
+    """Yields what the inputs and programs of a run add to its result, in their order, as determined by so many processes at once."""
+    runs = InputRuns(linter, units)
+    count = processes(linter.workspace, units, jobs)
+    if count == 1:
+        return runs.in_this_process()
+    from msaa_lint.core.execution.processes import Processes
+
+    return runs.divided(Processes(count), Job(runs))
 
 
 class Snapshot(NamedTuple):
     """What linting depends on besides the inputs.
 
-    `folder` is the current one, `current` the path of its configuration, and `configurations` are all of them by path. `files` are the
-    contents of the files that the settings name, such as rule pages, by absolute path.
+    `folder` is the current one, `linter` creates what reads inputs, `current` is the path of the configuration of the current folder, and
+    `configurations` are all of them by path. `files` are the contents of the files that the settings name, such as rule pages, by absolute
+    path.
     """
 
     request: Request
     folder: str
-    contents: Contents
-    baseline: Baseline | None
-    depends_on: str | None
+    linter: Callable[[Workspace], Linter[Any]]
     current: str | None
     configurations: Mapping[str | None, Loaded]
     files: Mapping[str, bytes]
 
 
-class Job:
+class Job(Generic[Part]):
     """Lints tasks, in this process and in its copies. Elsewhere it is a `TravelledJob`."""
 
-    def __init__(self, runs: InputRuns) -> None:
+    def __init__(self, runs: InputRuns[Part]) -> None:
         self._runs = runs
         self._data: bytes | None = None
 
-    def __call__(self, task: Task) -> list[RunPart]:
+    def __call__(self, task: Task) -> list[Part]:
         """What the units of a task add to the result."""
         return self._runs.parts_of(task)
 
@@ -64,7 +68,7 @@ class TravelledJob:
     _lock = threading.Lock()
     """One task at a time: the current folder is that of the process."""
 
-    _prepared: tuple[bytes, Snapshot, InputRuns] | None = None
+    _prepared: tuple[bytes, Snapshot, InputRuns[Any]] | None = None
 
     def __init__(self, data: bytes) -> None:
         self._data = data
@@ -72,12 +76,14 @@ class TravelledJob:
     def __reduce__(self) -> tuple[type[TravelledJob], tuple[bytes]]:
         return TravelledJob, (self._data,)
 
-    def __call__(self, task: Task) -> list[RunPart]:
+    def __call__(self, task: Task) -> list[Any]:
         """What the units of a task add to the result. Raises Unusable if this machine lacks the folder that their paths are relative to."""
         with self._lock:
             known = TravelledJob._prepared
             snapshot = known[1] if known is not None and known[0] == self._data else pickle.loads(self._data)
             if not os.path.isdir(snapshot.folder):
+                import socket
+
                 where = f"the worker on {socket.gethostname()} has no folder {snapshot.folder}"
                 raise Unusable(f"{where}: inputs must have the same paths on all machines, or be URLs")
             with chdir(snapshot.folder), with_buffers(snapshot.files):
@@ -86,7 +92,7 @@ class TravelledJob:
                 return known[2].parts_of(task)
 
 
-def _snapshot(runs: InputRuns) -> Snapshot:
+def _snapshot(runs: InputRuns[Part]) -> Snapshot:
     workspace = runs.linter.workspace
     request = workspace.request._replace(overrides=_with_pages(workspace.request.overrides))
     with recording() as opened:
@@ -99,10 +105,7 @@ def _snapshot(runs: InputRuns) -> Snapshot:
         for key, loaded in workspace.loaded.items()
     }
     files = {path: data for path in opened if (data := content(path)) is not None}
-    linter = runs.linter
-    return Snapshot(
-        request, os.getcwd(), linter.contents, linter.baseline, runs.depends_on, workspace.current.configuration, configurations, files
-    )
+    return Snapshot(request, os.getcwd(), runs.linter.travelling(), workspace.current.configuration, configurations, files)
 
 
 def _with_pages(overrides: Mapping[str, object]) -> dict[str, object]:
@@ -115,6 +118,6 @@ def _pages(paths: Sequence[str]) -> tuple[str, ...]:
     return tuple(os.path.abspath(page) for path in paths for page in (pages(path) if os.path.isdir(path) else [path]))
 
 
-def _runs(snapshot: Snapshot) -> InputRuns:
+def _runs(snapshot: Snapshot) -> InputRuns[Any]:
     workspace = Workspace(snapshot.request, KnownConfigurations(snapshot.configurations, snapshot.current))
-    return InputRuns(PartLinter(workspace, snapshot.contents, snapshot.baseline), (), snapshot.depends_on)
+    return InputRuns(snapshot.linter(workspace), ())

@@ -9,8 +9,9 @@ from __future__ import annotations
 import os
 import time
 import zlib
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
+from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from msaa_lint.core.cache import digest
@@ -34,10 +35,12 @@ from msaa_lint.core.text.source import Origin, Source, Unreadable, decode
 from msaa_lint.core.text.span import Edit, Label, Span
 from msaa_lint.input.file_types import STDIN
 
-from .part_linter import PartLinter, Unit
+from .input_runs import Linter
+from .part_linter import PartLinter
 from .rules.budget import Spent
 from .run_part import RunPart
 from .source_programs import ProgramInput, related_text
+from .workspace import Unit, Workspace
 
 if TYPE_CHECKING:
     from msaa_lint.core.cache import Cache
@@ -85,14 +88,17 @@ class KeptParts:
 
     def __init__(self, linter: PartLinter, cache: Cache, depends_on: str) -> None:
         self._linter = linter
-        self._workspace = linter.workspace
+        self.workspace = linter.workspace
         self._cache = cache
         self._depends_on = depends_on
         self._settings: dict[str | None, str] = {}
         """What parts depend on by configuration."""
 
     def part(self, unit: Unit) -> RunPart:
-        """What an input or a program adds, which is then kept."""
+        """What an input or a program adds: as kept, or as determined now, which is then kept."""
+        found = self.found(unit)
+        if found is not None:
+            return found
         before = time.time_ns() - MIN_AGE
         with recording() as opened:
             part = self._linter.part(unit)
@@ -104,24 +110,36 @@ class KeptParts:
                     self._cache.write(_KIND, key, zlib.compress(dumps(entry), 1))
         return part
 
-    def find(self, unit: Unit) -> RunPart | None:
-        """What an input or a program adds, if that is kept, and its files are as they were."""
+    def found(self, unit: Unit) -> RunPart | None:
+        """What an input or a program adds, if that is kept, its files are as they were, and custom rules may take what they took."""
         key = self._key(unit)
         data = self._cache.read(_KIND, key) if key is not None else None
         if data is None:
             return None
         with suppress(ValueError, RecursionError, zlib.error):
             entry = loads(zlib.decompress(data), _TYPES)
-            if isinstance(entry, _Entry):
-                return self._unchanged(unit, entry)
+            part = self._unchanged(unit, entry) if isinstance(entry, _Entry) else None
+            return part if part is not None and self.included(part) else None
         return None
+
+    def included(self, part: RunPart) -> bool:
+        """Whether custom rules may take what they took for a part in another process, which then counts here."""
+        return self._linter.included(part)
+
+    def failed(self, unit: Unit, reason: str) -> RunPart:
+        """What an input or a program adds that ended the processes that read it."""
+        return self._linter.failed(unit, reason)
+
+    def travelling(self) -> Callable[[Workspace], Linter[RunPart]]:
+        """Creates such a linter in another process, with the cache there."""
+        return partial(keeping, self._linter.travelling(), self._depends_on)
 
     def _unchanged(self, unit: Unit, entry: _Entry) -> RunPart | None:
         """The part of an entry with its texts, if the files that it depends on are as they were."""
         texts: dict[str, str] = {}
         if isinstance(unit, ProgramInput):
             roots = dict(zip(unit.paths, unit.roots, strict=True))
-            index = self._workspace.index
+            index = self.workspace.index
             if any(index.content(path, roots.get(path)) != state[0] for path, state in entry.files.items()):
                 return None
             for each in entry.texts:
@@ -145,7 +163,7 @@ class KeptParts:
 
     def _program_entry(self, program: ProgramInput, part: RunPart) -> _Entry | None:
         """What is kept of a program; None if its files have changed since they were first read."""
-        index, contents = self._workspace.index, self._workspace.contents
+        index, contents = self.workspace.index, self.workspace.contents
         if any(index.content(path, root) != contents.get(path) for path, root in zip(program.paths, program.roots, strict=True)):
             return None
         texts = [_Text(name, None, source.origins) for name, source in part.sources.items()]
@@ -156,12 +174,12 @@ class KeptParts:
         if isinstance(unit, str):
             if unit == STDIN:
                 return None
-            path, stated = unit, repr((unit, self._workspace.project(unit)))
+            path, stated = unit, repr((unit, self.workspace.project(unit)))
         else:
-            if self._workspace.length(unit) < MIN_PROGRAM:
+            if self.workspace.length(unit) < MIN_PROGRAM:
                 return None
             path, stated = unit.inputs[0], repr(unit._replace(roots=()))
-        resolved = self._workspace.resolve(path)
+        resolved = self.workspace.resolve(path)
         if resolved.configuration not in self._settings:
             settings = resolved.settings._replace(origin={}, baseline=None, output=())
             pages = {
@@ -170,6 +188,12 @@ class KeptParts:
             values = (os.getcwd(), self._depends_on, settings, resolved.device, resolved.limits, pages)
             self._settings[resolved.configuration] = digest(repr(values).encode("utf-8", "surrogatepass"))
         return digest(f"{self._settings[resolved.configuration]} {stated}".encode("utf-8", "surrogatepass"))
+
+
+def keeping(linter: Callable[[Workspace], PartLinter], depends_on: str, workspace: Workspace) -> Linter[RunPart]:
+    """A linter that keeps its parts, if the workspace permits."""
+    cache = workspace.cache
+    return KeptParts(linter(workspace), cache, depends_on) if cache is not None else linter(workspace)
 
 
 def _entry(part: RunPart, opened: Mapping[str, bool], before: int) -> _Entry | None:

@@ -2,11 +2,11 @@
 
 import os
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import TYPE_CHECKING, NamedTuple
 
 from msaa_lint.core.diagnostics import diagnostic
 from msaa_lint.core.finding import Finding, Suppressed, is_confident
-from msaa_lint.core.garbage import collect_garbage
 from msaa_lint.core.text.source import Source
 from msaa_lint.input.file_types import STDIN
 
@@ -14,7 +14,7 @@ from .input_summary import input_summaries
 from .results import FileResult, can_try_fixes, finding_kind
 from .run_part import RunPart
 from .source_programs import ProgramInput
-from .workspace import InputFile, Workspace
+from .workspace import InputFile, Unit, Workspace
 
 if TYPE_CHECKING:
     from .savings import Trials
@@ -22,9 +22,6 @@ if TYPE_CHECKING:
 
 Results = Callable[[InputFile, FileResult], None]
 """Called with each input that was linted, and its result."""
-
-Unit = str | ProgramInput
-"""What is linted at once: an input by its path, or the files of a program."""
 
 
 class Contents(NamedTuple):
@@ -56,19 +53,24 @@ class PartLinter:
 
     def part(self, unit: Unit) -> RunPart:
         """Lints an input or a program; problems of its files are in the result, not in the workspace."""
-        workspace = self.workspace
-        name = unit if isinstance(unit, str) else unit.inputs[0]
-        # Problems of a configuration are not those of the first input that it applies to.
-        workspace.resolve(self.request.stdin_filename or os.curdir if name == STDIN else name)
-        findings, failed = workspace.findings, workspace.failed
-        workspace.findings, workspace.failed = [], set()
-        before = workspace.begin_input()
-        try:
+        with self.workspace.reading(unit) as read:
             part = self._input(unit) if isinstance(unit, str) else self._program(unit)
-            return part._replace(problems=workspace.findings, failed=frozenset(workspace.failed), spent=workspace.spent_since(before))
-        finally:
-            workspace.findings, workspace.failed = findings, failed
-            collect_garbage()
+        return part._replace(problems=read.findings, failed=frozenset(read.failed), spent=read.spent)
+
+    def found(self, unit: Unit) -> None:
+        """Nothing is known from an earlier run."""
+
+    def included(self, part: RunPart) -> bool:
+        """Whether custom rules may take what they took for a part in another process, which then counts here."""
+        return self.workspace.include(part.spent)
+
+    def failed(self, unit: Unit, reason: str) -> RunPart:
+        """What an input or a program adds that ended the processes that read it."""
+        return RunPart(problems=[self.workspace.not_read(unit, reason)])
+
+    def travelling(self) -> Callable[[Workspace], "PartLinter"]:
+        """Creates such a linter in another process."""
+        return partial(PartLinter, contents=self.contents, baseline=self.baseline)
 
     def _input(self, path: str) -> RunPart:
         with self.workspace.guard(path):

@@ -8,12 +8,14 @@ from msaa_lint.core.finding import Finding, InputSummary, Result, Savings, Suppr
 from msaa_lint.core.garbage import collect_garbage
 
 from .engine import rule_infos
-from .part_linter import Contents, PartLinter, Results, Unit
+from .input_runs import is_worth_keeping
+from .job import parts
+from .part_linter import Contents, PartLinter, Results
 from .results import price_order
 from .run_part import RunPart
 from .settings.settings import Settings
 from .source_programs import ProgramInput
-from .workspace import Request, Workspace
+from .workspace import Request, Unit, Workspace
 
 if TYPE_CHECKING:
     from msaa_lint.frame.cost.input_cost import CostedFrame
@@ -140,19 +142,17 @@ class _Run:
 
     def _parts(self, units: Sequence[Unit]) -> Iterator[RunPart]:
         """What the units add to the result, in their order."""
-        from .input_runs import InputRuns, processes
-
         request = self.request
-        has_effects = request.fix is not None or request.log is not None or request.traceback or self.linter.has_callback
-        runs = InputRuns(self.linter, units, None if has_effects else self._parts_depend_on())
-        count = 1 if has_effects else processes(self.workspace, units, request.jobs)
-        if count == 1:
-            return runs.in_this_process()
-        from msaa_lint.core.execution.processes import Processes
+        if request.fix is not None or request.log is not None or request.traceback or self.linter.has_callback:
+            # These have effects in this process, in the order of the inputs.
+            return parts(self.linter, units)
+        depends_on = self._parts_depend_on()
+        cache = self.workspace.cache if depends_on is not None and is_worth_keeping(self.workspace, units) else None
+        if cache is None or depends_on is None:
+            return parts(self.linter, units, request.jobs)
+        from .kept_parts import KeptParts
 
-        from .job import Job
-
-        return runs.divided(Processes(count), Job(runs))
+        return parts(KeptParts(self.linter, cache, depends_on), units, request.jobs)
 
     def _parts_depend_on(self) -> str | None:
         """What the parts of inputs depend on besides their files and settings; None if they are not kept, which have no frames."""

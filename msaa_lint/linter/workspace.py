@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from msaa_lint.core.allowance import Allowance
 from msaa_lint.core.diagnostics import diagnostic, internal_error
 from msaa_lint.core.finding import Finding, rank
+from msaa_lint.core.garbage import collect_garbage
 from msaa_lint.core.project import shown
 from msaa_lint.core.quote import quoted
 from msaa_lint.core.text.files import is_there
@@ -23,6 +24,7 @@ from msaa_lint.input.file_types import STDIN
 from .engine import Engine, LintOptions, load_rules
 from .fixes.fixer import Lint
 from .results import FileResult, finding_kind, unmerged
+from .rules.budget import Spent
 from .rules.registry import folder as pages_folder
 from .rules.rule import EDITIONS
 from .run_limits import RunLimits
@@ -38,7 +40,7 @@ if TYPE_CHECKING:
     from msaa_lint.input.code.project.index import Index
     from msaa_lint.input.source_file import SourceFile, SourceText
 
-    from .rules.budget import Budget, Spent
+    from .rules.budget import Budget
 
 
 class Request(NamedTuple):
@@ -146,6 +148,20 @@ class InputFile(NamedTuple):
             return engine.lint_description(Source(name, text, []), name, options, modules)
 
         return result.description or lint(data.description), lint
+
+
+Unit = str | ProgramInput
+"""What is read at once: an input by its path, or the files of a program."""
+
+
+class UnitRead:
+    """What reading an input or a program met: problems of its files, the inputs that could not be read as part of a program, and what
+    custom rules have spent."""
+
+    def __init__(self) -> None:
+        self.findings: list[Finding] = []
+        self.failed: set[str] = set()
+        self.spent = Spent()
 
 
 class Workspace:
@@ -261,7 +277,7 @@ class Workspace:
             return None
         return self._input(path, name, data, resolved)
 
-    def length(self, unit: "str | ProgramInput") -> int:
+    def length(self, unit: Unit) -> int:
         """The number of bytes of an input, or of the files of a program; 0 if that is unknown."""
         if isinstance(unit, ProgramInput):
             return sum(map(self.index.length, unit.paths))
@@ -269,15 +285,27 @@ class Workspace:
             return os.path.getsize(unit)
         return 0
 
-    def begin_input(self) -> "Budget":
-        """Prepares for the next input or program. Returns the budget of custom rules as it is now."""
+    @contextmanager
+    def reading(self, unit: Unit) -> Iterator[UnitRead]:
+        """Reads an input or a program in the `with` statement: what is met belongs to it, and not to the workspace."""
+        name = unit if isinstance(unit, str) else unit.inputs[0]
+        # Problems of a configuration are not those of the first input that it applies to.
+        self.resolve(self.request.stdin_filename or os.curdir if name == STDIN else name)
+        findings, failed, read = self.findings, self.failed, UnitRead()
+        self.findings, self.failed = read.findings, read.failed
         self._limits.begin_input()
         self._keys = self._new_keys()
-        return self._limits.rules.copy()
+        before = self._limits.rules.copy()
+        try:
+            yield read
+            read.spent = self._limits.rules.spent_since(before)
+        finally:
+            self.findings, self.failed = findings, failed
+            collect_garbage()
 
-    def spent_since(self, before: "Budget") -> "Spent":
-        """What custom rules have spent of their budget since it was as `before`."""
-        return self._limits.rules.spent_since(before)
+    def not_read(self, unit: Unit, reason: str) -> Finding:
+        """The finding about an input that could not be read in another process."""
+        return diagnostic("MSAA941", f"not linted: {reason}", self.request.input_name(unit if isinstance(unit, str) else unit.inputs[0]))
 
     def _new_keys(self) -> Allowance:
         return Allowance() if self.request.keys is None else Allowance(self.request.keys)
@@ -288,7 +316,7 @@ class Workspace:
             self._begun = self._limits.rules.copy()
         self._limits.rules.restore(self._begun)
 
-    def include(self, spent: "Spent") -> bool:
+    def include(self, spent: Spent) -> bool:
         """Counts what custom rules have spent elsewhere; False if that may be more than is left here."""
         return self._limits.rules.include(spent)
 

@@ -192,3 +192,10 @@ def test_processes_of_no_use_are_not_started(tmp_path: Path) -> None:
     command = [sys.executable, "-X", "importtime", "-m", "msaa_lint", "check", "one.msaa.yaml"]
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False, env=environment_of({"PYTHONPATH": str(ROOT)}))
     assert "multiprocessing" not in done.stderr and "msaa_lint.linter.kept_parts" not in done.stderr
+
+
+@pytest.mark.parametrize("output", ["full", "json", "html"])
+def test_costs_are_those_of_one_process(corpus: Path, output: str) -> None:
+    one, three = (run_process(corpus, "cost", ".", "--each", "--output", output, "--jobs", jobs) for jobs in ("1", "3"))
+    assert (one.returncode, one.stdout, one.stderr) == (three.returncode, three.stdout, three.stderr)
+    assert one.returncode == 2 and "forward" in one.stdout and "unreadable" in one.stderr
