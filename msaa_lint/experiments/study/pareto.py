@@ -12,8 +12,8 @@ SAME = 1.05
 """Times without an interval count as equal within this factor."""
 
 REPEATED = 1.001
-"""Measured times are not more certain than this factor: repeated on another machine of a kind, medians differ by 0.15 % although their
-intervals are narrower (docs/study.md), as where a buffer lies in memory differs."""
+"""Measured times are not more certain than this factor: repeated on another machine of a kind, medians differ by up to 0.16 % although
+their intervals are narrower, as where buffers lie in memory differs."""
 
 Vector = tuple[float, ...]
 """Quantities of which less is better: the error, then costs."""

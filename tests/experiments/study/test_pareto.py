@@ -101,6 +101,17 @@ def test_what_does_the_same_with_less_work_in_the_same_time_takes_the_place(time
     assert best(better) == ["4x, half of them shaded"]
 
 
+@pytest.mark.parametrize(("time", "name"), [(0.920896, "2x"), (0.9235, "2x, each shaded")])
+def test_a_difference_that_another_machine_would_not_show_decides_nothing(time: float, name: str) -> None:
+    """A GPU's times of work that is the same, whose intervals are apart."""
+    plain, each = Technique(MSAA, 2), Technique(SAMPLE_SHADING, 2, 1.0)
+    points = [
+        timed(plain, time_ms=time, low_ms=time - 6e-5, high_ms=time + 6e-5),
+        timed(each, time_ms=0.920736, low_ms=0.920704, high_ms=0.9208),
+    ]
+    assert best(points) == [name]
+
+
 TIMES = st.tuples(st.integers(1, 9), st.integers(0, 3), st.integers(0, 3))
 NOISY = st.lists(st.tuples(st.sampled_from(techniques()), TIMES, st.sampled_from([0.1, 0.2, 0.3])), min_size=1, max_size=9)
 
