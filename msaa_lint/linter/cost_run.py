@@ -13,10 +13,10 @@ from msaa_lint.frame.cost.input_cost import CostedFrame
 
 from .costed_frames import costed_frames
 from .input_summary import input_summary
-from .job import parts
 from .results import DocumentResult, FileResult, can_try_fixes
 from .rules.budget import Spent
 from .savings import Trials
+from .unit_parts import parts
 from .workspace import InputFile, Request, Unit, Workspace
 
 

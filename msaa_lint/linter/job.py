@@ -5,28 +5,17 @@ from __future__ import annotations
 import os
 import pickle
 import threading
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import chdir
 from typing import Any, Generic, NamedTuple
 
 from msaa_lint.core.execution.backend import Unusable
 from msaa_lint.core.text.files import content, recording, with_buffers
 
-from .input_runs import InputRuns, Linter, Part, Task, processes
+from .input_runs import InputRuns, Linter, Part, Task
 from .rules.registry import pages
 from .settings.config import KnownConfigurations, Loaded
-from .workspace import Request, Unit, Workspace
-
-
-def parts(linter: Linter[Part], units: Sequence[Unit], jobs: int | None = 1) -> Iterator[Part]:
-    """Yields what the inputs and programs of a run add to its result, in their order, as determined by so many processes at once."""
-    runs = InputRuns(linter, units)
-    count = processes(linter.workspace, units, jobs)
-    if count == 1:
-        return runs.in_this_process()
-    from msaa_lint.core.execution.processes import Processes
-
-    return runs.divided(Processes(count), Job(runs))
+from .workspace import Request, Workspace
 
 
 class Snapshot(NamedTuple):

@@ -9,12 +9,12 @@ from msaa_lint.core.garbage import collect_garbage
 
 from .engine import rule_infos
 from .input_runs import is_worth_keeping
-from .job import parts
 from .part_linter import Contents, PartLinter, Results
 from .results import price_order
 from .run_part import RunPart
 from .settings.settings import Settings
 from .source_programs import ProgramInput
+from .unit_parts import parts
 from .workspace import Request, Unit, Workspace
 
 if TYPE_CHECKING:
