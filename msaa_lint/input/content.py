@@ -22,6 +22,9 @@ MAX_BYTES = 1 << 20
 
 _LIMITS = Limits(nodes=200_000)
 
+_FIRST = 2048
+"""The number of characters that nearly always show that a file is a Vulkan SC pipeline: the rest of its head need not be parsed."""
+
 _SECTIONS = tuple(name for name in Description.SHAPE if name not in ("frame", "device", "enabled", "scene"))
 """The sections that state the frame itself. Other tools' files often have the other keys as well."""
 
@@ -107,6 +110,10 @@ def kind_of_text(data: bytes) -> str:
     text = data.decode(encoding, "replace")
     if not _has_key(text):
         return OTHER
+    if any(name in text[:_FIRST] for name in STATES):
+        roots = [root for root in beginning(text[:_FIRST], _LIMITS) if root.kind == "mapping" and not root.value.keys().isdisjoint(STATES)]
+        if any(_kind_of_document(root) == INPUT for root in roots):
+            return INPUT
     kinds = {_kind_of_document(root) for root in beginning(text, _LIMITS) if root.kind == "mapping"}
     return next((kind for kind in (INPUT, NEAR) if kind in kinds), OTHER)
 

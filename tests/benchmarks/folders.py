@@ -85,7 +85,7 @@ def lint(name: str, archive: str, folder: str) -> Row:
     try:
         found = discover(["."], lambda path: Settings(), sources=True)
         started = time.perf_counter()
-        command = [sys.executable, "-m", "msaa_lint", "check", ".", "--isolated", "--output", "json"]
+        command = [sys.executable, "-m", "msaa_lint", "check", ".", "--isolated", "--no-cache", "--output", "json"]
         done = subprocess.run(
             command,
             capture_output=True,

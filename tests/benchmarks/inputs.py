@@ -80,11 +80,11 @@ def pipelines(folder: str) -> tuple[str, str]:
     os.makedirs(made)
     for number in range(PIPELINES):
         with open(os.path.join(made, f"pipeline{number:03}.json"), "w", encoding="utf-8") as file:
-            file.write(_pipeline(number))
+            file.write(pipeline(number))
     return made, "made by the benchmark"
 
 
-def _pipeline(number: int) -> str:
+def pipeline(number: int) -> str:
     """A pipeline with a render pass of one attachment, filled up with the vertex attributes that such files mostly consist of."""
     attachment = {
         "flags": "0", "format": "VK_FORMAT_R8G8B8A8_UNORM", "samples": f"VK_SAMPLE_COUNT_{1 << number % 3}_BIT",

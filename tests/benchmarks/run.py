@@ -19,7 +19,7 @@ from typing import NamedTuple
 
 from inputs import DESCRIPTION, PIPELINES, ROOT, descriptions, pipelines
 
-CHECK = (sys.executable, "-c", "from msaa_lint.__main__ import main; main()", "check", "--isolated")
+CHECK = (sys.executable, "-c", "from msaa_lint.__main__ import main; main()", "check", "--isolated", "--no-cache")
 """What the installed `msaa-lint check` runs."""
 
 MANY = 1000
