@@ -1,4 +1,7 @@
-"""When garbage is collected: the command line disables the collector, but the passes and attachments of a frame refer to each other."""
+"""When garbage is collected: the command line disables the collector.
+
+What is known of a frame has no reference cycles and is freed without it; what is tracked of a capture has some.
+"""
 
 import gc
 

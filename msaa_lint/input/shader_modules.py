@@ -52,6 +52,10 @@ class _Unusable(Exception):
         self.code = code
         self.help = help
 
+    def copy(self) -> "_Unusable":
+        """Returns the same error without its traceback, which would keep all that is known of a frame."""
+        return _Unusable(self.code, str(self), self.help)
+
 
 class ShaderAnalyses:
     """The shader modules of one run. Each is analyzed once for each entry point and specialization.
@@ -87,7 +91,7 @@ class ShaderAnalyses:
             except _Unusable as error:
                 if error.code == "MSAA906":
                     raise
-                found = error
+                found = error.copy()
             self._known[key] = found
         elif key not in self._charged:
             self._charge(source, self._work.get(source, 0))
@@ -95,7 +99,7 @@ class ShaderAnalyses:
         self._charged.add(key)
         known = self._known[key]
         if isinstance(known, _Unusable):
-            raise known
+            raise known.copy()
         return known
 
     def spend(self, work: int) -> None:
@@ -127,13 +131,13 @@ class ShaderAnalyses:
             except _Unusable as error:
                 if error.code == "MSAA906":
                     raise
-                kept = error
+                kept = error.copy()
         while self._words > MAX_KEPT_WORDS and self._modules:
             dropped = self._modules.pop(next(iter(self._modules)))
             self._words -= len(dropped.words) if isinstance(dropped, Module) else 0
         self._modules[source] = kept
         if isinstance(kept, _Unusable):
-            raise kept
+            raise kept.copy()
         return kept
 
     def _charge(self, source: object, words: int) -> None:

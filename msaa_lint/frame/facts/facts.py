@@ -38,6 +38,7 @@ class Subject(NamedTuple):
 
     The other members are the parts of the frame that the subject stands for: an aspect has its `attachment` as well, a pipeline the
     `subpass` that it draws in, the read of an image the `position` of the command, the read of an input attachment the `pipeline`.
+    `owner` is the pass that `attachment`, `subpass`, or `resolve` is part of, which without it might be freed.
     """
 
     kind: str
@@ -53,6 +54,7 @@ class Subject(NamedTuple):
     pipeline: Pipeline | None = None
     dependency: SubpassDependency | None = None
     position: int | None = None
+    owner: Pass | None = None
 
     @property
     def images(self) -> frozenset[str]:

@@ -298,7 +298,7 @@ class Frame:
         resolve.source_image = resolve.source.target if resolve.source is not None else None
         resolve.target_image = resolve.target.target if resolve.target is not None else None
         if resolve.source is not None:
-            resolve.source.resolved.append(resolve)
+            resolve.source.add_resolve(resolve)
         made.resolves.append(resolve)
 
     def _renderings(self) -> None:
@@ -345,7 +345,9 @@ class Frame:
             resolve.mode_at = info.place("resolveMode", "resolveImage")
             resolve.source_at = info.place("image")
             resolve.target_at = info.place("resolveImage", "resolveMode")
-            if not unresolved:
+            if unresolved:
+                subpass.unresolved.append(resolve)
+            else:
                 self._joined(subpass, resolve, 0)
             resolve.target_image = self.target(info.resolveImage)
             if aspect != "color":

@@ -1,12 +1,16 @@
 """The parts of a frame: images, attachments, resolves, subpasses and passes of both kinds in one form.
 
 A pass is a VkRenderPass or one vkCmdBeginRendering. What the description does not say is None here too.
+
+The frame owns its passes, a pass its subpasses and attachments, and a subpass its resolves. Other references are weak, so that a frame is
+freed when its last user drops it. They raise a ReferenceError once their object is gone: keep the pass with its parts.
 """
 
 from __future__ import annotations
 
 from functools import cached_property
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
+from weakref import ref
 
 from msaa_lint.core.text.span import Span
 from msaa_lint.frame.description.models import AttachmentDescription, BeginRendering, Image, RenderingAttachment, RenderPass, Subpass
@@ -15,6 +19,8 @@ from msaa_lint.frame.vulkan.formats import Format, format_of
 
 RENDER_PASS = "renderPass"
 RENDERING = "rendering"
+
+PartType = TypeVar("PartType")
 
 
 class Target:
@@ -73,8 +79,7 @@ class Attachment:
         self.depth_stencil: set[int] = set()
         self.resolve: dict[int, set[str]] = {}
         """By subpass: the aspects that a resolve with a source and a mode overwrites here; `?` for one whose mode is unknown."""
-        self.resolved: list[Resolve] = []
-        """The resolves within the pass that read it."""
+        self._resolved: list[ref[Resolve]] = []
         self.input: set[int] = set()
         self.preserve: set[int] = set()
 
@@ -86,6 +91,15 @@ class Attachment:
         target = self.target
         named = target is not None and target.image is not None
         return f"{target.name} (attachment {self.name})" if named and target is not None else f"attachment {self.name}"
+
+    @property
+    def resolved(self) -> list[Resolve]:
+        """The resolves within the pass that read it."""
+        return [_alive(resolve) for resolve in self._resolved]
+
+    def add_resolve(self, resolve: Resolve) -> None:
+        """Adds a resolve within the pass that reads it."""
+        self._resolved.append(ref(resolve))
 
     @property
     def used(self) -> bool:
@@ -115,7 +129,7 @@ class Resolve:
         self.aspect = aspect
         self.record = record
         self.path = path
-        self.render_pass: Pass | None = None
+        self._render_pass: ref[Pass] | None = None
         self.subpass = 0
         self.mode: str | None = None
         self.mode_at: Span = record.head
@@ -125,8 +139,25 @@ class Resolve:
         self.target: Attachment | None = None
         self.target_image: Target | None = None
         self.target_at: Span = record.head
-        self.pair: Resolve | None = None
+        self._pair: ref[Resolve] | None = None
+
+    @property
+    def render_pass(self) -> Pass | None:
+        """The pass that it is part of; None for a command."""
+        return _alive(self._render_pass) if self._render_pass is not None else None
+
+    @render_pass.setter
+    def render_pass(self, render_pass: Pass) -> None:
+        self._render_pass = ref(render_pass)
+
+    @property
+    def pair(self) -> Resolve | None:
         """The resolve of the other aspect by the same structure, or of the same rendering; without a pass where it states NONE alone."""
+        return _alive(self._pair) if self._pair is not None else None
+
+    @pair.setter
+    def pair(self, pair: Resolve) -> None:
+        self._pair = ref(pair)
 
     @property
     def read_part(self) -> Attachment | Target | None:
@@ -152,19 +183,29 @@ def sizes_differ(one: Target | None, other: Target | None) -> bool:
 class PassSubpass:
     """A subpass; a dynamic rendering has one."""
 
-    __slots__ = ("color", "depth_stencil", "index", "path", "record", "render_pass", "resolves", "single_sampled", "single_sampled_count")
+    __slots__ = (
+        "_render_pass", "color", "depth_stencil", "index", "path", "record", "resolves",
+        "single_sampled", "single_sampled_count", "unresolved",
+    )  # fmt: skip
 
     def __init__(self, render_pass: Pass, record: Subpass | BeginRendering, index: int) -> None:
-        self.render_pass = render_pass
+        self._render_pass = ref(render_pass)
         self.record = record
         self.index = index
         self.path = record.path
         self.color: list[Attachment | None] = []
         self.depth_stencil: list[Attachment] = []
         self.resolves: list[Resolve] = []
+        self.unresolved: list[Resolve] = []
+        """What states NONE, and no image, for the depth or stencil aspect of a rendering: the `pair` of the other aspect's resolve."""
         chained = record.multisampledRenderToSingleSampled
         self.single_sampled = chained is not None and chained.multisampledRenderToSingleSampledEnable is not False
         self.single_sampled_count = chained.rasterizationSamples if chained is not None and self.single_sampled else None
+
+    @property
+    def render_pass(self) -> Pass:
+        """The pass that it is part of."""
+        return _alive(self._render_pass)
 
 
 class Pass:
@@ -210,3 +251,10 @@ class Pass:
         """Whether a subpass (or the rendering) resolves by its own shader."""
         flags = (flag for subpass in self.subpasses for flag in subpass.record.flags)
         return any(flag.startswith(("CUSTOM_RESOLVE", "SHADER_RESOLVE")) for flag in flags)
+
+
+def _alive(reference: ref[PartType]) -> PartType:
+    part = reference()
+    if part is None:
+        raise ReferenceError("a part of a frame was kept without its pass")
+    return part

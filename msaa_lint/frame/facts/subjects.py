@@ -195,12 +195,12 @@ class FrameAnalysis:
         for attachment in render_pass.attachments:
             facts = Facts(shared, self._image_of(attachment), attachment_facts(attachment, subpasses_known))
             record = attachment.record
-            yield Subject("attachment", record.path, record.head, facts, attachment=attachment)
+            yield Subject("attachment", record.path, record.head, facts, attachment=attachment, owner=render_pass)
             for aspect in attachment.aspects:
                 of_aspect = aspect_facts(render_pass, attachment, aspect, resolves.get(id(attachment), []), self.readers)
                 of_aspect = Facts(facts, of_aspect)
                 self._put_aspect(of_aspect, render_pass, attachment, aspect, instances)
-                yield Subject("aspect", record.path, record.head, of_aspect, attachment=attachment, aspect=aspect)
+                yield Subject("aspect", record.path, record.head, of_aspect, attachment=attachment, aspect=aspect, owner=render_pass)
 
     def _put_aspect(self, facts: Facts, render_pass: Pass, attachment: Attachment, aspect: Aspect, instances: list[Instance]) -> None:
         """Adds what the frame says of an aspect over time."""
@@ -218,7 +218,7 @@ class FrameAnalysis:
             facts = Facts(shared, subpass_facts(subpass, self.walk, self.device))
             screen_facts(facts, subpass, instances, self.contents)
             of_subpass[subpass.path] = facts
-            yield Subject("subpass", subpass.path, subpass.record.head, facts, subpass=subpass)
+            yield Subject("subpass", subpass.path, subpass.record.head, facts, subpass=subpass, owner=render_pass)
             for resolve in subpass.resolves:
                 of_resolve = Facts(shared, resolve_facts(resolve, self.device))
                 self.resolve_uses.put(of_resolve, resolve)
@@ -226,7 +226,7 @@ class FrameAnalysis:
                     from .metal import filter_facts
 
                     filter_facts(of_resolve, resolve, self.frame.document.metal)
-                yield Subject("resolve", resolve.path, resolve.record.head, of_resolve, resolve=resolve)
+                yield Subject("resolve", resolve.path, resolve.record.head, of_resolve, resolve=resolve, owner=render_pass)
 
     def _dependencies(self, render_pass: Pass, shared: Facts) -> Iterator[Subject]:
         detached = self.frame.has_commands and not self.frame.commands
@@ -253,7 +253,9 @@ class FrameAnalysis:
             facts = pipeline_facts(pipeline, subpass, draws.get(pipeline.key, ()), without_shading)
             self.shaders.put(facts, pipeline)
             shared = of_subpass[subpass.path] if subpass is not None else self.shared
-            yield Subject("pipeline", pipeline.path, pipeline.head, Facts(shared, facts), pipeline=pipeline, subpass=subpass)
+            yield Subject(
+                "pipeline", pipeline.path, pipeline.head, Facts(shared, facts), pipeline=pipeline, subpass=subpass, owner=render_pass
+            )
 
     def _image_of(self, attachment: Attachment) -> Facts:
         """The facts of an attachment's image; of several that alternate, those on which all agree."""

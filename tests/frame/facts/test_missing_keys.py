@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import copy
-import gc
 import json
 import re
 from collections.abc import Iterator
@@ -15,7 +14,6 @@ import yaml
 from msaa_lint.core.finding import Undecided
 from msaa_lint.frame.description.models import Description
 from msaa_lint.frame.description.shapes import Shape
-from msaa_lint.frame.facts.subjects import FrameAnalysis
 from msaa_lint.frame.facts.table import FACTS
 from msaa_lint.frame.facts.table_keys import KEYS, WITHOUT_KEY
 from msaa_lint.linter.engine import Engine, LintOptions, load_rules
@@ -41,22 +39,6 @@ def undecided(tree: Any) -> list[Undecided] | None:
     """The undecided rules for a description; None if it is invalid."""
     result = ENGINE.lint(json.dumps(tree).encode(), "x.msaa.yaml", OPTIONS)
     return None if any(finding.fatal for finding in result.findings) else result.undecided
-
-
-def analyses() -> int:
-    """The number of analyses of frames in memory, garbage included."""
-    return sum(isinstance(each, FrameAnalysis) for each in gc.get_objects())
-
-
-def test_what_is_known_of_a_frame_is_freed_before_garbage_is_collected() -> None:
-    gc.collect()
-    gc.disable()
-    try:
-        before = analyses()
-        assert undecided({"images": {"color": {"samples": 4}}})
-        assert analyses() == before
-    finally:
-        gc.enable()
 
 
 def leaves(tree: Any, path: Path = ()) -> Iterator[Path]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from functools import partial
 
 from msaa_lint.frame.spirv import numbers as op
 from msaa_lint.input.code.parsing import Code, SyntaxNode, fields, tree, without_comments
@@ -32,8 +31,6 @@ class Declarations(Expressions):
     def __init__(self, source: PreprocessedText) -> None:
         super().__init__(source.text)
         self.source = source
-        self.built_in = self.built_in_variable
-        self.call = partial(evaluate_call, self)
         self.root = tree(Code(source.text, "glsl")).root_node
         self.starts: list[tuple[Place, SyntaxNode]] = []
         """Global variables and their initializers."""
@@ -245,17 +242,19 @@ class Declarations(Expressions):
         if name:
             self.scopes[0][name] = variable
 
-    def built_in_variable(self, name: str) -> Place | None:
-        """Declares a built-in variable on its first use."""
+    def call(self, node: SyntaxNode, depth: int) -> Value:
+        return evaluate_call(self, node, depth)
+
+    def built_in(self, name: str) -> Place | None:
         storage = op.INPUT if name in INPUTS else op.OUTPUT
-        built_in = INPUTS.get(name) or OUTPUTS.get(name)
+        kind_and_number = INPUTS.get(name) or OUTPUTS.get(name)
         if name == "gl_FragColor":
             variable = self.variable(op.OUTPUT, vector(FLOAT, 4))
             self.out.decorate(variable.pointer, op.LOCATION, 0)
-        elif built_in is None:
+        elif kind_and_number is None:
             return None
         else:
-            kind, number = built_in
+            kind, number = kind_and_number
             variable = self.variable(storage, kind)
             self.out.decorate(variable.pointer, op.BUILT_IN, number)
             if name in _SAMPLE_BUILT_INS:

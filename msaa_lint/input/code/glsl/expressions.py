@@ -23,10 +23,12 @@ class Expressions(Values):
 
     ended = False
     """Whether the current block has its terminator."""
-    call: Callable[[SyntaxNode, int], Value]
-    """Evaluates a call."""
     root: SyntaxNode
     _effects: tuple[list[int], list[int]] | None = None
+
+    def call(self, node: SyntaxNode, depth: int) -> Value:
+        """Returns the value of a call."""
+        raise NotImplementedError
 
     def value(self, node: SyntaxNode, depth: int = 0) -> Value:
         if depth > MAX_DEPTH:

@@ -1,7 +1,7 @@
 """Values and lvalues of GLSL in SPIR-V: loads and stores, conversions, constructors, arithmetic."""
 
 import zlib
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import NamedTuple
 
 from msaa_lint.frame.spirv import numbers as op
@@ -74,7 +74,6 @@ class Values(SyntaxReader):
         self._called: set[int] = set()
         self.fetches: list[tuple[str, int, int]] = []
         """Sample fetches: the name of the image, and the range of the call."""
-        self.built_in: Callable[[str], Place | None] = lambda name: None
 
     def unsupported(self, node: SyntaxNode, why: str) -> UnsupportedShader:
         return UnsupportedShader(f"`{' '.join(self.text_of(node)[:40].split())}` {why}")
@@ -108,6 +107,10 @@ class Values(SyntaxReader):
             if name in scope:
                 return scope[name]
         return self.built_in(name)
+
+    def built_in(self, name: str) -> Place | None:
+        """Declares a built-in variable on its first use."""
+        raise NotImplementedError
 
     def value(self, node: SyntaxNode, depth: int = 0) -> Value:
         """Returns the value of an expression."""
