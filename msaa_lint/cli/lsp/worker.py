@@ -12,8 +12,6 @@ from typing import NamedTuple, TypeVar
 
 from lsprotocol import types
 
-from msaa_lint.core.garbage import MAX_GARBAGE
-
 from .analysis import Analysis
 from .documents import OpenDocument
 from .linting import analyze
@@ -28,7 +26,7 @@ MAX_DELAY = 1.0
 
 
 IDLE = 2.0
-"""Seconds without anything to do after which all garbage is collected, which takes as long as linting."""
+"""Seconds without anything to do after which garbage is collected, which takes as long as linting. Linting leaves little of it."""
 
 
 class _Job(NamedTuple):
@@ -108,17 +106,10 @@ class Worker:
             else:
                 self._post(_succeed, future, result)
 
-        self._call(run)
-        return await future
-
-    def _call(self, function: Callable[[], None]) -> None:
         with self._changed:
-            self._calls.append(function)
+            self._calls.append(run)
             self._changed.notify()
-
-    def _collect_garbage(self) -> None:
-        """Collects garbage once what has waited for a result has answered: nothing else runs meanwhile."""
-        self._loop.call_soon(self._call, _collect_garbage)
+        return await future
 
     def _start(self) -> None:
         if not self._started:
@@ -133,8 +124,6 @@ class Worker:
                 self._analyze(work)
             else:
                 work()
-            if _has_garbage():
-                self._post(self._collect_garbage)
 
     def _next(self) -> _Job | Callable[[], None]:
         """What to do next, when it is due."""
@@ -183,20 +172,6 @@ class Worker:
         self._done(analysis)
         for future in self._waiting.pop(uri, ()):
             _succeed(future, None)
-
-
-def _has_garbage() -> bool:
-    """Whether there is more than may accumulate. It is less than for a run, which would collect garbage before its result is known."""
-    return gc.get_count()[0] > MAX_GARBAGE // 2
-
-
-def _collect_garbage() -> None:
-    """Collects garbage: the command line disables the collector, and the parts of a frame refer to each other.
-
-    All of it is looked for: the last result of a document outlives a collection, but not the next edits.
-    """
-    if _has_garbage():
-        gc.collect()
 
 
 def _succeed(future: asyncio.Future[T], result: T) -> None:
