@@ -3,20 +3,23 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import partial
+from typing import NamedTuple
 
 from msaa_lint.core import atomic_write
-from msaa_lint.core.text.emitter import emit
-from msaa_lint.core.text.source import Source, Unreadable, decode
-from msaa_lint.core.text.tree import Limits, parse
+from msaa_lint.core.text.source import Unreadable
+from msaa_lint.core.text.tree import Limits
+from msaa_lint.input.file_types import DESCRIPTIONS, STDIN
 from msaa_lint.input.opening import load
-from msaa_lint.input.source_file import SourceFile
+from msaa_lint.linter.source_programs import units_of
+from msaa_lint.linter.unit_parts import parts
+from msaa_lint.linter.workspace import Request, Unit, Workspace
 
-from .common import UsageError, internal_errors_of, note, refuse_inputs, run_command, warn, write_output, writes
+from .common import UsageError, input_options, internal_errors_of, note, refuse_inputs, run_command, warn, write_output, writes
+from .conversion import Conversion, ConvertLinter, converted, input_path, of_programs
 from .options import Arguments
-from .programs import are_programs, assumed_values, names, place, read_programs
-from .report.escape import escape
+from .programs import are_programs, assumed_values, finding_line, read_programs
 from .report.words import plural
 
 
@@ -26,13 +29,15 @@ def convert(arguments: Arguments) -> int:
 
 
 def _convert(arguments: Arguments) -> int:
+    output, force = arguments.get("output"), bool(arguments.get("force"))
+    if output is not None and (os.path.isdir(output) or output.endswith(("/", os.sep))):
+        return convert_each(arguments, output, force)
     if are_programs(arguments):
-        return convert_programs(arguments, arguments.get("output"), bool(arguments.get("force")))
+        return convert_programs(arguments, output, force)
     if len(arguments["paths"]) > 1:
-        raise UsageError("only source code is converted together; convert each of the other inputs by itself")
+        raise UsageError("only source code is converted together; write other descriptions to a folder, as in -o descriptions/")
     (path,) = arguments["paths"]
-    format, frame_end = arguments.get("input_format"), arguments.get("frame_end")
-    return convert_input(path, arguments.get("output"), format, bool(arguments.get("force")), frame_end)
+    return convert_input(path, output, arguments.get("input_format"), force, arguments.get("frame_end"))
 
 
 def convert_input(path: str, output: str | None, format: str | None, force: bool, frame_end: str | None = None) -> int:
@@ -45,7 +50,12 @@ def convert_input(path: str, output: str | None, format: str | None, force: bool
     if output is not None:
         refuse_inputs([output], [path])
     with internal_errors_of(name):
-        return _convert_file(name, path, output, format, force, frame_end)
+        try:
+            found = converted(name, load(path, Limits(), format=format, frame_end=frame_end, assumed=assumed_values(path)), format)
+        except (OSError, Unreadable) as error:
+            warn(f"{name}: {getattr(error, 'strerror', None) or error}")
+            return 2
+        return _finish(found, output, force)
 
 
 def convert_programs(arguments: Arguments, output: str | None, force: bool) -> int:
@@ -56,91 +66,100 @@ def convert_programs(arguments: Arguments, output: str | None, force: bool) -> i
     for line in programs.errors:
         warn(line)
     if programs.others:
-        note(f"{plural(len(programs.others), 'input')} that is not source code is left out, the first one {programs.others[0]}")
-    described = [code for code in programs.files if code.description]
-    try:
-        for code in described or programs.files[:1]:
-            _print_notes(code)
-        if described:
-            modules = {name: module for code in described for name, module in code.modules.items()}
-            _write("---\n".join(map(_description, described)), modules, output, force)
-        elif programs.files:
-            raise _ConvertError(f"{names(programs.files[0])}: found no attachment, image, pipeline, or sample count")
-    except _ConvertError as error:
-        for line in error.args:
-            warn(line)
-    return 2 if programs.errors or not described else 0
+        left_out = f"{plural(len(programs.others), 'input')} that is not source code is left out, the first one {programs.others[0]}"
+        note(f"{left_out}; -o FOLDER/ writes a description of each")
+    code = _finish(of_programs(programs.files), output, force)
+    return 2 if programs.errors else code
 
 
-def _convert_file(name: str, path: str, output: str | None, format: str | None, force: bool, frame_end: str | None) -> int:
-    try:
-        data = load(path, Limits(), format=format, frame_end=frame_end, assumed=assumed_values(path))
-        if isinstance(data, bytes):
-            _write(_convert_text(name, data, format), {}, output, force)
-        elif isinstance(data, SourceFile):
-            _convert_source(data, output, force)
-        else:
-            _write(data.source.text, data.modules, output, force)
-            for text in (*data.notes, *(f"{name}: limit exceeded: {limit}" for limit, _ in data.limits)):
-                note(text)
-            if data.broken:
-                raise _ConvertError(f"{name}: the capture is truncated: {data.broken}")
-    except _ConvertError as error:
-        for line in error.args:
-            warn(line)
-        return 2
-    except (OSError, Unreadable) as error:
-        warn(f"{name}: {getattr(error, 'strerror', None) or error}")
-        return 2
-    return 0
+def convert_each(arguments: Arguments, folder: str, force: bool) -> int:
+    """Writes a description of each input and each program to a folder, and shader modules next to it.
+
+    Returns 2 if one of them could not be converted; the others are. An input in which there is nothing to convert is left out, unless it is
+    named.
+    """
+    workspace = Workspace(Request(**input_options(arguments)))
+    planned = _planned(workspace, arguments["paths"], folder, force)
+    waiting = [each.unit for each in planned if not each.problem]
+    found = parts(ConvertLinter(workspace), waiting, 1 if workspace.request.traceback else workspace.request.jobs)
+    written, failed, left_out = 0, False, []
+    for each in planned:
+        conversion = Conversion(errors=[each.problem]) if each.problem else next(found)
+        if conversion.has_nothing and workspace.project(input_path(each.unit)) is not None:
+            left_out.append(input_path(each.unit))
+            continue
+        try:
+            if conversion.text is not None:
+                with writes(each.target):
+                    os.makedirs(os.path.dirname(each.target), exist_ok=True)
+            failed |= _finish(conversion, each.target, force) != 0
+            written += conversion.text is not None
+        except UsageError as error:
+            warn(str(error))
+            failed = True
+    workspace.close()
+    for line in dict.fromkeys(finding_line(finding) for finding in workspace.findings if finding.fatal):
+        warn(line)
+        failed = True
+    if left_out:
+        note(f"{plural(len(left_out), 'input')} left out, with nothing to convert, the first one {left_out[0]}")
+    note(f"{plural(written, 'description')} written to {folder}")
+    return 2 if failed else 0
 
 
-class _ConvertError(Exception):
-    """Why nothing, or not all, is converted: each argument is a line for the user."""
+class _Planned(NamedTuple):
+    """What is converted to which file, or why it is not."""
+
+    unit: Unit
+    target: str
+    problem: str
 
 
-def _convert_text(name: str, data: bytes, format: str | None) -> str:
-    """The descriptions that the documents of a text stand for."""
-    from msaa_lint.input import readers
-
-    source = Source(name, decode(data))
-    parsed = parse(source, Limits())
-    documents = [readers.read(source, root, format) for root in parsed.documents]
-    problems = [(problem.code, problem.message, problem.span) for problem in parsed.problems]
-    problems += [(problem.code, problem.message, problem.span) for document in documents for problem in document.problems]
-    if problems:
-        places = [source.position(span.start) for _, _, span in problems]
-        lines = zip(problems, places, strict=True)
-        raise _ConvertError(*(f"{name}:{line}:{column}: {message} ({code})" for (code, message, _), (line, column) in lines))
-    if all(document.tree is None for document in documents):
-        raise _ConvertError(f"{name}: nothing to convert: `check` reads this input directly")
-    trees = [document.tree if document.tree is not None else root for document, root in zip(documents, parsed.documents, strict=True)]
-    return "---\n".join(map(emit, trees))
-
-
-def _convert_source(code: SourceFile, output: str | None, force: bool) -> None:
-    """Writes what source code states, a document for each part, and prints what had to be assumed."""
-    if not code.description:
-        _print_notes(code)
-        raise _ConvertError(f"{code.source.name}: found no attachment, image, pipeline, or sample count")
-    _print_notes(code)
-    _write(_description(code), code.modules, output, force)
+def _planned(workspace: Workspace, named: Sequence[str], folder: str, force: bool) -> list[_Planned]:
+    """The inputs and programs that paths name, in their order. Descriptions that an earlier run wrote of them are not inputs."""
+    discovered = workspace.discover(sources=True)
+    for text in discovered.notes:
+        note(text)
+    folders = [path for path in named if os.path.isdir(path)]
+    units = units_of(discovered.files, workspace.programs(discovered))
+    targets = {unit: os.path.join(folder, _description_name(input_path(unit), folders)) for unit in units}
+    outputs = set(map(os.path.abspath, targets.values()))
+    planned: list[_Planned] = []
+    first: dict[str, str] = {}
+    for unit, target in targets.items():
+        path, problem = input_path(unit), ""
+        if os.path.abspath(path) in outputs:
+            if workspace.project(path) is not None:
+                continue
+            problem = f"{path} is an input, and the description of another one; write that to another folder"
+        elif target in first:
+            problem = f"{path}: its description and that of {first[target]} would both be {target}; write one to another folder"
+        elif os.path.lexists(target) and not force:
+            problem = f"{target} already exists; --force overwrites it"
+        first.setdefault(target, path)
+        planned.append(_Planned(unit, target, problem))
+    return planned
 
 
-def _description(code: SourceFile) -> str:
-    """The description of a program, and where it is from."""
-    return f"# Read from {escape(names(code))}; what it does not state is left out.\n{code.description}"
+def _description_name(path: str, folders: Sequence[str]) -> str:
+    """The path of the description of an input, in the folder of descriptions: the input's in the folder that is named, or in the current
+    one. It depends on no other input."""
+    if path == STDIN:
+        return "stdin" + DESCRIPTIONS[0]
+    names = [os.path.relpath(path, folder) for folder in (*folders, os.curdir)]
+    inside = next((name for name in names if name.split(os.sep)[0] != os.pardir), os.path.basename(path))
+    return inside + DESCRIPTIONS[0]
 
 
-def _print_notes(code: SourceFile) -> None:
-    """Prints what of a program is not read, and what had to be assumed."""
-    for part in code.program.unread:
-        note(f"{place(code, part.at)}: {part.message}")
-    name = names(code)
-    for number, assumptions in enumerate(code.program.assumed, 1):
-        where = f"{name}, document {number}" if len(code.program.documents) > 1 else name
-        for text in assumptions:
-            note(f"{where}: {text}")
+def _finish(found: Conversion, output: str | None, force: bool) -> int:
+    """Writes a description, or prints it, and prints the lines for the user. Returns 2 if not all of the input was converted."""
+    if found.text is not None:
+        _write(found.text, found.modules, output, force)
+    for text in found.notes:
+        note(text)
+    for text in found.errors:
+        warn(text)
+    return 2 if found.errors or found.text is None else 0
 
 
 def _write(text: str, modules: Mapping[str, bytes], output: str | None, force: bool) -> None:
@@ -152,9 +171,8 @@ def _write(text: str, modules: Mapping[str, bytes], output: str | None, force: b
         return
     if (os.path.isfile(output) or os.path.islink(output)) and not force:
         raise UsageError(f"{output} already exists; --force overwrites it")
-    folder = os.path.dirname(output)
     for name, code in modules.items():
-        path = os.path.join(folder, *name.split("/"))
+        path = os.path.join(os.path.dirname(output), *name.split("/"))
         with writes(path):
             os.makedirs(os.path.dirname(path) or os.curdir, exist_ok=True)
             atomic_write.write_file(path, code, None if force else partial(_holds, code))

@@ -383,18 +383,23 @@ COMMANDS = {
 
         The description can be read, edited, fixed, and confirmed. Render targets are converted to plain descriptions, too.
 
-        Exits with 0, or with 2 if the input has mistakes or a capture is truncated; the part that can be read is still written.
+        Several inputs are converted to several descriptions, in a folder: that of `captures/a/b.jsonl` is `a/b.jsonl.msaa.yaml` for the
+        input `captures`. Source files of a program are converted together.
+
+        Exits with 0, or with 2 if an input has mistakes or a capture is truncated; the part that can be read, and the other inputs, are
+        still written.
         """,
         {
             "Options": (
-                Option("output", "text", "Write to this file, shaders next to it.", "FILE", short="-o"),
-                Option("force", "flag", "Overwrite an existing file."),
+                Option("output", "text", "Write to this file, or to a folder: an existing one, or `NAME/`.", "PATH", short="-o"),
+                Option("force", "flag", "Overwrite existing files."),
                 _input_format(*INPUT_FORMATS[2:]),
                 _FRAME_END,
+                _JOBS,
                 *GLOBAL,
             ),
         },
-        Paths("INPUT...", "A capture, render targets, or folders and files of source code; - is standard input."),
+        Paths("INPUT...", "Captures, render targets, or source code; folders of these; - is standard input."),
     ),
     "schema": Command(
         """Print a JSON Schema.""",

@@ -64,7 +64,7 @@ def read_programs(arguments: Arguments) -> Programs:
             if alone is not None and isinstance(alone.data, SourceFile):
                 files.append(alone.data)
     workspace.close()
-    return Programs(files, [_line(finding) for finding in dict.fromkeys(workspace.findings) if finding.fatal], others)
+    return Programs(files, [finding_line(finding) for finding in dict.fromkeys(workspace.findings) if finding.fatal], others)
 
 
 def assumed_values(path: str) -> Mapping[str, bool | int | str]:
@@ -77,7 +77,8 @@ def assumed_values(path: str) -> Mapping[str, bool | int | str]:
     return Workspace(Request([path])).resolve(path).settings.source
 
 
-def _line(finding: Finding) -> str:
+def finding_line(finding: Finding) -> str:
+    """A finding without a place, as a line for the user."""
     return f"{finding.file}: {finding.message}" if finding.file else finding.message
 
 

@@ -13,7 +13,7 @@ from .part_linter import Contents, PartLinter, Results
 from .results import price_order
 from .run_part import RunPart
 from .settings.settings import Settings
-from .source_programs import ProgramInput
+from .source_programs import units_of
 from .unit_parts import parts
 from .workspace import Request, Unit, Workspace
 
@@ -100,7 +100,7 @@ class _Run:
 
     def run(self, progress: Progress | None) -> Outcome:
         discovered = self.workspace.discover(sources=True)
-        units = _units(discovered.files, self.workspace.programs(discovered))
+        units = units_of(discovered.files, self.workspace.programs(discovered))
         done = 0
         parts = self._parts(units)
         for unit in units:
@@ -192,9 +192,3 @@ class _Run:
 
         findings = [*self.workspace.findings, *self.findings, *(each.finding for each in self.accepted)]
         return list(map(str, baseline.stale(self.baseline, findings, files, self.workspace.current.selection.names())))
-
-
-def _units(files: Sequence[str], programs: Sequence[ProgramInput]) -> list[Unit]:
-    """What is linted at once, in the order of the files: a program comes where its first input does."""
-    of = {path: program for program in programs for path in program.inputs}
-    return list(dict.fromkeys(of.get(path, path) for path in files))

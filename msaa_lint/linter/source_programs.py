@@ -50,6 +50,12 @@ def is_read_together(path: str) -> bool:
     return path.lower().endswith(_ENDINGS)
 
 
+def units_of(files: Sequence[str], programs: Sequence[ProgramInput]) -> list[str | ProgramInput]:
+    """What is read at once, in the order of the files: a program comes where its first input does."""
+    of = {path: program for program in programs for path in program.inputs}
+    return list(dict.fromkeys(of.get(path, path) for path in files))
+
+
 def programs(inputs: Iterable[str], related: Mapping[str, str], projects: Mapping[str, str], index: Index) -> list[ProgramInput]:
     """The programs of source files, by their first file.
 

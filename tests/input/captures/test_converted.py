@@ -155,19 +155,26 @@ def test_a_profile_stands_in_for_the_device_that_was_captured_on(tmp_path: Path)
     assert severities == {None: "note", "mali-g76": "warning"}
 
 
-def test_shaders_of_a_capture_are_written_beside_the_description(tmp_path: Path) -> None:
-    code = (ROOT / "rules" / "shaders" / "glints.frag.spv").read_bytes()
+SHADER = (ROOT / "rules" / "shaders" / "glints.frag.spv").read_bytes()
+
+
+def capture_with_shader() -> bytes:
+    """A Fossilize archive with a pipeline whose shader is `SHADER`."""
     program = Program()
     render_pass = program.render_pass([attachment()])
-    shader = {"sType": "VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO", "codeSize": len(code), "pCode": code}
+    shader = {"sType": "VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO", "codeSize": len(SHADER), "pCode": SHADER}
     program.call("vkCreateShaderModule", device=2, pCreateInfo=shader, pShaderModule=900)
     program.pipeline(render_pass)
     stage = {"stage": "VK_SHADER_STAGE_FRAGMENT_BIT", "module": 900, "pName": "main", "pSpecializationInfo": None}
     program.calls[-1][1]["pCreateInfos"][0]["pStages"] = [stage]
-    (tmp_path / "game.foz").write_bytes(dialects_binary.fossilize(program.calls))
+    return dialects_binary.fossilize(program.calls)
+
+
+def test_shaders_of_a_capture_are_written_beside_the_description(tmp_path: Path) -> None:
+    (tmp_path / "game.foz").write_bytes(capture_with_shader())
     run(tmp_path, "convert", "game.foz", "-o", "frame.yaml")
     (written,) = (tmp_path / "shaders").iterdir()
-    assert written.read_bytes() == code
+    assert written.read_bytes() == SHADER
     # The shader runs for every sample, and the pipeline does not say so.
     for name in ("game.foz", "frame.yaml"):
         made = run(tmp_path, "check", "--isolated", "--output", "json", name)
