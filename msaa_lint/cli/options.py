@@ -325,10 +325,9 @@ COMMANDS = {
                 Option(
                     "backend",
                     "choice",
-                    "joblib backend; DASK_SCHEDULER_ADDRESS or RAY_ADDRESS names a cluster.",
+                    "Simulate on a cluster, which DASK_SCHEDULER_ADDRESS or RAY_ADDRESS names.",
                     "NAME",
-                    choices=("loky", "threading", "dask", "ray"),
-                    default="loky",
+                    choices=("dask", "ray"),
                 ),
             ),
             "Inputs": _INPUTS,

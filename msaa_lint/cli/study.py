@@ -12,6 +12,7 @@ from functools import partial
 from importlib.util import find_spec
 from typing import IO, TYPE_CHECKING, Any, NamedTuple
 
+from msaa_lint.core.execution.processes import cores
 from msaa_lint.core.extras import needs_extra
 from msaa_lint.core.finding import Finding
 from msaa_lint.core.quote import quoted
@@ -64,7 +65,7 @@ class StudyOptions(NamedTuple):
     bits: int
     ssim: bool
     flip: bool
-    jobs: int
+    jobs: int | None
     backend: str | None
     budget_ms: float
 
@@ -118,7 +119,7 @@ def parse_options(arguments: Arguments) -> StudyOptions:
         int(arguments.get("bits", 8)),
         bool(arguments.get("ssim")),
         bool(arguments.get("flip")),
-        arguments.get("jobs") or (-1 if arguments.get("backend") in ("dask", "ray") else _cores()),
+        arguments.get("jobs") or (None if arguments.get("backend") else cores()),
         arguments.get("backend"),
         parse_budget(arguments["budget"]) if "budget" in arguments else DEFAULT_BUDGET_MS,
     )
@@ -131,10 +132,6 @@ def parse_budget(text: str) -> float:
     if not 0 < budget <= MAX_BUDGET_MS:
         raise UsageError(f"`--budget` must be a time above 0 and up to {MAX_BUDGET_MS:g}ms, as in 0.5ms or 500us; found {quoted(text)}")
     return budget
-
-
-def _cores() -> int:
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def _list_scenes() -> int:

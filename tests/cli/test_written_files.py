@@ -273,7 +273,7 @@ def test_an_output_that_cannot_be_created_is_one_line(output: str, folder: Path)
     ],
 )
 def test_pictures_and_records_replace_nothing_of_others(words: str, folder: Path) -> None:
-    for package in ("altair", "vl_convert", "numpy", "joblib", *(["vulkan"] if words.startswith("confirm") else [])):
+    for package in ("altair", "vl_convert", "numpy", *(["vulkan"] if words.startswith("confirm") else [])):
         pytest.importorskip(package)
     outside = outside_link(folder, "out")
     (folder / "frame.msaa.yaml").write_text(STORED)

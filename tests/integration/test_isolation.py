@@ -30,7 +30,7 @@ COMMANDS = [
     ("cost", "frame.msaa.yaml", "--chart", "chart.svg"),
     ("confirm", "frame.msaa.yaml"),
     (*STUDY, "--jobs", "1"),
-    (*STUDY, "--jobs", "2", "--backend", "loky", "--plot", "plot.svg"),
+    (*STUDY, "--jobs", "2", "--plot", "plot.svg"),
     ("rule", "--all"),
     ("device", "mali-g76"),
     ("init", "new"),
@@ -49,7 +49,7 @@ def modules() -> set[str]:
     """What Python, the packages that are installed, and this program may import."""
     loaded = {name.partition(".")[0] for name in sys.modules}
     packages = {name.partition("-")[0].partition(".")[0] for name in os.listdir(Path(pytest.__file__).parent.parent)}
-    names = {*loaded, *packages, *sys.stdlib_module_names, "sitecustomize", "usercustomize", "joblib", "pip", "venv", "vulkan", "trimesh"}
+    names = {*loaded, *packages, *sys.stdlib_module_names, "sitecustomize", "usercustomize", "pip", "venv", "vulkan", "trimesh"}
     return {name for name in names if name.isidentifier()} - {"__main__", "tests"}
 
 

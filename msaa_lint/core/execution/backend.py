@@ -15,6 +15,9 @@ Result = TypeVar("Result")
 MAX_DEATHS = 2
 """The number of processes that a task may end before it counts as failed."""
 
+ENDED_WORKERS = "it ended the workers that read it"
+"""Why a task failed that ended so many workers of a cluster, the same with every cluster."""
+
 Work = Callable[[Task], Result]
 """What is done with a task. It travels to other processes, as tasks and results do."""
 
@@ -57,6 +60,11 @@ class Waiting(Generic[Task]):
         self._new = iter(tasks)
         self._split = split
         self._again: deque[tuple[Task, int]] = deque()
+
+    @property
+    def has_repeated(self) -> bool:
+        """Whether the next task was begun before, as a whole or as part of another one."""
+        return bool(self._again)
 
     def next(self) -> tuple[Task, int] | None:
         """The next task, and the processes that it has ended; None if there is none."""

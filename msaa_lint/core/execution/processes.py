@@ -13,12 +13,13 @@ import sys
 import threading
 from collections import deque
 from collections.abc import Iterable, Iterator
-from contextlib import suppress
+from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING, Any, Generic
 
 from msaa_lint.core.parent_process import end_with_parent
 
 from .backend import Failure, Result, Split, Task, Waiting, Work, attempt
+from .starting import interrupts_held
 
 if TYPE_CHECKING:
     from multiprocessing.connection import Connection
@@ -30,6 +31,10 @@ PARENT_SECONDS = 0.5
 MAX_AHEAD_BYTES = 16_384
 """The size of a pickled task up to which a process gets it while it does another one: with more, both ends of a full pipe might wait for
 each other."""
+
+
+THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "BLIS_NUM_THREADS", "VECLIB_MAXIMUM_THREADS")
+"""What libraries of linear algebra take their number of threads from."""
 
 
 def cores() -> int:
@@ -102,7 +107,8 @@ class _Process(Generic[Task, Result]):
         self.connection: Connection[Any, Any]
         self.connection, other = context.Pipe()
         self._process: BaseProcess = context.Process(target=_serve, args=(other, work, os.getpid()), daemon=True)
-        self._process.start()
+        with interrupts_held(), _few_threads():
+            self._process.start()
         other.close()
 
     def send(self, task: Task, deaths: int) -> bool:
@@ -136,6 +142,19 @@ class _Process(Generic[Task, Result]):
         self._process.kill()
         self._process.join()
         self.connection.close()
+
+
+@contextmanager
+def _few_threads() -> Iterator[None]:
+    """Lets the processes that start, and do not know NumPy yet, compute with one thread each, unless the user wants more: there are as many
+    processes as cores."""
+    stated = [name for name in THREADS if name not in os.environ]
+    os.environ.update(dict.fromkeys(stated, "1"))
+    try:
+        yield
+    finally:
+        for name in stated:
+            del os.environ[name]
 
 
 def _reason(code: int | None) -> str:

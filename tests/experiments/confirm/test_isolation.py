@@ -32,7 +32,7 @@ WANT = {"pixels": None, "repeats": 0, "warmups": 0}
 def scratch(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
     """A folder for temporary files, in which nothing may be left; and no child may be."""
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
-    # Other tests of this process may have left helpers running, joblib's for instance.
+    # Other tests of this process may have left helpers running, clusters' for instance.
     OTHERS.clear()
     OTHERS.update(children())
     yield tmp_path

@@ -60,11 +60,11 @@ def ray_cluster() -> Iterator[tuple[dict[str, str], Workers]]:
         assert node.stdin is not None and node.stdout is not None
 
         def workers() -> list[int]:
-            """A worker of Ray has the name of the call that it runs as its title."""
+            """A worker of Ray has the name of the task that it does as its title."""
             busy = []
             for process in psutil.Process(node.pid).children(recursive=True):
                 with contextlib.suppress(psutil.Error):
-                    if "PoolActor.run_batch" in " ".join(process.cmdline()):
+                    if "ray::msaa-lint" in " ".join(process.cmdline()):
                         busy.append(process.pid)
             return busy
 
