@@ -13,9 +13,10 @@ from msaa_lint.core.extras import needs_extra
 from msaa_lint.core.globs import excluding
 from msaa_lint.core.project import NAMES
 from msaa_lint.core.quote import quoted
+from msaa_lint.core.urls import is_url, name_of
 from msaa_lint.frame.devices.paths import is_path, split
-from msaa_lint.input.discovery import SKIPPED_FOLDERS
 from msaa_lint.input.file_types import CAPTURES, DATA, PAGE_ENDINGS, SOURCES, STDIN
+from msaa_lint.input.folder_search import SKIPPED_FOLDERS
 from msaa_lint.linter.settings.config import Configurations
 from msaa_lint.linter.settings.settings import override
 from msaa_lint.linter.workspace import Request
@@ -129,6 +130,9 @@ class Watched:
         self._files = {os.path.realpath(path) for path in request.paths if not os.path.isdir(path)}
         if request.config is not None:
             self._files.add(os.path.realpath(request.config))
+        for path in request.paths:
+            if is_url(path):
+                raise UsageError(f"cannot watch {name_of(path)}: a storage does not say what changes; check it without --watch")
         for path in [os.curdir, *request.paths]:
             loaded = self._configurations.load(path)
             settings = override(loaded.settings, **request.overrides)

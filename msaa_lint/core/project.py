@@ -9,6 +9,8 @@ from __future__ import annotations
 import errno
 import os
 
+from .urls import is_url, name_of, root_of
+
 NAMES = ("msaa-lint.toml", "pyproject.toml")
 """The names of configuration files; in a folder with both, the first is used."""
 
@@ -29,7 +31,9 @@ class Outside(OSError):
 
 
 def project_root(folder: str) -> str:
-    """The project of a configuration or an input in `folder`, with all symbolic links resolved."""
+    """The project of a configuration or an input in `folder`, with all symbolic links resolved; of a URL, the folder that is named."""
+    if is_url(folder):
+        return root_of(folder)
     at = outermost = os.path.realpath(folder)
     while True:
         if any(os.path.lexists(os.path.join(at, name)) for name in _VCS_DATA):
@@ -121,7 +125,10 @@ def _projects(folder: str) -> list[str]:
 
 
 def shown(path: str) -> str:
-    """A path as outputs show it, with `/`: relative if it is in the current folder or was relative, else absolute."""
+    """A path as outputs show it, with `/`: relative if it is in the current folder or was relative, else absolute. A URL stays one."""
+    path = name_of(path)
+    if is_url(path):
+        return path
     here = os.getcwd()
     below = here if here.endswith(os.sep) else here + os.sep
     full = os.path.abspath(path)

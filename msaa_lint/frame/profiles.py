@@ -13,6 +13,7 @@ from msaa_lint.core.quote import quoted_path
 from msaa_lint.core.suggestions import nearest
 from msaa_lint.core.text.files import read
 from msaa_lint.core.text.source import Unreadable, decode
+from msaa_lint.core.urls import is_url
 
 from .devices import DeviceProfile, builtin, names
 from .devices.paths import ENDINGS, is_path, split
@@ -125,6 +126,8 @@ def reports(path: str, called: str, project: str | None) -> "list[Report] | Prob
     from .devices.reports import EXPECTED, MAX_BYTES, NotAReport
 
     try:
+        if project is not None and is_url(project):
+            return parsed(read(path, MAX_BYTES, project), called)
         real = resolved(path) if project is None else real_path(path, project)
         status = os.stat(path if project is None else real)
         # A pipe changes as it is read.
@@ -164,6 +167,8 @@ def parsed(data: bytes, called: str) -> "list[Report]":
 def _near(path: str, called: str) -> str:
     """What may have been meant by the path of a file that is not there."""
     folder, name = os.path.split(path)
+    if is_url(folder):
+        return f"built-in devices: {', '.join(names())}"
     try:
         with os.scandir(folder or os.curdir) as entries:
             there = [entry.name for entry, _ in zip(entries, range(MAX_LISTED), strict=False) if entry.name.endswith(ENDINGS)]

@@ -14,7 +14,7 @@ from contextlib import suppress
 
 from msaa_lint.core.child_environment import child_environment
 from msaa_lint.core.child_output import ChildOutput, signal_name
-from msaa_lint.core.text.files import record
+from msaa_lint.core.text.files import record_program
 
 from .capture_stream import StreamFailure
 
@@ -24,7 +24,7 @@ BLOCK = 1 << 16
 
 def installed(program: str) -> str | None:
     """The path of a program, looked up outside the project in the working folder; None if it is not installed."""
-    record(program, is_program=True)
+    record_program(program)
     return shutil.which(program, path=child_environment().get("PATH", ""))
 
 

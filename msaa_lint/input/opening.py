@@ -6,15 +6,18 @@ import io
 import os
 import re
 import sys
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from itertools import chain
 from typing import TYPE_CHECKING, BinaryIO
 
 from msaa_lint.core.diagnostics import diagnostic
 from msaa_lint.core.finding import Finding
+from msaa_lint.core.project import folder_of
 from msaa_lint.core.text.files import open_file
 from msaa_lint.core.text.node import Limits
 from msaa_lint.core.text.source import Unreadable
+from msaa_lint.core.urls import BLOCK, allow, is_url
 
 from .content import own_output
 from .file_types import DATA, HEAD_BYTES, LANGUAGES, STDIN, BinaryCapture, Compression, binary_capture, compression_of
@@ -92,10 +95,15 @@ def load_text(
     if path == STDIN:
         stream: BinaryIO = sys.stdin.buffer if data is None else io.BytesIO(data)
         return _load(stream, None, limits, name or "<stdin>", format, None, False, frame_end)
+    is_at_url = is_url(path)
+    if is_at_url:
+        # Another process may have listed the folder.
+        allow(project if project is not None else folder_of(path))
     file, size = open_file(path, project)
     with file:
         # Other files belong to a file only: there is no folder beside a pipe.
-        return _load(file, size, limits, name or path, format, None if size is None else os.path.abspath(path), project is None, frame_end)
+        place = None if size is None else path if is_at_url else os.path.abspath(path)
+        return _load(file, size, limits, name or path, format, place, project is None, frame_end)
 
 
 def _load(
@@ -115,7 +123,7 @@ def _load(
         return _decompress(_from_beginning(head, stream, path), compression, name, format, path, frame_end)
     kind = binary_capture(head)
     if kind is not None and format in (None, kind.format):
-        return _convert(kind, name, path, is_named, frame_end)
+        return _convert(kind, _from_beginning(head, stream, path), name, path, is_named, frame_end)
     language = _language(name, head, format)
     capture = format if format in CAPTURES else None if format is not None or language is not None else capture_format(head)
     if capture is not None:
@@ -169,7 +177,7 @@ def _decompress(
     raise UnsupportedFormat(f"{content}: decompress it with `{compression.command} FILE`")
 
 
-def _convert(kind: BinaryCapture, name: str, path: str | None, is_named: bool, frame_end: str | None) -> CaptureInput:
+def _convert(kind: BinaryCapture, stream: BinaryIO, name: str, path: str | None, is_named: bool, frame_end: str | None) -> CaptureInput:
     """Reads a binary capture through the converter of its tool."""
     if path is None:
         raise UnsupportedFormat(f"{kind.name}, which cannot be read from a pipe: name the file, or convert it with {kind.command}")
@@ -181,9 +189,29 @@ def _convert(kind: BinaryCapture, name: str, path: str | None, is_named: bool, f
     if not is_installed(kind):
         where = f"install it ({kind.source}), or convert the capture elsewhere with {kind.command}"
         raise UnsupportedFormat(f"{kind.name}, and {kind.program}, which reads it, is not installed: {where}")
-    with converted(kind, path) as capture:
+    with _local_copy(stream, path) as local, converted(kind, local) as capture:
         result = read_capture(capture.stream, kind.format, name, capture.path, is_binary=True, frame_end=frame_end)
         return result._replace(notes=(*result.notes, *(f"{name}: {kind.program}: {warning}" for warning in capture.warnings)))
+
+
+@contextmanager
+def _local_copy(stream: BinaryIO, path: str) -> Iterator[str]:
+    """The path of a file, of one at a URL that of a copy, for a program that knows paths alone."""
+    if not is_url(path):
+        yield path
+        return
+    from shutil import copyfileobj
+
+    from msaa_lint.core.scratch import ScratchFolder
+
+    folder = ScratchFolder()
+    try:
+        copy = os.path.join(folder.path, "capture")
+        with open(copy, "wb") as file:
+            copyfileobj(stream, file, BLOCK)
+        yield copy
+    finally:
+        folder.remove()
 
 
 def _language(name: str, head: bytes, format: str | None) -> str | None:

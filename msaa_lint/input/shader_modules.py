@@ -16,6 +16,7 @@ from msaa_lint.core.quote import quoted_path
 from msaa_lint.core.text.files import read, record
 from msaa_lint.core.text.source import Unreadable
 from msaa_lint.core.text.span import Span
+from msaa_lint.core.urls import is_url
 from msaa_lint.frame.description.document import Document
 from msaa_lint.frame.description.models import ShaderStage
 from msaa_lint.frame.spirv.module import MAX_BYTES, Module
@@ -199,9 +200,10 @@ class Modules:
         """What identifies a module in the run, and a function that reads it: of a capture its content, else the file."""
         own = self._own.get(name)
         if own is None:
+            path = os.path.join(self._folder, name)
             # What was found out for another input is not read again.
-            record(os.path.join(self._folder, name))
-            return (self._project, os.path.abspath(os.path.join(self._folder, name))), lambda: self._bytes(name)
+            record(path)
+            return (self._project, path if is_url(self._folder) else os.path.abspath(path)), lambda: self._bytes(name)
         if name not in self._digests:
             from hashlib import blake2b
 

@@ -1,7 +1,8 @@
 """What is kept between runs of what inputs add to their results, in the user's cache folder.
 
 What an input adds depends on its settings, on what the run determines, and on the files that were opened for it, whose contents are kept
-with it by name: the input itself, shader modules, and the compilers that were looked up.
+with it by name: the input itself, shader modules, and the compilers that were looked up. Of what is at a URL, the version that its storage
+states takes the place of the content.
 """
 
 from __future__ import annotations
@@ -9,11 +10,12 @@ from __future__ import annotations
 import os
 import time
 import zlib
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from msaa_lint.core import urls
 from msaa_lint.core.cache import digest
 from msaa_lint.core.finding import (
     CaptureLocation,
@@ -30,7 +32,7 @@ from msaa_lint.core.finding import (
     Unread,
 )
 from msaa_lint.core.serialized import by_name, dumps, loads
-from msaa_lint.core.text.files import content, recording
+from msaa_lint.core.text.files import Opened, content, recording
 from msaa_lint.core.text.source import Origin, Source, Unreadable, decode
 from msaa_lint.core.text.span import Edit, Label, Span
 from msaa_lint.input.file_types import STDIN
@@ -69,12 +71,14 @@ class _Text(NamedTuple):
 
 
 class _Entry(NamedTuple):
-    """A kept part without its texts; `files` are the states of the files that it depends on, and `programs` those of programs."""
+    """A kept part without its texts; `files` are the states of the files that it depends on, `programs` those of programs, and `urls` the
+    versions of what is elsewhere."""
 
     part: RunPart
     texts: list[_Text]
     files: dict[str, State]
     programs: dict[str, State]
+    urls: dict[str, str]
 
 
 _TYPES = by_name(
@@ -152,6 +156,8 @@ class KeptParts:
                 return None
             if any(not _is_unchanged(path, state) for path, state in entry.files.items()):
                 return None
+            if any(urls.version(url) != version for url, version in entry.urls.items()):
+                return None
             for each in entry.texts:
                 if each.text is None:
                     data = content(os.path.abspath(each.name))
@@ -167,7 +173,7 @@ class KeptParts:
         if any(index.content(path, root) != contents.get(path) for path, root in zip(program.paths, program.roots, strict=True)):
             return None
         texts = [_Text(name, None, source.origins) for name, source in part.sources.items()]
-        return _Entry(part._replace(sources={}), texts, {path: [name] for path, name in contents.items()}, {})
+        return _Entry(part._replace(sources={}), texts, {path: [name] for path, name in contents.items()}, {}, {})
 
     def _key(self, unit: Unit) -> str | None:
         """The name of the part of an input or a program; None if it is not kept."""
@@ -196,11 +202,13 @@ def keeping(linter: Callable[[Workspace], PartLinter], depends_on: str, workspac
     return KeptParts(linter(workspace), cache, depends_on) if cache is not None else linter(workspace)
 
 
-def _entry(part: RunPart, opened: Mapping[str, bool], before: int) -> _Entry | None:
-    """What is kept of an input; None if a file that it depends on has just been written."""
+def _entry(part: RunPart, opened: Opened, before: int) -> _Entry | None:
+    """What is kept of an input; None if a file that it depends on has just been written, or is where its version is unknown."""
+    if any(not version or urls.version(url, is_fresh=True) != version for url, version in opened.urls.items()):
+        return None
     files: dict[str, State] = {}
     contents: dict[str, bytes] = {}
-    for path in (name for name, is_program in opened.items() if not is_program):
+    for path in opened.files:
         state, data = _state(path), content(path)
         if state and (data is None or max(state[2:4]) >= before):
             return None
@@ -211,8 +219,8 @@ def _entry(part: RunPart, opened: Mapping[str, bool], before: int) -> _Entry | N
     for name, source in part.sources.items():
         data = contents.get(os.path.abspath(name))
         texts.append(_Text(name, None if data is not None and _is_text(data, source.text) else source.text, source.origins))
-    programs = {name: _program_state(name) for name, is_program in opened.items() if is_program}
-    return _Entry(part._replace(sources={}), texts, files, programs)
+    programs = {name: _program_state(name) for name in opened.programs}
+    return _Entry(part._replace(sources={}), texts, files, programs, opened.urls)
 
 
 def _is_text(data: bytes, text: str) -> bool:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from msaa_lint.core.diagnostics import diagnostic
 from msaa_lint.core.finding import Finding, Suppressed, is_confident
 from msaa_lint.core.text.source import Source
+from msaa_lint.core.urls import is_url
 from msaa_lint.input.file_types import STDIN
 
 from .input_summary import input_summaries
@@ -122,6 +123,9 @@ class PartLinter:
         write = self.request.fix == "write"
         if write and not is_stdin and os.path.exists(file.path) and not os.path.isfile(file.path):
             note = f"{file.name} is not a regular file and is not fixed: name `-` to print the fixed text"
+            return result, part._replace(notes=[*part.notes, note])
+        if write and is_url(file.path):
+            note = f"{file.name} is at a URL and is not fixed: `--diff` prints the changes"
             return result, part._replace(notes=[*part.notes, note])
         target = file.path if write and not is_stdin else None
         fixed = fix_input(file.data, result, file.lint, file.fixable(result), self.request.unsafe_fixes, target)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from msaa_lint.core.project import folder_of, project_root, shown
 from msaa_lint.core.text.files import open_file
+from msaa_lint.core.urls import is_url
 from msaa_lint.input.file_types import HEAD_BYTES, LANGUAGES
 
 if TYPE_CHECKING:
@@ -46,8 +47,8 @@ class ProgramInput(NamedTuple):
 
 
 def is_read_together(path: str) -> bool:
-    """Whether a file is source code in a language whose files form programs, by its name."""
-    return path.lower().endswith(_ENDINGS)
+    """Whether a file is source code in a language whose files form programs, by its name. Files at URLs are read one at a time."""
+    return path.lower().endswith(_ENDINGS) and not is_url(path)
 
 
 def units_of(files: Sequence[str], programs: Sequence[ProgramInput]) -> list[str | ProgramInput]:

@@ -6,6 +6,7 @@ from contextlib import contextmanager, suppress
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from msaa_lint.core import urls
 from msaa_lint.core.allowance import Allowance
 from msaa_lint.core.diagnostics import diagnostic, internal_error
 from msaa_lint.core.finding import Finding, rank
@@ -282,7 +283,7 @@ class Workspace:
         if isinstance(unit, ProgramInput):
             return sum(map(self.index.length, unit.paths))
         with suppress(OSError, ValueError):
-            return os.path.getsize(unit)
+            return urls.length(unit) if urls.is_url(unit) else os.path.getsize(unit)
         return 0
 
     @contextmanager

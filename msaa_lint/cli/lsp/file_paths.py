@@ -6,7 +6,7 @@ import os
 from collections.abc import Iterator, Sequence
 from itertools import islice
 
-from msaa_lint.input.discovery import SKIPPED_FOLDERS
+from msaa_lint.input.folder_search import SKIPPED_FOLDERS
 
 MAX_ENTRIES = 5000
 """Files and folders that are looked at for one completion."""

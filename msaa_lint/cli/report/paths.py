@@ -5,17 +5,18 @@ from __future__ import annotations
 import os
 
 from msaa_lint.core.project import resolved
+from msaa_lint.core.urls import is_url
 
 from .escape import escape
 
 
 def relative(file: str, root: str, resolve: bool = False) -> str:
-    """`file` relative to `root`, with `/` between folders; unchanged if it is not below `root` or not a file (`-`, `<stdin>`).
+    """`file` relative to `root`, with `/` between folders; unchanged if it is not below `root` or not a file (`-`, `<stdin>`, a URL).
 
     `resolve` follows symbolic links first.
     """
     name = file.replace(os.sep, "/") if os.sep != "/" else file
-    if not root or file == "-" or file.startswith("<"):
+    if not root or file == "-" or file.startswith("<") or is_url(file):
         return _without_dot(name)
     try:
         for place in (resolved,) if resolve else (os.path.abspath, resolved):
@@ -36,7 +37,10 @@ def display_path(file: str, root: str) -> str:
 
 
 def uri(file: str, root: str) -> str:
-    """A URI reference relative to `root`, percent-encoded as UTF-8; a `file:` URI if the file is not below `root`."""
+    """A URI reference relative to `root`, percent-encoded as UTF-8; a `file:` URI if the file is not below `root`; a URL as it is."""
+    if is_url(file):
+        scheme, _, rest = file.partition("://")
+        return f"{scheme}://{_percent(rest)}"
     path = relative(file, root, resolve=True)
     if path.startswith("/"):
         return "file://" + _percent(path)

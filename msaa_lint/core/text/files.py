@@ -13,7 +13,8 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from typing import BinaryIO
 
-from msaa_lint.core.project import real_path
+from msaa_lint.core.project import Outside, real_path
+from msaa_lint.core.urls import ABSENT, inside, is_url, keep_version, normalized, open_listed, open_object, version_read
 
 from .source import Unreadable
 
@@ -29,7 +30,7 @@ _KINDS = {
 _FLAGS = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_CLOEXEC", 0) | getattr(os, "O_BINARY", 0)
 _NO_LINK = getattr(os, "O_NOFOLLOW", 0)
 _buffers: ContextVar[Mapping[str, bytes]] = ContextVar("buffers")
-_opened: ContextVar[dict[str, bool]] = ContextVar("opened")
+_opened: ContextVar[Opened] = ContextVar("opened")
 _FOLDER = getattr(os, "O_PATH", os.O_RDONLY) | getattr(os, "O_DIRECTORY", 0) | getattr(os, "O_CLOEXEC", 0)
 
 
@@ -43,11 +44,20 @@ def with_buffers(buffers: Mapping[str, bytes]) -> Iterator[None]:
         _buffers.reset(token)
 
 
+class Opened:
+    """The absolute paths of the files that were opened, or that something tried to open, the names of programs that were looked up, and
+    URLs with the versions that their storage stated."""
+
+    def __init__(self) -> None:
+        self.files: set[str] = set()
+        self.programs: set[str] = set()
+        self.urls: dict[str, str] = {}
+
+
 @contextmanager
-def recording() -> Iterator[Mapping[str, bool]]:
-    """Records the absolute paths of the files that this thread opens or tries to open, and the names of programs that it looks up, with
-    whether they are names of programs."""
-    opened: dict[str, bool] = {}
+def recording() -> Iterator[Opened]:
+    """Records what this thread opens."""
+    opened = Opened()
     token = _opened.set(opened)
     try:
         yield opened
@@ -55,11 +65,26 @@ def recording() -> Iterator[Mapping[str, bool]]:
         _opened.reset(token)
 
 
-def record(name: str, is_program: bool = False) -> None:
-    """Adds a path, or the name of a program, to what is recorded, if anything is."""
-    opened = _opened.get(None)
-    if opened is not None:
-        opened[name if is_program else os.path.abspath(name)] = is_program
+def record_program(name: str) -> None:
+    """Adds the name of a program to what is recorded, if anything is."""
+    if (opened := _opened.get(None)) is not None:
+        opened.programs.add(name)
+
+
+def record(path: str) -> None:
+    """Adds a path to what is recorded, if anything is, and a URL if it was read before."""
+    if is_url(path):
+        url = normalized(path)
+        if (version := version_read(url)) is not None:
+            _record_url(url, version)
+    elif (opened := _opened.get(None)) is not None:
+        opened.files.add(os.path.abspath(path))
+
+
+def _record_url(url: str, version: str) -> None:
+    if (opened := _opened.get(None)) is not None:
+        # Of two versions, what was read is unknown.
+        opened.urls[url] = version if opened.urls.get(url, version) == version else ""
 
 
 def is_there(path: str) -> bool:
@@ -80,9 +105,11 @@ def open_file(path: str, project: str | None) -> tuple[BinaryIO, int | None]:
     """A file, open for reading, and its size in bytes; None for a pipe or a device.
 
     `project` is None for a path of the command line, which is read as named: a file, a pipe, or a device. A path that a file, a folder, or
-    a link states must be a regular file in the project, with all symbolic links resolved. Raises OSError, and Outside without looking at
-    what is there.
+    a link states must be a regular file in the project, with all symbolic links resolved, and one that an input at a URL states in the
+    folder that was named. Raises OSError, and Outside without looking at what is there.
     """
+    if is_url(path if project is None else project):
+        return _open_url(path, project)
     try:
         record(path)
         unsaved = _buffer(path, project)
@@ -110,6 +137,8 @@ def open_file(path: str, project: str | None) -> tuple[BinaryIO, int | None]:
 
 def open_entry(path: str) -> BinaryIO:
     """A regular file, according to the listing of its folder, open for reading; a link is not followed. Raises OSError."""
+    if is_url(path):
+        return open_listed(path)
     record(path)
     unsaved = _buffer(path, None)
     if unsaved is not None:
@@ -121,6 +150,23 @@ def open_entry(path: str) -> BinaryIO:
         file.close()
         raise
     return file
+
+
+def _open_url(path: str, project: str | None) -> tuple[BinaryIO, int | None]:
+    url = path if project is None else inside(path, project)
+    if url is None:
+        raise Outside
+    version = ""
+    try:
+        file, stated = open_object(url)
+        version = stated.version
+    except FileNotFoundError:
+        version = ABSENT
+        raise
+    finally:
+        keep_version(url, version)
+        _record_url(url, version)
+    return file, stated.size
 
 
 def read(path: str, max_bytes: int, project: str | None) -> bytes:

@@ -12,12 +12,13 @@ from msaa_lint.core.project import Outside, project_root, real_path
 from msaa_lint.core.quote import quoted_path
 from msaa_lint.core.text.files import read
 from msaa_lint.core.text.source import Unreadable
+from msaa_lint.core.urls import is_url
 from msaa_lint.frame.description.models import Pipeline, ShaderStage
 from msaa_lint.frame.spirv import numbers as op
 from msaa_lint.frame.spirv.module import MAX_BYTES, Module
 from msaa_lint.frame.spirv.words import SpirvError
 
-from .parts import Stage
+from .parts import Stage, packed
 from .plan_descriptors import Unmakeable
 from .plan_integers import number
 from .plan_notes import Notes
@@ -53,8 +54,8 @@ def stages(record: Pipeline, folder: str, notes: Notes) -> tuple[Stage, ...]:
         if code is None or stage_record.stage is None:
             notes.append(f"{shader}{{}} does not exist: a built-in one is used", record.key)
             continue
-        # The child process has another working folder.
-        real = real_path(path, project_root(folder))
+        # The child process has another working folder, and reads no URLs.
+        real = path if is_url(folder) else real_path(path, project_root(folder))
         try:
             reflected = _reflected(code, stage_record, real, title)
         except SpirvError as error:
@@ -63,7 +64,7 @@ def stages(record: Pipeline, folder: str, notes: Notes) -> tuple[Stage, ...]:
         except Unmakeable as error:
             notes.append(f"{shader}{{}} {error}: a built-in one is used", record.key)
             continue
-        found.append(reflected.stage)
+        found.append(reflected.stage._replace(code=packed(code)) if is_url(folder) else reflected.stage)
         if stage_record.stage == "FRAGMENT":
             fragment = reflected
     if fragment is not None and all(stage.stage != VERTEX for stage in found):

@@ -9,10 +9,12 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Iterator
+from contextlib import suppress
 from typing import Any, BinaryIO
 
 from msaa_lint.core.text.files import read
 from msaa_lint.core.text.source import Unreadable
+from msaa_lint.core.urls import is_folder, is_url
 from msaa_lint.input.captures.call import Call, CaptureError, Mark, Place, is_wanted
 from msaa_lint.input.captures.json_stream import BYTE_ORDER_MARK, TRUNCATED, Blocks, Cursor, PeekedStream, is_plain, loads, loads_plain
 from msaa_lint.input.captures.values import chain, items, record
@@ -72,7 +74,7 @@ def _file_beside(capture: str | None, path: str) -> bytes | None:
     MiB."""
     if not capture or not 0 < len(path) <= MAX_PATH:
         return None
-    folder = os.path.dirname(os.path.abspath(capture))
+    folder = os.path.dirname(capture if is_url(capture) else os.path.abspath(capture))
     try:
         # A converter on Windows writes backslashes.
         return read(os.path.join(folder, path.replace("\\", "/")), MAX_FILE, folder)
@@ -83,7 +85,13 @@ def _file_beside(capture: str | None, path: str) -> bytes | None:
 def _extracted_shaders(capture: str | None, source: str) -> str:
     """The name of the folder beside a capture with the shaders that gfxrecon-extract writes for a file `source`; empty if there is none."""
     name = f"{source}.shaders"
-    return name if capture and source and os.path.isdir(os.path.join(os.path.dirname(capture), name)) else ""
+    return name if capture and source and _is_folder(os.path.join(os.path.dirname(capture), name)) else ""
+
+
+def _is_folder(path: str) -> bool:
+    with suppress(OSError):
+        return is_folder(path) if is_url(path) else os.path.isdir(path)
+    return False
 
 
 class LineStart:

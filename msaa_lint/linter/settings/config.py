@@ -20,6 +20,7 @@ from msaa_lint.core.finding import Finding
 from msaa_lint.core.project import NAMES, Outside, folder_of, project_root, resolved, shown
 from msaa_lint.core.quote import quoted
 from msaa_lint.core.text.span import Span
+from msaa_lint.core.urls import is_url
 
 from .settings import Origin, Settings
 
@@ -64,10 +65,10 @@ class Configurations:
             self._only = _read_named(os.path.abspath(path))
 
     def load(self, path: str) -> Loaded:
-        """The configuration that applies to a file or folder."""
+        """The configuration that applies to a file or folder; that of the current folder to a URL."""
         if self._only is not None:
             return self._only
-        start = os.path.abspath(path)
+        start = os.path.abspath(os.curdir if is_url(path) else path)
         folder = start if os.path.isdir(start) else os.path.dirname(start)
         searched = []
         while folder not in self._by_folder:

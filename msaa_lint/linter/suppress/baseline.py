@@ -15,6 +15,7 @@ from msaa_lint.core.diagnostics import diagnostic
 from msaa_lint.core.finding import Finding, Suppressed
 from msaa_lint.core.project import Outside, folder_of, is_inside, project_root, shown
 from msaa_lint.core.quote import quoted
+from msaa_lint.core.urls import is_url
 
 if TYPE_CHECKING:
     from msaa_lint.core.text.source import Source
@@ -128,7 +129,9 @@ class _Existing:
         self._inside: dict[str, bool] = {}
 
     def is_gone(self, file: str) -> bool:
-        """Whether a file is in the project and does not exist."""
+        """Whether a file is in the project and does not exist. URLs are not looked up."""
+        if "://" in file:
+            return False
         path = os.path.join(self.root, file)
         folder = os.path.dirname(path)
         if folder not in self._inside:
@@ -169,8 +172,8 @@ def save(baseline: Baseline, path: str, force: bool = True) -> None:
 
 
 def _key(file: str, root: str) -> str:
-    """A finding's file as the baseline names it; `<stdin>` and other names that are not paths stay as they are."""
-    if file == "-" or file.startswith("<"):
+    """A finding's file as the baseline names it; `<stdin>` and other names that are not paths stay as they are, as URLs do."""
+    if file == "-" or file.startswith("<") or is_url(file):
         return file
     try:
         return os.path.relpath(file, root).replace(os.sep, "/")
