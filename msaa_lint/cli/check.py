@@ -10,6 +10,7 @@ from time import perf_counter
 from typing import IO
 
 from msaa_lint.core.diagnostics import diagnostic, internal_error
+from msaa_lint.core.execution.backend import Unusable
 from msaa_lint.core.finding import Result, is_confident, rank
 from msaa_lint.core.text.node import Limits
 from msaa_lint.input.file_types import STDIN
@@ -50,7 +51,7 @@ SUMMARIZED_KEYS = 1000
 
 def check(arguments: Arguments) -> int:
     """Lints what the arguments name and prints the result; returns the exit code."""
-    return run_command(_check, arguments)
+    return run_command(_check, arguments, (Unusable,), terminable="backend" in arguments)
 
 
 def _check(arguments: Arguments) -> int:
@@ -91,6 +92,8 @@ def _outcome(asked: Request, progress: Progress | None) -> Outcome:
     """The outcome of a run. If the run itself fails, that is its only finding: the formats that programs read are whole."""
     try:
         return run(asked, progress)
+    except Unusable:
+        raise
     except Exception as error:
         if asked.traceback:
             raise

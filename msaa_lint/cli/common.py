@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from importlib import import_module
 from importlib.util import find_spec
 from types import FrameType
-from typing import IO, Any, NamedTuple, TypeVar
+from typing import IO, TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from msaa_lint.core import atomic_write
 from msaa_lint.core.diagnostics import internal_error
@@ -24,6 +24,9 @@ from .progress import capture_progress
 from .report import Options
 from .report.escape import escape
 from .streams import OutputError
+
+if TYPE_CHECKING:
+    from msaa_lint.linter.workspace import Division
 
 MAX_RENDER_SIDE = 16384
 """Width and height of a rendered picture, in pixels."""
@@ -277,6 +280,15 @@ def log(arguments: Arguments) -> Callable[[str], None] | None:
     return warn if arguments.get("verbose") else None
 
 
+def division(arguments: Arguments) -> "Division":
+    """Who reads the inputs. UsageError for an address without an engine."""
+    from msaa_lint.linter.workspace import Division
+
+    if "cluster" in arguments and "backend" not in arguments:
+        raise UsageError("`--cluster` needs the engine of the cluster: `--backend dask` or `--backend ray`")
+    return Division(arguments.get("backend"), arguments.get("cluster"), arguments.get("jobs"))
+
+
 def input_options(arguments: Arguments) -> dict[str, Any]:
     """The members of a `linter.workspace.Request` that all commands fill alike."""
     return {
@@ -289,7 +301,7 @@ def input_options(arguments: Arguments) -> dict[str, Any]:
         "log": log(arguments),
         "traceback": bool(arguments.get("traceback")),
         "cache": not arguments.get("no_cache"),
-        "jobs": arguments.get("jobs"),
+        "division": division(arguments),
     }
 
 

@@ -7,6 +7,7 @@ import sys
 from functools import partial
 from typing import IO
 
+from msaa_lint.core.execution.backend import Unusable
 from msaa_lint.core.finding import Result
 from msaa_lint.core.project import shown
 from msaa_lint.core.quote import quoted
@@ -43,7 +44,7 @@ MAX_SIDE = 2**31 - 1
 
 def cost(arguments: Arguments) -> int:
     """Prints what inputs cost; returns 0, or 2 if an input, an option, or the configuration cannot be used."""
-    return run_command(_cost, arguments)
+    return run_command(_cost, arguments, (Unusable,), terminable="backend" in arguments)
 
 
 def _cost(arguments: Arguments) -> int:

@@ -142,7 +142,16 @@ _FRAME_END = Option(
 SHARED = (_STDIN_FILENAME, _input_format(*INPUT_FORMATS), _FRAME_END, *_CONFIGURATION, _COLOR, *GLOBAL)
 """Options of `check`, `cost`, `confirm`, and `study`."""
 
-_JOBS = Option("jobs", "integer", "Inputs to read at once.", "N", default="the cores, for more than a few inputs")
+_DIVISION = (
+    Option("jobs", "integer", "Inputs to read at once.", "N", default="the cores, for more than a few inputs; the workers of a cluster"),
+    Option("backend", "choice", "Let the workers of a cluster read the inputs.", "NAME", choices=("dask", "ray")),
+    Option(
+        "cluster",
+        "text",
+        "Address of the cluster; without one, of DASK_SCHEDULER_ADDRESS or RAY_ADDRESS, or one of this machine.",
+        "ADDRESS",
+    ),
+)
 _INPUTS = SHARED[:3]
 _SIZE = Option("size", "text", "Size in pixels of inputs that state none.", "WxH")
 
@@ -196,7 +205,7 @@ COMMANDS = {
             ),
             "Inputs": (
                 *_INPUTS,
-                _JOBS,
+                *_DIVISION,
                 Option("max_depth", "integer", "Maximum nesting depth of an input.", "N", default=str(_LIMITS.depth)),
                 Option("max_nodes", "integer", "Maximum number of nodes in an input, aliases expanded.", "N", default=str(_LIMITS.nodes)),
                 Option("max_bytes", "integer", "Maximum size of an input in bytes.", "N", default=str(_LIMITS.bytes)),
@@ -229,7 +238,7 @@ COMMANDS = {
                 Option("chart", "text", "Draw a chart to an .svg, .png, or .json (Vega-Lite) file (extra `chart`).", "FILE"),
                 _COLOR,
             ),
-            "Inputs": (*_INPUTS, _JOBS),
+            "Inputs": (*_INPUTS, *_DIVISION),
             "Configuration": _CONFIGURATION,
             "Other": GLOBAL,
         },

@@ -17,7 +17,7 @@ from .results import DocumentResult, FileResult, can_try_fixes
 from .rules.budget import Spent
 from .savings import Trials
 from .unit_parts import parts
-from .workspace import InputFile, Request, Unit, Workspace
+from .workspace import ALONE, InputFile, Request, Unit, Workspace
 
 
 class CostResult(NamedTuple):
@@ -42,7 +42,7 @@ def run_costs(request: Request, terms: Terms, counts: Sequence[int]) -> CostResu
     frames: list[CostedFrame] = []
     findings: list[Finding] = []
     notes = list(discovered.notes)
-    for part in parts(CostLinter(workspace, terms, counts), discovered.files, 1 if request.traceback else request.jobs):
+    for part in parts(CostLinter(workspace, terms, counts), discovered.files, ALONE if request.traceback else request.division):
         frames.extend(part.frames)
         findings.extend(part.errors)
         workspace.sources.update(part.sources)

@@ -149,10 +149,10 @@ class _Run:
         depends_on = self._parts_depend_on()
         cache = self.workspace.cache if depends_on is not None and is_worth_keeping(self.workspace, units) else None
         if cache is None or depends_on is None:
-            return parts(self.linter, units, request.jobs)
+            return parts(self.linter, units, request.division)
         from .kept_parts import KeptParts
 
-        return parts(KeptParts(self.linter, cache, depends_on), units, request.jobs)
+        return parts(KeptParts(self.linter, cache, depends_on), units, request.division)
 
     def _parts_depend_on(self) -> str | None:
         """What the parts of inputs depend on besides their files and settings; None if they are not kept, which have no frames."""

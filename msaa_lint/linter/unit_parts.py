@@ -3,17 +3,17 @@
 from collections.abc import Iterator, Sequence
 
 from .input_runs import InputRuns, Linter, Part, processes
-from .workspace import Unit
+from .workspace import ALONE, Division, Unit
 
 
-def parts(linter: Linter[Part], units: Sequence[Unit], jobs: int | None = 1) -> Iterator[Part]:
-    """Yields what the inputs and programs of a run add to its result, in their order, as determined by so many processes at once."""
+def parts(linter: Linter[Part], units: Sequence[Unit], division: Division = ALONE) -> Iterator[Part]:
+    """Yields what the inputs and programs of a run add to its result, in their order. Raises Unusable if the cluster cannot be used."""
     runs = InputRuns(linter, units)
-    count = processes(linter.workspace, units, jobs)
-    if count == 1:
+    count = division.jobs if division.backend is not None else processes(linter.workspace, units, division.jobs)
+    if count == 1 and division.backend is None:
         return runs.in_this_process()
-    from msaa_lint.core.execution.processes import Processes
+    from msaa_lint.core.execution.engines import open_backend
 
     from .job import Job
 
-    return runs.divided(Processes(count), Job(runs))
+    return runs.divided(open_backend(division.backend, division.cluster, count), Job(runs))

@@ -44,6 +44,19 @@ if TYPE_CHECKING:
     from .rules.budget import Budget
 
 
+class Division(NamedTuple):
+    """Who reads the inputs: the workers of a cluster (`backend` is its engine, `cluster` its address), or processes of this machine. `jobs`
+    is the number of inputs at once (None: the workers, or the cores if there is enough to do)."""
+
+    backend: str | None = None
+    cluster: str | None = None
+    jobs: int | None = None
+
+
+ALONE = Division(jobs=1)
+"""This process reads the inputs."""
+
+
 class Request(NamedTuple):
     """What a run is asked to do.
 
@@ -54,8 +67,8 @@ class Request(NamedTuple):
     may change the picture. Standard input is never written. `keys` is the number of undecided rules of an input for which a key is looked
     up that they lack (None: of all), and `all_keys` finds all keys that undecided rules lack, and not only the next one. `log` is called
     with a line for each configuration and each input that is used. `traceback` raises an exception that linting an input causes, instead
-    of reporting it. `cache` uses and keeps results in the user's cache folder. `jobs` is the number of processes that lint inputs (None:
-    the cores, if there is enough to do). `edits` writes the edits of fixes into the findings.
+    of reporting it. `cache` uses and keeps results in the user's cache folder. `division` says who reads the inputs. `edits` writes the
+    edits of fixes into the findings.
     """
 
     paths: Sequence[str]
@@ -79,7 +92,7 @@ class Request(NamedTuple):
     log: Callable[[str], None] | None = None
     traceback: bool = False
     cache: bool = False
-    jobs: int | None = 1
+    division: Division = ALONE
     edits: bool = True
 
     def input_name(self, path: str) -> str:
