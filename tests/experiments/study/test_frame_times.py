@@ -1,4 +1,4 @@
-"""The times of frames: what a device counts of them, and the model that is fitted to those of a GPU (tests/data/frame_times.json)."""
+"""The times of frames: what a device counts of them, and the model that is fitted to those of a GPU (tests/experiments/study/frame_times.json)."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from tests.experiments.confirm.frames import frame
 from tests.paths import ROOT
 
 PHONE = ROOT / "examples/phone/forward.msaa.yaml"
-MEASURED: list[dict[str, Any]] = json.loads((ROOT / "tests/data/frame_times.json").read_text())["frames"]
+MEASURED: list[dict[str, Any]] = json.loads((ROOT / "tests/experiments/study/frame_times.json").read_text())["frames"]
 ONE, FOUR, EACH, LARGE = Technique(MSAA, 1), Technique(MSAA, 4), Technique(SAMPLE_SHADING, 4, 1.0), Technique(SSAA, 9, grid=3)
 
 
