@@ -8,13 +8,14 @@ from functools import partial
 from typing import NamedTuple
 
 from msaa_lint.core import atomic_write
+from msaa_lint.core.execution.backend import Unusable
 from msaa_lint.core.text.source import Unreadable
 from msaa_lint.core.text.tree import Limits
 from msaa_lint.input.file_types import DESCRIPTIONS, STDIN
 from msaa_lint.input.opening import load
 from msaa_lint.linter.source_programs import units_of
 from msaa_lint.linter.unit_parts import parts
-from msaa_lint.linter.workspace import Request, Unit, Workspace
+from msaa_lint.linter.workspace import ALONE, Request, Unit, Workspace
 
 from .common import UsageError, input_options, internal_errors_of, note, refuse_inputs, run_command, warn, write_output, writes
 from .conversion import Conversion, ConvertLinter, converted, input_path, of_programs
@@ -25,7 +26,7 @@ from .report.words import plural
 
 def convert(arguments: Arguments) -> int:
     """Converts what the arguments name; returns the exit code."""
-    return run_command(_convert, arguments)
+    return run_command(_convert, arguments, (Unusable,), terminable="backend" in arguments)
 
 
 def _convert(arguments: Arguments) -> int:
@@ -81,7 +82,7 @@ def convert_each(arguments: Arguments, folder: str, force: bool) -> int:
     workspace = Workspace(Request(**input_options(arguments)))
     planned = _planned(workspace, arguments["paths"], folder, force)
     waiting = [each.unit for each in planned if not each.problem]
-    found = parts(ConvertLinter(workspace), waiting, 1 if workspace.request.traceback else workspace.request.jobs)
+    found = parts(ConvertLinter(workspace), waiting, ALONE if workspace.request.traceback else workspace.request.division)
     written, failed, left_out = 0, False, []
     for each in planned:
         conversion = Conversion(errors=[each.problem]) if each.problem else next(found)

@@ -403,7 +403,7 @@ COMMANDS = {
                 Option("force", "flag", "Overwrite existing files."),
                 _input_format(*INPUT_FORMATS[2:]),
                 _FRAME_END,
-                _JOBS,
+                *_DIVISION,
                 *GLOBAL,
             ),
         },

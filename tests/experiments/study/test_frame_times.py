@@ -1,4 +1,4 @@
-"""The times of frames: what a device counts of them, and the model that is fitted to those of a GPU (tests/experiments/study/frame_times.json)."""
+"""The times of frames: what a device counts of them, and the model that is fitted to those of a GPU (frame_times.json beside this file)."""
 
 from __future__ import annotations
 
