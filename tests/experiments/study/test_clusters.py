@@ -35,7 +35,7 @@ def dask_cluster() -> Iterator[tuple[dict[str, str], Workers]]:
         ids = client.run(os.getpid)
         yield (
             {"DASK_SCHEDULER_ADDRESS": cluster.scheduler_address},
-            lambda: [ids[worker] for worker, keys in client.processing().items() if keys],
+            lambda: [ids[worker] for worker, keys in client.processing().items() if keys and worker in ids],
         )
 
 
