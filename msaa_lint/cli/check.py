@@ -12,6 +12,7 @@ from typing import IO
 from msaa_lint.core.diagnostics import diagnostic, internal_error
 from msaa_lint.core.execution.backend import Unusable
 from msaa_lint.core.finding import Result, is_confident, rank
+from msaa_lint.core.spool import SpoolError
 from msaa_lint.core.text.node import Limits
 from msaa_lint.input.file_types import STDIN
 from msaa_lint.linter.run import Outcome, Progress, run
@@ -51,7 +52,7 @@ SUMMARIZED_KEYS = 1000
 
 def check(arguments: Arguments) -> int:
     """Lints what the arguments name and prints the result; returns the exit code."""
-    return run_command(_check, arguments, (Unusable,), terminable="backend" in arguments)
+    return run_command(_check, arguments, (Unusable, SpoolError), terminable="backend" in arguments)
 
 
 def _check(arguments: Arguments) -> int:
@@ -92,7 +93,7 @@ def _outcome(asked: Request, progress: Progress | None) -> Outcome:
     """The outcome of a run. If the run itself fails, that is its only finding: the formats that programs read are whole."""
     try:
         return run(asked, progress)
-    except Unusable:
+    except (Unusable, SpoolError):
         raise
     except Exception as error:
         if asked.traceback:

@@ -8,6 +8,7 @@ from itertools import accumulate
 from typing import Generic, NamedTuple, Protocol, TypeVar
 
 from msaa_lint.core.execution.backend import Backend, Failure
+from msaa_lint.core.spool import SpooledDict
 from msaa_lint.input.file_types import STDIN
 
 from .source_programs import ProgramInput
@@ -27,6 +28,9 @@ MAX_UNITS = 32
 
 MAX_BYTES = 64 << 10
 """The number of bytes of the inputs of a task, unless it has only one."""
+
+MAX_WAITING = 100
+"""The number of parts in memory that wait for those of inputs before theirs."""
 
 MAX_PROCESSES = 8
 """The number of processes on this machine, unless one is asked for: each takes memory of its own."""
@@ -90,22 +94,24 @@ class InputRuns(Generic[Part]):
         for unit in self._units:
             # Here, what the rules of a configuration take is counted once.
             self._configuration(unit)
-        done = {
-            number: part for number, unit in enumerate(self._units) if isinstance(unit, ProgramInput) and (part := self.linter.found(unit))
-        }
-        waiting: dict[int, Part] = {}
-        results = backend.results(job, self._tasks(done), list_of_each)
+        waiting: SpooledDict[Part] = SpooledDict(self._workspace.spool, MAX_WAITING)
+        known: set[int] = set()
+        for number, unit in enumerate(self._units):
+            if isinstance(unit, ProgramInput) and (part := self.linter.found(unit)) is not None:
+                waiting.update({str(number): part})
+                known.add(number)
+        results = backend.results(job, self._tasks(known), list_of_each)
         try:
             for number, unit in enumerate(self._units):
-                if number in done:
-                    yield done.pop(number)
+                if unit == STDIN:
+                    yield self.linter.part(unit)
                     continue
-                while number not in waiting and unit != STDIN:
+                while str(number) not in waiting:
                     task, found = next(results)
                     parts = [self.linter.failed(each.unit, found.reason) for each in task.units] if isinstance(found, Failure) else found
-                    waiting.update(zip((each.number for each in task.units), parts, strict=True))
-                part = waiting.pop(number, None)
-                yield part if part is not None and self.linter.included(part) else self.linter.part(unit)
+                    waiting.update({str(each.number): part for each, part in zip(task.units, parts, strict=True)})
+                part = waiting.pop(str(number))
+                yield part if number in known or self.linter.included(part) else self.linter.part(unit)
         finally:
             results.close()  # type: ignore[attr-defined]
             backend.close()

@@ -2,15 +2,17 @@
 
 import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from itertools import chain
 from typing import TYPE_CHECKING, NamedTuple
 
-from msaa_lint.core.finding import Finding, InputSummary, Result, Savings, Suppressed, Undecided, rank
+from msaa_lint.core.finding import InputSummary, Result, Savings, Suppressed, Undecided
 from msaa_lint.core.garbage import collect_garbage
+from msaa_lint.core.spool import SpooledDict, SpooledList
 
 from .engine import rule_infos
 from .input_runs import is_worth_keeping
 from .part_linter import Contents, PartLinter, Results
-from .results import price_order
+from .run_findings import RunFindings
 from .run_part import RunPart
 from .settings.settings import Settings
 from .source_programs import units_of
@@ -75,14 +77,15 @@ class _Run:
         self.linter = PartLinter(self.workspace, contents, self.baseline, results)
         self.with_pages = request.full_rules or not RULE_PAGE_FORMATS.isdisjoint(outputs)
         self.frames: list[CostedFrame] = []
-        self.findings: list[Finding] = []
-        self.undecided: list[Undecided] = []
-        self.suppressed: list[Suppressed] = []
-        self.accepted: list[Suppressed] = []
-        self.summaries: dict[str, InputSummary] = {}
-        self.savings: dict[str, Savings] = {}
+        spool = self.workspace.spool
+        self.findings = RunFindings(self.workspace)
+        self.undecided: SpooledList[Undecided] = SpooledList(spool)
+        self.suppressed: SpooledList[Suppressed] = SpooledList(spool)
+        self.accepted: SpooledList[Suppressed] = SpooledList(spool)
+        self.summaries: SpooledDict[InputSummary] = SpooledDict(spool)
+        self.savings: SpooledDict[Savings] = SpooledDict(spool)
         self.untried: dict[str, bool] = {}
-        self.failing: dict[str, Savings] = {}
+        self.failing: SpooledDict[Savings] = SpooledDict(spool)
         self.fixed: list[FixedText] = []
         self.notes: list[str] = []
 
@@ -100,45 +103,38 @@ class _Run:
 
     def run(self, progress: Progress | None) -> Outcome:
         discovered = self.workspace.discover(sources=True)
+        files = [self.request.input_name(path) for path in discovered.files]
+        self.findings.begin(files)
         units = units_of(discovered.files, self.workspace.programs(discovered))
         done = 0
         parts = self._parts(units)
         for unit in units:
             paths = [unit] if isinstance(unit, str) else unit.inputs
             if progress is not None:
-                progress(done, len(discovered.files), paths[0])
-            self._add(next(parts))
-            for name in map(self.request.input_name, paths):
-                self.summaries.setdefault(name, InputSummary(name, failed=True))
+                progress(done, len(files), paths[0])
+            names = list(map(self.request.input_name, paths))
+            self._add(next(parts), names)
             done += len(paths)
             collect_garbage()
         self.workspace.close()
-        files = [self.request.input_name(path) for path in discovered.files]
         notes = [*discovered.notes, *self.notes, *self._stale_entries(files)]
-        # A broken rule page comes first: other findings of the configuration may be due to it.
-        order = {**{file: number for number, file in enumerate(files)}, **dict.fromkeys(self.workspace.broken_pages(), -2)}
-        # Two configurations may name the same broken rule page.
-        settle = self.workspace.current.selection.settle
-        of_run = [found for found in map(settle, self.workspace.findings) if found is not None]
-        findings = [found for found in dict.fromkeys([*of_run, *self.findings]) if self._is_shown(found)]
-        findings.sort(key=lambda found: (order.get(found.file, -1), found.file))
-        if self.request.by_price:
-            findings.sort(key=price_order)
-        current = self.workspace.current
+        current, spool = self.workspace.current, self.workspace.spool
         rules = rule_infos(current.engine.registry, current.selection.for_file(os.curdir), self.with_pages)
+        findings = self.findings.by_price() if self.request.by_price else self.findings.by_file()
+        suppressed = SpooledList(spool, chain(self.suppressed, self.accepted))
         result = Result(
-            findings,
-            self.undecided,
-            [*self.suppressed, *self.accepted],
+            SpooledList(spool, findings).finished(),
+            self.undecided.finished(),
+            suppressed.finished(),
             files,
-            self.workspace.sources,
+            self.workspace.sources.finished(),
             rules,
-            self.savings,
+            self.savings.finished(),
             self.baseline is not None,
-            [self.summaries[file] for file in files],
+            SpooledList(spool, (self.summaries[file] for file in files)).finished(),
             self.untried,
         )
-        return Outcome(result, self.settings, notes, self.fixed, self.failing, self.frames)
+        return Outcome(result, self.settings, notes, self.fixed, self.failing.finished(), self.frames)
 
     def _parts(self, units: Sequence[Unit]) -> Iterator[RunPart]:
         """What the units add to the result, in their order."""
@@ -163,16 +159,16 @@ class _Run:
         stated = (request.ignores, request.format, request.frame_end, request.keys, request.all_keys, request.edits, settings.min_severity)
         return repr((self.linter.contents, stated, accepted))
 
-    def _add(self, part: RunPart) -> None:
-        """Adds what an input adds to the result of the run, after the baseline."""
+    def _add(self, part: RunPart, names: Sequence[str]) -> None:
+        """Adds what the inputs of these names add to the result of the run, after the baseline."""
         findings, accepted = self.linter.apply_baseline(part.findings)
-        self.findings.extend([*part.diagnostics, *findings])
+        self.findings.add(part.problems, [*part.diagnostics, *findings])
         self.accepted.extend(accepted)
         self.undecided.extend(part.undecided)
         self.suppressed.extend(part.suppressed)
-        self.summaries.update((summary.file, summary) for summary in part.summaries)
+        unknown = {name: InputSummary(name, failed=True) for name in names if name not in self.summaries}
+        self.summaries.update(unknown | {summary.file: summary for summary in part.summaries})
         self.workspace.sources.update(part.sources)
-        self.workspace.findings.extend(part.problems)
         self.workspace.failed.update(part.failed)
         self.savings.update(part.savings)
         self.failing.update(part.failing)
@@ -181,14 +177,11 @@ class _Run:
         self.notes.extend(part.notes)
         self.fixed.extend(part.fixed)
 
-    def _is_shown(self, found: Finding) -> bool:
-        return found.fatal or rank(found.severity) >= rank(self.settings.min_severity)
-
     def _stale_entries(self, files: Sequence[str]) -> list[str]:
         """A line for each entry of the baseline that counts more findings than there are."""
         if self.baseline is None:
             return []
         from .suppress import baseline
 
-        findings = [*self.workspace.findings, *self.findings, *(each.finding for each in self.accepted)]
+        findings = chain(self.findings, (each.finding for each in self.accepted))
         return list(map(str, baseline.stale(self.baseline, findings, files, self.workspace.current.selection.names())))

@@ -13,6 +13,7 @@ from msaa_lint.core.finding import Finding, rank
 from msaa_lint.core.garbage import collect_garbage
 from msaa_lint.core.project import shown
 from msaa_lint.core.quote import quoted
+from msaa_lint.core.spool import Spool, SpooledDict
 from msaa_lint.core.text.files import is_there
 from msaa_lint.core.text.source import Source, Unreadable, encode
 from msaa_lint.core.text.tree import Limits
@@ -164,6 +165,9 @@ class InputFile(NamedTuple):
         return result.description or lint(data.description), lint
 
 
+MAX_TEXTS = 64
+"""The number of texts that findings point into, from which on they are not kept in memory."""
+
 Unit = str | ProgramInput
 """What is read at once: an input by its path, or the files of a program."""
 
@@ -181,14 +185,15 @@ class UnitRead:
 class Workspace:
     """The settings, rules and inputs of one run, each loaded once.
 
-    `findings` are the problems met so far with configuration files, rule pages and inputs, and `sources` the texts that they point into.
-    `current` are the settings that apply to the current folder.
+    `findings` are the problems met so far with configuration files, rule pages and inputs, and `sources` the texts that they point into;
+    `spool` has what does not stay in memory. `current` are the settings that apply to the current folder.
     """
 
     def __init__(self, request: Request, configurations: Configurations | KnownConfigurations | None = None) -> None:
         self.request = request
         self.findings: list[Finding] = []
-        self.sources: dict[str, Source] = {}
+        self.spool = Spool()
+        self.sources: SpooledDict[Source] = SpooledDict(self.spool, MAX_TEXTS)
         self.configurations = configurations or Configurations(request.config, request.isolated)
         self.loaded: dict[str | None, Loaded] = {}
         """The configurations that are used, by path."""

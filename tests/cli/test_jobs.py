@@ -75,7 +75,7 @@ def check(corpus: Path, *options: str, **environment: str) -> tuple[int, str, st
     "options", [(), ("--fail-on-cost", "1mW"), ("--baseline", "baseline.json"), ("--sort", "price"), ("--ignore", "MSAA2")]
 )
 def test_processes_say_what_one_says(corpus: Path, options: tuple[str, ...]) -> None:
-    run(corpus, "baseline", "other/01.msaa.yaml", "other/02.msaa.yaml", "-o", "baseline.json")
+    run(corpus, "baseline", "other/01.msaa.yaml", "other/02.msaa.yaml", "--file", "baseline.json")
     one = check(corpus, "--jobs", "1", "--no-cache", *options)
     assert "TEAM1" in one[1] and "unreadable" in one[1]
     assert check(corpus, "--jobs", "3", "--no-cache", *options) == one

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections import Counter
+from collections.abc import Iterable
 
 from msaa_lint.core.finding import InputSummary, Result
 from msaa_lint.input.file_types import LANGUAGES
@@ -43,29 +44,32 @@ SOURCE = frozenset(LANGUAGES)
 """The formats of source code."""
 
 
-def checked(inputs: Sequence[InputSummary]) -> str:
+def checked(inputs: Iterable[InputSummary]) -> str:
     """`2 descriptions: 5 images, 3 passes; 1 C++ file: nothing read`; empty if nothing is known of the inputs."""
-    by_format: dict[str, list[InputSummary]] = {}
+    by_format: dict[str, Counter[str]] = {}
     for each in inputs:
-        by_format.setdefault(each.format, []).append(each)
+        totals = by_format.setdefault(each.format, Counter())
+        counts = {count: getattr(each, count) for count in COUNTS}
+        totals.update(counts)
+        totals["inputs"] += 1
+        if each.failed:
+            totals["failed in part" if any(counts.values()) else "failed"] += 1
+        totals["unread"] += each.unread is not None
     ordered = sorted(by_format.items(), key=lambda item: list(_FORMATS).index(item[0]))
-    return "; ".join(_of_format(format, group) for format, group in ordered)
+    return "; ".join(_of_format(format, totals) for format, totals in ordered)
 
 
-def _of_format(format: str, inputs: Sequence[InputSummary]) -> str:
+def _of_format(format: str, totals: Counter[str]) -> str:
     """`2 descriptions: 5 images, 3 passes, 1 not checked because of errors`."""
-    name = plural(len(inputs), _FORMATS[format])
+    name = plural(totals["inputs"], _FORMATS[format])
     if not format:
         return name
-    sums = [sum(getattr(each, count) for each in inputs) for count in COUNTS]
-    parts = [plural(total, noun) for total, noun in zip(sums, _NOUNS, strict=True) if total]
-    failed = [any(getattr(each, count) for count in COUNTS) for each in inputs if each.failed]
-    for checked_in_part, words in ((False, "not checked because of errors"), (True, "checked in part because of errors")):
-        if checked_in_part in failed:
-            parts.append(f"{failed.count(checked_in_part)} {words}")
-    unread = sum(each.unread is not None for each in inputs) if format in SOURCE else 0
-    if unread and parts:
-        parts.append(f"{unread} not understood")
+    parts = [plural(totals[count], noun) for count, noun in zip(COUNTS, _NOUNS, strict=True) if totals[count]]
+    for key, words in (("failed", "not checked because of errors"), ("failed in part", "checked in part because of errors")):
+        if totals[key]:
+            parts.append(f"{totals[key]} {words}")
+    if format in SOURCE and totals["unread"] and parts:
+        parts.append(f"{totals['unread']} not understood")
     return f"{name}: {', '.join(parts) or ('nothing read' if format in SOURCE else 'nothing to check')}"
 
 

@@ -132,12 +132,18 @@ def _place(result: Result, file: str, span: Span | None) -> Json:
 
 def _summary(result: Result) -> Json:
     count, files, converted = tally(result), files_saving(result), converted_saving(result)
+    checked = dict.fromkeys(COUNTS, 0)
+    unread = 0
+    for entry in result.inputs:
+        unread += entry.unread is not None
+        for name in COUNTS:
+            checked[name] += getattr(entry, name)
     return {
         **{name: getattr(count, name) for name in _COUNTS},
         "missing": {text(fact): rules for fact, rules in count.missing},
         "missing_keys": {text(key): rules for key, rules in rules_by_key(result)},
-        "checked": {name: sum(getattr(entry, name) for entry in result.inputs) for name in COUNTS},
-        "unread": sum(entry.unread is not None for entry in result.inputs),
+        "checked": checked,
+        "unread": unread,
         "price": files.all.price._asdict() if files.all.price else None,
         "savings": {
             "fix": _saving(files.safe),

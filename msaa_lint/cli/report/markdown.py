@@ -87,5 +87,6 @@ def _where(finding: Finding, result: Result, options: Options) -> str:
     return f"{path}:{at.line}:{at.column}" if at else path
 
 
-def _by_severity(result: Result) -> list[Finding]:
-    return sorted(result.findings, key=lambda finding: -rank(finding.severity))
+def _by_severity(result: Result) -> Iterator[Finding]:
+    ranks = [-rank(finding.severity) for finding in result.findings]
+    return (result.findings[number] for number in sorted(range(len(ranks)), key=ranks.__getitem__))

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from functools import partial
+from collections.abc import Callable
+from functools import lru_cache, partial
+from itertools import chain
 
 from msaa_lint.core.finding import Finding, Fix, Result
 from msaa_lint.core.text.source import Source
@@ -15,20 +17,29 @@ from .escape import MAX_LENGTH, display, escape, escape_surrogates
 from .paths import relative
 from .place import place
 
+MAX_POSITIONS = 16
+"""The number of texts whose positions stay known, since findings come file by file."""
+
 _SEVERITY = {"note": "INFO", "warning": "WARNING", "error": "ERROR"}
 
 
 def render(result: Result, out: Write, options: Options) -> None:
     """Prints the object; its list is empty if there are no findings."""
-    positions = {file: _Positions(source) for file, source in result.sources.items() if source.origins is None}
-    diagnostics = map(partial(_diagnostic, result, positions, options), [*result.findings, *unread_notes(result)])
+    positions = lru_cache(MAX_POSITIONS)(partial(_positions, result))
+    diagnostics = map(partial(_diagnostic, result, positions, options), chain(result.findings, unread_notes(result)))
     write_object({"source": {"name": "msaa-lint"}, "diagnostics": diagnostics}, out)
 
 
-def _diagnostic(result: Result, positions: dict[str, _Positions], options: Options, finding: Finding) -> Json:
+def _positions(result: Result, file: str) -> _Positions | None:
+    """The positions of the text of a file; None if it has none, or one that was made from a capture."""
+    source = result.sources.get(file)
+    return _Positions(source) if source is not None and source.origins is None else None
+
+
+def _diagnostic(result: Result, positions: Callable[[str], _Positions | None], options: Options, finding: Finding) -> Json:
     location: Json = {"path": escape(relative(finding.file, options.root))}
     at = place(result, finding.file, finding.span)
-    in_text = positions.get(finding.file)
+    in_text = positions(finding.file)
     if in_text is not None and finding.span is not None:
         location["range"] = in_text.range(finding.span.start, finding.span.end)
     elif at is not None:

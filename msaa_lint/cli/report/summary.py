@@ -1,6 +1,8 @@
 """The figures of a run, and the sentences that state them."""
 
+from collections import Counter
 from collections.abc import Iterable
+from operator import add
 from typing import NamedTuple
 
 from msaa_lint.core.finding import CONFIDENCES, Finding, Price, Result, Saving, Savings, is_confident
@@ -37,22 +39,26 @@ class Tally(NamedTuple):
 
 def tally(result: Result) -> Tally:
     """The counts of a run."""
-    severities = [finding.severity for finding in result.findings]
+    severities: Counter[str] = Counter()
+    with_findings = dict.fromkeys(result.files, False)
+    for finding in result.findings:
+        severities[finding.severity] += 1
+        with_findings[finding.file] = True
+    with_findings.pop(COMMAND_LINE, None)
     savings = files_saving(result)
     rules_by_fact: dict[str, set[str]] = {}
     for entry in result.undecided:
         for fact in entry.missing:
             rules_by_fact.setdefault(fact, set()).add(entry.code)
     missing = sorted(((fact, len(codes)) for fact, codes in rules_by_fact.items()), key=lambda item: (-item[1], item[0]))
-    with_findings = {finding.file for finding in result.findings} - {COMMAND_LINE}
     return Tally(
-        errors=severities.count("error"),
-        warnings=severities.count("warning"),
-        notes=severities.count("note"),
+        errors=severities["error"],
+        warnings=severities["warning"],
+        notes=severities["note"],
         fixable=savings.all.findings,
         safely_fixable=savings.safe.findings,
-        files=len(with_findings.union(result.files)),
-        files_with_findings=len(with_findings),
+        files=len(with_findings),
+        files_with_findings=sum(with_findings.values()),
         suppressed=len(result.suppressed),
         undecided=len(result.undecided),
         undecided_rules=len({entry.code for entry in result.undecided}),
@@ -132,15 +138,17 @@ def converted_saving(result: Result) -> Savings:
 
 
 def _sum(savings: Iterable[Savings]) -> Savings:
-    entries = list(savings)
-    return Savings(_sum_of(entry.safe for entry in entries), _sum_of(entry.all for entry in entries))
+    safe, everything = Saving(), Saving()
+    for entry in savings:
+        safe, everything = _both(safe, entry.safe), _both(everything, entry.all)
+    return Savings(safe, everything)
 
 
-def _sum_of(savings: Iterable[Saving]) -> Saving:
-    entries = list(savings)
-    prices = [entry.price for entry in entries if entry.price is not None and _is_usable(entry.price)]
-    price = Price(*(sum(column) for column in zip(*prices, strict=True))) if prices else None
-    return Saving(sum(entry.findings for entry in entries), price)
+def _both(one: Saving, other: Saving) -> Saving:
+    price = one.price
+    if other.price is not None and _is_usable(other.price):
+        price = Price(*map(add, price or Price(0.0, 0.0, 0.0, 0.0), other.price))
+    return Saving(one.findings + other.findings, price)
 
 
 def usable_price(finding: Finding) -> Price | None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from itertools import chain
 
 from msaa_lint.core.diagnostics import DIAGNOSTICS
 from msaa_lint.core.finding import Finding, Result
@@ -27,7 +28,7 @@ def render(result: Result, out: Write, options: Options) -> None:
     """Prints a message per finding and per input that shows no pass to check, and before the first one of each rule what the rule is."""
     summaries = {rule.code: rule.summary for rule in (*DIAGNOSTICS.values(), *result.rules)}
     described: set[str] = set()
-    for finding in [*result.findings, *unread_notes(result)]:
+    for finding in chain(result.findings, unread_notes(result)):
         code = clip(display(finding.code), MAX_NAME)
         if code not in described:
             described.add(code)
