@@ -32,8 +32,12 @@ def main() -> None:
     from .cli.streams import run_with_streams
 
     code = run_with_streams(_run)
-    # Spares the collection that Python does at exit.
-    gc.freeze()
+    if "duckdb" in sys.modules:
+        # Its binding reports what is not collected at exit.
+        gc.enable()
+    else:
+        # Spares the collection that Python does at exit.
+        gc.freeze()
     sys.exit(code)
 
 

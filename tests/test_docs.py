@@ -20,6 +20,7 @@ GENERATED = {
     "docs/facts.md": ["-m", "msaa_lint", "facts", "--output", "markdown"],
     "docs/commands.md": ["-m", "docs.commands"],
     "docs/keys.md": ["-m", "docs.keys"],
+    "docs/rows.md": ["-m", "docs.rows"],
 }
 
 

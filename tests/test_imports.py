@@ -23,8 +23,8 @@ from tests.paths import ROOT
 PACKAGE = ROOT / "msaa_lint"
 
 HEAVY = frozenset({
-    "annotated_types", "asyncio", "click", "concurrent", "dataclasses", "email", "hashlib", "html", "http", "importlib.metadata",
-    "importlib.resources", "inspect", "jsonschema", "logging", "multiprocessing", "numpy", "pathlib", "pathspec", "pydantic",
+    "annotated_types", "asyncio", "click", "concurrent", "dataclasses", "duckdb", "email", "hashlib", "html", "http", "importlib.metadata",
+    "importlib.resources", "inspect", "jsonschema", "logging", "multiprocessing", "numpy", "pathlib", "pathspec", "pyarrow", "pydantic",
     "pydantic_core", "rich", "shellingham", "socket", "sqlite3", "ssl", "subprocess", "tempfile", "tomllib", "tree_sitter",
     "tree_sitter_c", "tree_sitter_cpp", "tree_sitter_glsl", "tree_sitter_swift", "typer", "unicodedata", "urllib", "vulkan", "xml",
     "msaa_lint.cli.app", "msaa_lint.frame.description.pydantic_models", "msaa_lint.frame.description.reference",
@@ -132,6 +132,8 @@ ONLY_IN = {
     "tree_sitter": {"input.code"},
     "backports": {"input.compression"},
     "altair": {"cli.report"},
+    "duckdb": {"linter.corpus.database"},
+    "pyarrow": {"linter.corpus", "cli.report.check_parquet"},
     "vl_convert": {"cli.report.figure"},
     "numpy": {"experiments.study", "experiments.confirm.mesh_buffers"},
 }

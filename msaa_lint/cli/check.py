@@ -16,7 +16,7 @@ from msaa_lint.core.spool import SpoolError
 from msaa_lint.core.text.node import Limits
 from msaa_lint.input.file_types import STDIN
 from msaa_lint.linter.run import Outcome, Progress, run
-from msaa_lint.linter.settings.settings import COMMAND_LINE, OUTPUT_FORMATS, Settings
+from msaa_lint.linter.settings.settings import COMMAND_LINE, OUTPUT_FORMATS, TABLE_FORMATS, Settings
 from msaa_lint.linter.workspace import Request
 
 from .common import (
@@ -34,9 +34,10 @@ from .common import (
     warn,
     write_output,
 )
-from .options import Arguments
+from .options import CHECK_FORMATS, Arguments
 from .progress import input_progress, shows_progress
 from .report.summary import plural
+from .table_outputs import check_table, paths_of, write_tables
 
 EXAMPLE = "sarif=findings.sarif"
 
@@ -64,8 +65,10 @@ def _check(arguments: Arguments) -> int:
 
 
 def _check_once(arguments: Arguments) -> int:
-    targets = parse_outputs(arguments.get("output", ()), OUTPUT_FORMATS, EXAMPLE)
-    refuse_inputs([target.path for target in targets], arguments["paths"])
+    targets = parse_outputs(arguments.get("output", ()), CHECK_FORMATS, EXAMPLE)
+    for target in targets:
+        check_table(target)
+    refuse_inputs([path for target in targets for path in paths_of(target)], arguments["paths"])
     fallback = "full" if sys.stdout.isatty() else "concise"
     start = perf_counter()
     outcome = _outcome(request(arguments, targets, fallback), input_progress() if shows_progress(bool(arguments.get("quiet"))) else None)
@@ -178,8 +181,11 @@ def _over_budget(outcome: Outcome) -> list[str]:
 
 
 def _print_reports(targets: Sequence[Target], outcome: Outcome, arguments: Arguments) -> None:
-    refuse_inputs([target.path for target in targets if target.path != STDERR], outcome.result.files)
+    refuse_inputs([path for target in targets if target.path != STDERR for path in paths_of(target)], outcome.result.files)
     for target in targets:
+        if target.format in TABLE_FORMATS:
+            write_tables(target, outcome, arguments)
+            continue
         render = partial(_render, target.format, outcome, arguments)
         if target.path == STDERR:
             render(sys.stderr)

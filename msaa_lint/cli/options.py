@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 from msaa_lint.core.finding import CONFIDENCES, SEVERITIES
 from msaa_lint.core.text.node import Limits
-from msaa_lint.linter.settings.settings import OUTPUT_FORMATS
+from msaa_lint.linter.settings.settings import OUTPUT_FORMATS, TABLE_FORMATS
 
 _LIMITS = Limits()
 
@@ -34,6 +34,7 @@ INPUT_FORMATS = (
 )
 """The names in `readers.FORMATS`, `readers.CAPTURES`, and `file_types.LANGUAGES`, so that help and errors import no reader."""
 
+CHECK_FORMATS = (*OUTPUT_FORMATS, *TABLE_FORMATS)
 COST_FORMATS = ("full", "json", "markdown", "html")
 PAGE_FORMATS = ("full", "json", "html")
 """The values of `--output` of `confirm` and `study`."""
@@ -196,7 +197,7 @@ COMMANDS = {
                 Option("exit_zero", "flag", "Exit with 0 even if there are findings."),
             ),
             "Output": (
-                _output(*OUTPUT_FORMATS, default="full; concise in a pipe"),
+                _output(*CHECK_FORMATS, default="full; concise in a pipe"),
                 Option("sort", "choice", "Order of the findings.", "ORDER", choices=("place", "price"), default="place"),
                 Option("statistics", "flag", "Print counts and costs by rule instead of findings."),
                 Option("watch", "flag", "Check again whenever an input, the configuration, or a rule page changes (extra `watch`)."),
@@ -345,6 +346,32 @@ COMMANDS = {
         },
         Paths("INPUT...", "Scenes, meshes, descriptions; - is standard input.", values="scenes"),
         ("list_scenes",),
+    ),
+    "corpus": Command(
+        """Summarize the findings of many inputs.
+
+        Reads what `msaa-lint check` wrote with --output parquet=FILE or sqlite=FILE, of one run or of several together: where the most
+        can be saved, how prices are distributed, and what has changed (extra `corpus`). --sql answers a question of your own.
+
+        Exits with 0, or with 2 if a file, an option, or the query failed.
+
+        \b
+        Examples:
+          msaa-lint check captures --output parquet=findings.parquet
+          msaa-lint corpus findings.parquet --by engine --since last-week.parquet
+          msaa-lint corpus findings.parquet --sql 'select * from passes'
+        """,
+        {
+            "Summary": (
+                Option("by", "choice", "What to group findings by.", "WHAT", ("rule", "engine", "device", "input"), default="rule"),
+                Option("since", "text", "Show what is new and gone since this earlier file or folder.", "PATH"),
+                Option("top", "integer", "Rows of a table.", "N", default="20; in JSON all"),
+                Option("sql", "text", "Print the rows of a SELECT over findings, passes, inputs, and run instead.", "QUERY"),
+            ),
+            "Output": (_output(*COST_FORMATS), _COLOR),
+            "Other": GLOBAL,
+        },
+        Paths("PATH...", "Parquet files of findings, SQLite files, and folders of them."),
     ),
     "rule": Command(
         """Explain a rule, or list all rules.

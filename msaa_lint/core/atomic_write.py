@@ -27,7 +27,7 @@ class NotWritten(Exception):
 
 def write_file(path: str, data: bytes, is_own: Callable[[str], bool] | None = None) -> None:
     """Creates a file or replaces it, as `new_text` does. If `is_own` is given, a file that it does not accept is left: FileExistsError."""
-    with _new_file(path, is_own) as descriptor:
+    with _new_file(path, is_own) as (descriptor, _):
         _write_all(descriptor, data)
 
 
@@ -38,18 +38,32 @@ def new_text(path: str) -> Iterator[IO[str]]:
     A symbolic link to a file is replaced itself, and a folder that is a link out of the project is refused, so that nothing is written
     through a link; what is no file, such as `/dev/stdout`, is written to. Raises OSError, and leaves an old file as it was.
     """
-    with _new_file(path) as descriptor, open(descriptor, "w", encoding="utf-8", newline="\n", closefd=False) as file:
+    with _new_file(path) as (descriptor, _), open(descriptor, "w", encoding="utf-8", newline="\n", closefd=False) as file:
         yield file
 
 
 @contextmanager
-def _new_file(path: str, is_own: Callable[[str], bool] | None = None) -> Iterator[int]:
-    """The descriptor of a new file beside a path, which gets the path's name at the end, unless an exception ends it."""
+def new_binary(path: str) -> Iterator[IO[bytes]]:
+    """Opens a file for bytes, as `new_text` does for text."""
+    with _new_file(path) as (descriptor, _), open(descriptor, "wb", closefd=False) as file:
+        yield file
+
+
+@contextmanager
+def new_path(path: str) -> Iterator[str]:
+    """The path of an empty file, for a library that opens files by name, which gets its name as that of `new_text` does."""
+    with _new_file(path) as (_, temporary):
+        yield temporary
+
+
+@contextmanager
+def _new_file(path: str, is_own: Callable[[str], bool] | None = None) -> Iterator[tuple[int, str]]:
+    """The descriptor and the path of a new file beside a path, which gets the path's name at the end, unless an exception ends it."""
     status = os.lstat(path) if os.path.lexists(path) else None
     if status is not None and is_own is None and _is_stream(path, status.st_mode):
         descriptor = os.open(path, os.O_WRONLY | os.O_TRUNC | getattr(os, "O_CLOEXEC", 0))
         try:
-            yield descriptor
+            yield descriptor, path
         finally:
             os.close(descriptor)
         return
@@ -63,7 +77,7 @@ def _new_file(path: str, is_own: Callable[[str], bool] | None = None) -> Iterato
     try:
         descriptor = os.open(temporary, _NEW, 0o666)
         try:
-            yield descriptor
+            yield descriptor, temporary
             if status is not None and stat.S_ISREG(status.st_mode) and hasattr(os, "fchmod"):
                 os.fchmod(descriptor, stat.S_IMODE(status.st_mode))
         finally:

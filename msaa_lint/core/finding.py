@@ -192,6 +192,31 @@ class InputSummary(NamedTuple):
     capture: CaptureSummary | None = None
 
 
+class PassTraffic(NamedTuple):
+    """What one pass of a frame, or one command outside of passes, moves and keeps in memory, as the cost model estimates it.
+
+    `frame` is the index of the frame's document in its input, `path` the structural path of the pass, `kind` `renderPass`, `rendering`, or
+    `command`. `times` is how often a frame begins it; `samples` are the most that an attachment has. MB is 10^6 bytes, MiB 2^20; the
+    traffic is that of all times. `unknown` says what could not be counted. `device` is the profile that the frame was checked for.
+    """
+
+    file: str
+    frame: int
+    name: str
+    path: str
+    kind: str
+    width: int | None
+    height: int | None
+    times: int
+    samples: int | None
+    read_mb_per_s: float
+    write_mb_per_s: float
+    memory_mib: float
+    milliwatts: float
+    unknown: str
+    device: str | None
+
+
 class RuleInfo(NamedTuple):
     """A rule as reports describe it. `summary` is one sentence, `markdown` the page without its front matter."""
 

@@ -24,6 +24,7 @@ from msaa_lint.core.finding import (
     Fix,
     InputSummary,
     MissingKey,
+    PassTraffic,
     Price,
     Saving,
     Savings,
@@ -82,8 +83,8 @@ class _Entry(NamedTuple):
 
 
 _TYPES = by_name(
-    RunPart, CaptureLocation, CaptureSummary, Edit, Finding, Fix, InputSummary, Label, MissingKey, Origin, Price, Saving, Savings, Span,
-    Spent, Suppressed, Undecided, Unread, _Entry, _Text,
+    RunPart, CaptureLocation, CaptureSummary, Edit, Finding, Fix, InputSummary, Label, MissingKey, Origin, PassTraffic, Price, Saving,
+    Savings, Span, Spent, Suppressed, Undecided, Unread, _Entry, _Text,
 )  # fmt: skip
 
 

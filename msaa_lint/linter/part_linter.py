@@ -26,11 +26,13 @@ Results = Callable[[InputFile, FileResult], None]
 
 
 class Contents(NamedTuple):
-    """What a run determines of each input besides its findings: what fixes save, in all and as prices, and its frames with their costs."""
+    """What a run determines of each input besides its findings: what fixes save, in all and as prices, its frames with their costs, and
+    what its passes move."""
 
     prices: bool = False
     savings: bool = False
     frames: bool = False
+    passes: bool = False
 
 
 class PartLinter:
@@ -160,6 +162,10 @@ class PartLinter:
             summaries=summaries,
             sources=sources,
         )
+        if self.contents.passes:
+            from .pass_traffic import pass_traffic
+
+            part = part._replace(passes=pass_traffic(result))
         if not self.contents.savings or all(found.fix is None for found in findings):
             return self._with_frames(part, result, None)
         if can_try_fixes(result) or self.settings.fail_on_cost is not None:

@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import chain
 from typing import TYPE_CHECKING, NamedTuple
 
-from msaa_lint.core.finding import InputSummary, Result, Savings, Suppressed, Undecided
+from msaa_lint.core.finding import InputSummary, PassTraffic, Result, Savings, Suppressed, Undecided
 from msaa_lint.core.garbage import collect_garbage
 from msaa_lint.core.spool import SpooledDict, SpooledList
 
@@ -14,7 +14,7 @@ from .input_runs import is_worth_keeping
 from .part_linter import Contents, PartLinter, Results
 from .run_findings import RunFindings
 from .run_part import RunPart
-from .settings.settings import Settings
+from .settings.settings import TABLE_FORMATS, Settings
 from .source_programs import units_of
 from .unit_parts import parts
 from .workspace import Request, Unit, Workspace
@@ -30,13 +30,13 @@ Progress = Callable[[int, int, str], None]
 
 _UNSUMMARIZED_FORMATS = frozenset({"gitlab", "azure", "teamcity", "rdjson", "junit"})
 
-PRICED_FORMATS = _UNSUMMARIZED_FORMATS | {"full", "json", "sarif", "github", "markdown", "statistics", "html"}
+PRICED_FORMATS = _UNSUMMARIZED_FORMATS.union(TABLE_FORMATS) | {"full", "json", "sarif", "github", "markdown", "statistics", "html"}
 """The outputs that show prices; for the others prices are not computed."""
 
 RULE_PAGE_FORMATS = frozenset({"sarif", "html"})
 """The outputs that contain the pages of rules."""
 
-SUMMARIZED_FORMATS = PRICED_FORMATS - _UNSUMMARIZED_FORMATS | {"concise"}
+SUMMARIZED_FORMATS = PRICED_FORMATS - _UNSUMMARIZED_FORMATS.union(TABLE_FORMATS) | {"concise"}
 """The outputs that say what fixes save; for the others fixes are not tried."""
 
 
@@ -45,7 +45,8 @@ class Outcome(NamedTuple):
 
     `settings` are those of the current folder, with the outputs and thresholds; `notes` are lines for standard error. `fixed` has the
     fixed text of each input, `failing` by file what fixes save of the findings that can fail the run. `frames` are the frames of the
-    inputs with their costs, if an output shows them.
+    inputs with their costs, if an output shows them. `passes` is what passes move, and `configuration` a name for the settings of the
+    inputs, if an output has rows of them.
     """
 
     result: Result
@@ -54,6 +55,8 @@ class Outcome(NamedTuple):
     fixed: "Sequence[FixedText]" = ()
     failing: Mapping[str, Savings] = {}
     frames: "Sequence[CostedFrame]" = ()
+    passes: Sequence[PassTraffic] = ()
+    configuration: str = ""
 
 
 def run(request: Request, progress: Progress | None = None, results: Results | None = None) -> Outcome:
@@ -73,12 +76,14 @@ class _Run:
             prices=request.by_price or limited or not PRICED_FORMATS.isdisjoint(outputs),
             savings=limited or request.fix is not None or not SUMMARIZED_FORMATS.isdisjoint(outputs),
             frames="html" in outputs,
+            passes=not set(TABLE_FORMATS).isdisjoint(outputs),
         )
         self.linter = PartLinter(self.workspace, contents, self.baseline, results)
         self.with_pages = request.full_rules or not RULE_PAGE_FORMATS.isdisjoint(outputs)
         self.frames: list[CostedFrame] = []
         spool = self.workspace.spool
         self.findings = RunFindings(self.workspace)
+        self.passes: SpooledList[PassTraffic] = SpooledList(spool)
         self.undecided: SpooledList[Undecided] = SpooledList(spool)
         self.suppressed: SpooledList[Suppressed] = SpooledList(spool)
         self.accepted: SpooledList[Suppressed] = SpooledList(spool)
@@ -134,7 +139,8 @@ class _Run:
             SpooledList(spool, (self.summaries[file] for file in files)).finished(),
             self.untried,
         )
-        return Outcome(result, self.settings, notes, self.fixed, self.failing.finished(), self.frames)
+        passes = self.passes.finished()
+        return Outcome(result, self.settings, notes, self.fixed, self.failing.finished(), self.frames, passes, self._configuration())
 
     def _parts(self, units: Sequence[Unit]) -> Iterator[RunPart]:
         """What the units add to the result, in their order."""
@@ -174,8 +180,17 @@ class _Run:
         self.failing.update(part.failing)
         self.untried.update(part.untried)
         self.frames.extend(part.frames)
+        self.passes.extend(part.passes)
         self.notes.extend(part.notes)
         self.fixed.extend(part.fixed)
+
+    def _configuration(self) -> str:
+        """A name for the settings of the inputs, if an output has rows of them."""
+        if not self.linter.contents.passes:
+            return ""
+        from .configuration_digest import configuration_digest
+
+        return configuration_digest(self.request, self.workspace.resolved)
 
     def _stale_entries(self, files: Sequence[str]) -> list[str]:
         """A line for each entry of the baseline that counts more findings than there are."""

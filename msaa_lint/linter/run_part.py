@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
-from msaa_lint.core.finding import Finding, InputSummary, Savings, Suppressed, Undecided
+from msaa_lint.core.finding import Finding, InputSummary, PassTraffic, Savings, Suppressed, Undecided
 from msaa_lint.core.text.source import Source
 
 from .rules.budget import Spent
@@ -20,7 +20,7 @@ class RunPart(NamedTuple):
     `findings` are those after settings and before the baseline, which does not apply to `diagnostics`. `sources` has the texts that
     reports show. `savings`, `failing`, and `untried` are by file. `problems` and `failed` are the findings about files that cannot be
     read, and these files. `frames` are the frames with their costs, if a report shows them. `notes` are lines for standard error, `fixed`
-    the fixed texts, and `spent` is what custom rules took.
+    the fixed texts, `passes` what passes move, if an output has rows of them, and `spent` is what custom rules took.
     """
 
     diagnostics: Sequence[Finding] = ()
@@ -37,6 +37,7 @@ class RunPart(NamedTuple):
     frames: "Sequence[CostedFrame]" = ()
     notes: Sequence[str] = ()
     fixed: "Sequence[FixedText]" = ()
+    passes: Sequence[PassTraffic] = ()
     spent: Spent = Spent()
 
     def __add__(self, other: "RunPart") -> "RunPart":  # type: ignore[override]
@@ -56,4 +57,5 @@ class RunPart(NamedTuple):
             [*self.frames, *other.frames],
             [*self.notes, *other.notes],
             [*self.fixed, *other.fixed],
+            [*self.passes, *other.passes],
         )

@@ -251,6 +251,11 @@ class Workspace:
             )
         return self._resolved[loaded.path]
 
+    @property
+    def resolved(self) -> Sequence[ResolvedSettings]:
+        """The settings that have been resolved, one for each configuration file."""
+        return list(self._resolved.values())
+
     def _engine(self, settings: Settings) -> Engine:
         projects = settings.page_projects()
         key = settings.rules, tuple(sorted(projects.items()))

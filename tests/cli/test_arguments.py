@@ -49,7 +49,8 @@ WRONG = [
     ("-", "unknown command `-`: to lint a file or folder, write `msaa-lint check -`"),
     (
         "zzzz",
-        "unknown command `zzzz`: expected one of check, cost, confirm, study, rule, device, facts, convert, schema, lsp, baseline, init",
+        "unknown command `zzzz`: expected one of check, cost, confirm, study, corpus, rule, device, facts, convert, schema, lsp, "
+        "baseline, init",
     ),
     ("--fix check a", "`--fix` is an option of a command: write it after the command, as in `msaa-lint check --fix ...`"),
     ("-q check a", "`-q` is an option of a command: write it after the command, as in `msaa-lint check -q ...`"),
@@ -75,13 +76,13 @@ WRONG = [
     (
         "check a --output=",
         "unknown output format ``: expected one of full, concise, json, sarif, github, gitlab, azure, teamcity, rdjson, junit, "
-        "markdown, html",
+        "markdown, html, parquet, sqlite",
     ),
     ("check a --\x1b[31m\u202e", "unknown option `--\\x1b[31m\\u202e` of `check`: see `msaa-lint check --help`"),
     ("check a --fail-on \udcff", "unknown value `\\udcff` of `--fail-on`: expected one of note, warning, error"),
     (
         "\x1b]0;x",
-        "unknown command `\\x1b]0;x`: expected one of check, cost, confirm, study, rule, device, facts, convert, schema, lsp, "
+        "unknown command `\\x1b]0;x`: expected one of check, cost, confirm, study, corpus, rule, device, facts, convert, schema, lsp, "
         "baseline, init",
     ),
     ("cost a --budget 2500", "invalid power `2500` in `--budget`: a unit is missing; write 2500mW or 2.5W"),

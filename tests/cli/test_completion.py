@@ -10,8 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from msaa_lint.cli.options import COMMANDS
-from msaa_lint.linter.settings.settings import OUTPUT_FORMATS
+from msaa_lint.cli.options import CHECK_FORMATS, COMMANDS
 from tests.command import run, run_process
 from tests.paths import ROOT
 
@@ -30,7 +29,7 @@ def completed(folder: Path, line: str) -> list[str]:
         ("msaa-lint ", list(COMMANDS)),
         ("msaa-lint ch", ["check"]),
         ("msaa-lint check --stat", ["--statistics"]),
-        ("msaa-lint check --output ", list(OUTPUT_FORMATS)),
+        ("msaa-lint check --output ", list(CHECK_FORMATS)),
         ("msaa-lint check --output sa", ["sarif"]),
         ("msaa-lint check --output=sa", ["sarif"]),
         ("msaa-lint check --output = sa", ["sarif"]),

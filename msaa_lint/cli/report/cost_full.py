@@ -28,11 +28,11 @@ def render(frames: Sequence[CostedFrame], errors: Result, out: Write, options: O
     for number, (name, frame) in enumerate(zip(names, frames, strict=True)):
         out(("\n" if number else "") + f"{name}: {display(cost_rows.head(frame.cost))}\n")
         for table in cost_rows.frame_tables(frame):
-            _print_table(table, out, options)
+            print_table(table, out, options)
         if not options.quiet:
             _print_remarks([*cost_rows.details(frame.cost), *cost_rows.remarks(frame.cost)], out)
     if len(frames) > 1:
-        _print_table(cost_rows.totals(frames, names), out, options)
+        print_table(cost_rows.totals(frames, names), out, options)
 
 
 def render_comparison(compared: CostComparison, errors: Result, out: Write, options: Options) -> None:
@@ -41,7 +41,7 @@ def render_comparison(compared: CostComparison, errors: Result, out: Write, opti
         document = f", document {number + 1}" if len(compared.frames) > 1 else ""
         names = " -> ".join(display_path(file, options.root) for file in (compared.old_file, compared.new_file)) + document
         out(("\n" if number else "") + f"{names}\n{cost_rows.sentence(comparison, cost_rows.budget_of(compared))}\n")
-        _print_table(cost_rows.changes(comparison), out, options)
+        print_table(cost_rows.changes(comparison), out, options)
         if not options.quiet:
             _print_remarks(cost_rows.comparison_remarks(compared, number), out)
 
@@ -51,7 +51,7 @@ def _print_remarks(remarks: Sequence[tuple[str, str]], out: Write) -> None:
         out("\n" + "".join(f"{word}: {display(text)}\n" for word, text in remarks))
 
 
-def _print_table(table: Table, out: Write, options: Options) -> None:
+def print_table(table: Table, out: Write, options: Options) -> None:
     """Prints a table after an empty line. Where it is too wide, its texts share a column and its headings take several lines."""
     if table.rows:
         table = cost_rows.limited(table)

@@ -12,12 +12,11 @@ from msaa_lint.frame.cost.power import Rates
 from msaa_lint.frame.cost.variants import Variant
 
 from . import Options, Write
-from .data import Json, head, start, text, write_object
+from .data import Json, head, rounded, start, text, write_object
 from .escape import escape_surrogates
 from .paths import relative
 
 SCHEMA = "msaa-lint/cost-v1"
-_DIGITS = 6
 
 
 def render(frames: Sequence[CostedFrame], errors: Result, out: Write, options: Options) -> None:
@@ -39,7 +38,7 @@ def render_comparison(comparison: CostComparison, errors: Result, out: Write, op
     total = {
         **_amount(_sum(change.difference for change in totals)),
         "corrected": _optional([change.corrected for change in totals]),
-        "percent": _rounded(totals[0].per_cent) if len(totals) == 1 else None,
+        "percent": rounded(totals[0].per_cent) if len(totals) == 1 else None,
     }
     remarks = [text(remark) for frame in comparison.frames for remark in frame.remarks]
     members = {
@@ -124,9 +123,9 @@ def _line(line: Line, rates: Rates, file: str, errors: Result) -> Json:
         "action": line.action,
         "direction": line.direction,
         "bytes": line.bytes,
-        "mb_per_s": _rounded(amount.traffic_mb_per_s),
-        "milliwatts": _rounded(amount.milliwatts),
-        "corrected_mb_per_s": None if corrected is None else _rounded(corrected.traffic_mb_per_s),
+        "mb_per_s": rounded(amount.traffic_mb_per_s),
+        "milliwatts": rounded(amount.milliwatts),
+        "corrected_mb_per_s": None if corrected is None else rounded(corrected.traffic_mb_per_s),
         **start(errors, file, line.place),
     }
 
@@ -144,12 +143,12 @@ def _change(change: Change) -> Json:
         "status": change.status,
         **_amount(change.difference),
         "corrected": None if change.corrected is None else _amount(change.corrected),
-        "percent": _rounded(change.per_cent),
+        "percent": rounded(change.per_cent),
     }
 
 
 def _amount(amount: Amount) -> Json:
-    return {name: _rounded(value) for name, value in amount._asdict().items()}
+    return {name: rounded(value) for name, value in amount._asdict().items()}
 
 
 def _optional(amounts: Sequence[Amount | None]) -> Json | None:
@@ -160,11 +159,6 @@ def _optional(amounts: Sequence[Amount | None]) -> Json | None:
 
 def _sum(amounts: Iterable[Amount]) -> Amount:
     return Amount(*(sum(column) for column in zip(Amount(0.0, 0.0, 0.0, 0.0), *amounts, strict=True)))
-
-
-def _rounded(value: float | None) -> float | None:
-    """A number that JSON can hold; `-0.0` becomes 0."""
-    return None if value is None else round(value, _DIGITS) + 0.0
 
 
 def _errors(errors: Result, options: Options) -> list[Json]:

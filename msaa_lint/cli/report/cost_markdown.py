@@ -18,7 +18,7 @@ HEAD = "<!-- msaa-lint cost -->\n"
 """By which a program finds its own comment again."""
 
 
-class _Comment:
+class Comment:
     """The text, as far as one comment can hold it."""
 
     def __init__(self, out: Write) -> None:
@@ -60,7 +60,7 @@ class _Comment:
 
 def render(frames: Sequence[CostedFrame], errors: Result, out: Write, options: Options) -> None:
     """Prints inputs that cannot be used, then the tables of each frame; for several frames, their totals first."""
-    comment = _Comment(out)
+    comment = Comment(out)
     comment.add(f"{HEAD}### Cost of the {'frame' if len(frames) == 1 else 'frames'}\n")
     comment.remarks([("error", line(finding, errors, options)) for finding in errors.findings])
     names = [frame_name(frame, options) for frame in frames]
@@ -76,7 +76,7 @@ def render(frames: Sequence[CostedFrame], errors: Result, out: Write, options: O
 
 def render_comparison(compared: CostComparison, errors: Result, out: Write, options: Options) -> None:
     """Prints what the new input costs more than the old one: the sum in a sentence, then the passes that differ."""
-    comment = _Comment(out)
+    comment = Comment(out)
     comment.add(f"{HEAD}### Cost of this change\n")
     comment.remarks([("error", line(finding, errors, options)) for finding in errors.findings])
     names = " → ".join(escape_markdown(display_path(file, options.root)) for file in (compared.old_file, compared.new_file))

@@ -33,6 +33,11 @@ def text(value: str) -> str:
     return escape_surrogates(clip(value))
 
 
+def rounded(value: float | None) -> float | None:
+    """A figure with six decimals, which JSON can hold; `-0.0` becomes 0."""
+    return None if value is None else round(value, 6) + 0.0
+
+
 def write_object(members: Mapping[str, object], out: Write) -> None:
     """A JSON object with one member per line. Lists and iterators have one element per line, so that a large report is neither built as a
     whole nor one endless line."""

@@ -16,7 +16,10 @@ if TYPE_CHECKING:
 COMMAND_LINE = "<command line>"
 
 OUTPUT_FORMATS = ("full", "concise", "json", "sarif", "github", "gitlab", "azure", "teamcity", "rdjson", "junit", "markdown", "html")
-"""The values of `output` and `--output`."""
+"""The values of `output` and `--output` that print text."""
+
+TABLE_FORMATS = ("parquet", "sqlite")
+"""The values of `--output` of `check` that write tables to files."""
 
 
 class Origin(NamedTuple):
