@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from functools import partial
-from typing import IO, Any, NamedTuple
+from typing import IO, TYPE_CHECKING, Any, NamedTuple
 
 from msaa_lint.core.child_environment import ignored_paths
 from msaa_lint.core.quote import quoted
 from msaa_lint.experiments.confirm.child import Limits
 from msaa_lint.experiments.confirm.outcome import DeviceRun, about, exit_code
-from msaa_lint.experiments.confirm.session import Session, environment
+from msaa_lint.experiments.confirm.session import Session, SessionOptions
 from msaa_lint.experiments.confirm.vulkan_errors import NotWritten, Unusable
 
 from .common import (
@@ -34,6 +34,11 @@ from .options import PAGE_FORMATS, Arguments
 from .report.data import dump_indented
 from .report.escape import escape
 
+if TYPE_CHECKING:
+    from msaa_lint.experiments.confirm.inputs import Inputs
+    from msaa_lint.experiments.confirm.trial import TrialOptions
+    from msaa_lint.linter.workspace import Request
+
 COUNTS = (1, 2, 4, 8, 16, 32, 64)
 
 
@@ -45,6 +50,10 @@ class ConfirmOptions(NamedTuple):
     limits: Limits
     layer: bool
     trial: dict[str, Any]
+
+    def session(self, device: str | None) -> SessionOptions:
+        """The session of a device."""
+        return SessionOptions(device, self.layer, self.limits)
 
 
 def confirm(arguments: Arguments) -> int:
@@ -61,7 +70,10 @@ def _confirm(arguments: Arguments) -> int:
         return _list_devices(options)
     if not arguments["paths"]:
         raise UsageError("no input: give files or folders to confirm, or --list-devices")
-    with _session(options, options.devices[0]) as session:
+    jobs = _jobs(arguments, options)
+    if jobs > 1:
+        return _run_divided(arguments, options, jobs)
+    with options.session(options.devices[0]).session() as session:
         # The device opens while the inputs are read.
         session.start()
         return _run(arguments, options, session)
@@ -98,31 +110,67 @@ def _parse_seconds(text: str) -> float:
     return seconds
 
 
-def _session(options: ConfirmOptions, device: str | None) -> Session:
-    return Session(device, validation=options.layer, limits=options.limits, environment=environment(device))
+def _jobs(arguments: Arguments, options: ConfirmOptions) -> int:
+    """The number of inputs to try at once: one if times are measured, or lines are printed in the order in which inputs are tried."""
+    jobs: int = arguments.get("jobs", 1)
+    if jobs == 1 or options.trial["time"] or arguments.get("verbose") or arguments.get("traceback"):
+        return 1
+    return jobs if options.trial["time"] is False or all(map(_is_software, map(options.session, options.devices))) else 1
+
+
+def _is_software(device: SessionOptions) -> bool:
+    """Whether times on a device are measured only on request; True if it cannot be opened."""
+    with device.session() as session:
+        try:
+            return about(session.open()).software
+        except Unusable:
+            return True
+
+
+def _run_divided(arguments: Arguments, options: ConfirmOptions, jobs: int) -> int:
+    from msaa_lint.experiments.confirm.divided_trials import divided_trials
+
+    devices = list(map(options.session, options.devices))
+    runs, read = divided_trials(_request(arguments), devices, _trial_options(arguments, options), jobs)
+    return _report(arguments, options, runs, read)
+
+
+def _request(arguments: Arguments) -> Request:
+    from msaa_lint.linter.workspace import Request
+
+    return Request(**input_options(arguments), overrides=overrides(arguments))
+
+
+def _trial_options(arguments: Arguments, options: ConfirmOptions) -> TrialOptions:
+    from msaa_lint.experiments.confirm.trial import TrialOptions
+
+    shows = any(target.format == "html" for target in options.targets)
+    return TrialOptions(**options.trial, several=len(options.devices) > 1, shows=shows, traceback=bool(arguments.get("traceback")))
 
 
 def _run(arguments: Arguments, options: ConfirmOptions, session: Session) -> int:
-    from msaa_lint.experiments.confirm.inputs import Inputs, inputs
-    from msaa_lint.experiments.confirm.trial import TrialOptions, trial
-    from msaa_lint.linter.workspace import Request
+    from msaa_lint.experiments.confirm.inputs import inputs
+    from msaa_lint.experiments.confirm.trial import trial
 
-    formats = {target.format for target in options.targets}
-    terms = TrialOptions(
-        **options.trial, several=len(options.devices) > 1, shows="html" in formats, traceback=bool(arguments.get("traceback"))
-    )
+    terms = _trial_options(arguments, options)
+    is_text = any(target.format == "full" for target in options.targets)
     read: list[Inputs] = []
 
     def documents() -> Any:
         if not read:
-            read.append(inputs(Request(**input_options(arguments), overrides=overrides(arguments))))
+            read.append(inputs(_request(arguments)))
         return read[0].inputs
 
-    runs = [trial(session, documents, terms, meanwhile=_import_rich if "full" in formats else None)]
+    runs = [trial(session, documents, terms, meanwhile=_import_rich if is_text else None)]
     for name in options.devices[1:]:
-        with _session(options, name) as other:
+        with options.session(name).session() as other:
             runs.append(trial(other, documents, terms))
-    _, errors, notes, docs_url = read[0]
+    return _report(arguments, options, runs, read[0])
+
+
+def _report(arguments: Arguments, options: ConfirmOptions, runs: Sequence[DeviceRun], read: Inputs) -> int:
+    """Writes the reports, and returns the exit code."""
+    _, errors, notes, docs_url = read
     for text in notes:
         note(text)
     for error in errors:

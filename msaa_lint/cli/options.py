@@ -277,7 +277,7 @@ COMMANDS = {
                 _FORCE,
                 _COLOR,
             ),
-            "Inputs": _INPUTS,
+            "Inputs": (*_INPUTS, _DIVISION[0]._replace(help="Inputs to try at once, unless times are measured.", default="1")),
             "Configuration": _CONFIGURATION,
             "Other": (
                 GLOBAL[0],

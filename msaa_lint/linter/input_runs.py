@@ -3,7 +3,7 @@ to do."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Container, Iterator, Sequence
+from collections.abc import Callable, Container, Generator, Iterator, Sequence
 from itertools import accumulate
 from typing import Generic, NamedTuple, Protocol, TypeVar
 
@@ -80,16 +80,17 @@ class Linter(Protocol[Part]):
 class InputRuns(Generic[Part]):
     """What the inputs and programs of a run add to its result."""
 
-    def __init__(self, linter: Linter[Part], units: Sequence[Unit]) -> None:
+    def __init__(self, linter: Linter[Part], units: Sequence[Unit], per_task: int = MAX_UNITS) -> None:
         self.linter = linter
+        self._per_task = per_task
         self._workspace = linter.workspace
         self._units = units
 
-    def in_this_process(self) -> Iterator[Part]:
+    def in_this_process(self) -> Generator[Part]:
         """Yields the parts."""
-        return map(self.linter.part, self._units)
+        return (self.linter.part(unit) for unit in self._units)
 
-    def divided(self, backend: Backend, job: Callable[[Task], list[Part]]) -> Iterator[Part]:
+    def divided(self, backend: Backend, job: Callable[[Task], list[Part]]) -> Generator[Part]:
         """Yields the parts, which `backend` determines by `job`. They are what one process would say."""
         for unit in self._units:
             # Here, what the rules of a configuration take is counted once.
@@ -143,7 +144,7 @@ class InputRuns(Generic[Part]):
             if isinstance(unit, ProgramInput) or unit == STDIN:
                 continue
             size, configuration = self._workspace.length(unit), self._configuration(unit)
-            if group and (len(group) == MAX_UNITS or length + size > MAX_BYTES or configuration != common):
+            if group and (len(group) == self._per_task or length + size > MAX_BYTES or configuration != common):
                 yield Task(group, common)
                 group, length = [], 0
             group.append(Numbered(number, unit, self._workspace.project(unit)))

@@ -1,14 +1,15 @@
 """Reads the inputs of a run, by several processes if there is enough to do."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Generator, Sequence
 
-from .input_runs import InputRuns, Linter, Part, processes
+from .input_runs import MAX_UNITS, InputRuns, Linter, Part, processes
 from .workspace import ALONE, Division, Unit
 
 
-def parts(linter: Linter[Part], units: Sequence[Unit], division: Division = ALONE) -> Iterator[Part]:
-    """Yields what the inputs and programs of a run add to its result, in their order. Raises Unusable if the cluster cannot be used."""
-    runs = InputRuns(linter, units)
+def parts(linter: Linter[Part], units: Sequence[Unit], division: Division = ALONE, per_task: int = MAX_UNITS) -> Generator[Part]:
+    """Yields what the inputs and programs of a run add to its result, in their order; a process gets at most `per_task` inputs at once.
+    Raises Unusable if the cluster cannot be used."""
+    runs = InputRuns(linter, units, per_task)
     count = division.jobs if division.backend is not None else processes(linter.workspace, units, division.jobs)
     if count == 1 and division.backend is None:
         return runs.in_this_process()

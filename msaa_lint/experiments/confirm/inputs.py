@@ -67,14 +67,21 @@ def inputs(request: Request) -> Inputs:
     workspace = Workspace(request)
     discovered = workspace.discover()
     found: list[Input] = []
+    findings: list[Finding] = []
     for path in discovered.files:
-        with workspace.guard(path):
-            found += _of_file(workspace, path)
-    errors = [finding for finding in dict.fromkeys(workspace.findings) if finding.fatal]
-    return Inputs(found, errors, list(discovered.notes), workspace.current.settings.docs_url)
+        with workspace.reading(path) as read, workspace.guard(path):
+            found += of_file(workspace, path)
+        findings += read.findings
+    return Inputs(found, errors(workspace, findings), list(discovered.notes), workspace.current.settings.docs_url)
 
 
-def _of_file(workspace: Workspace, path: str) -> list[Input]:
+def errors(workspace: Workspace, findings: Sequence[Finding]) -> list[Finding]:
+    """The findings of a workspace and of its inputs that say why inputs cannot be used."""
+    return [finding for finding in dict.fromkeys([*workspace.findings, *findings]) if finding.fatal]
+
+
+def of_file(workspace: Workspace, path: str) -> list[Input]:
+    """The documents of an input, none after adding a finding to the workspace if it cannot be confirmed."""
     file = workspace.open(path)
     if file is None:
         return []

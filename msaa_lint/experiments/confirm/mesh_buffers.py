@@ -31,7 +31,8 @@ class MeshBuffers(DeviceObjects):
         for key, triangles in needed.items():
             triangles = min(triangles, MAX_VERTICES // 3)
             if self._buffers.get(key, (None, 0))[1] < triangles:
-                buffer, memory = self.opened.buffer(vertices(*key, triangles), properties=DEVICE_MEMORY)
+                with self.opened.session.unheard():
+                    buffer, memory = self.opened.buffer(vertices(*key, triangles), properties=DEVICE_MEMORY)
                 self.own(self.vk.vkFreeMemory, memory)
                 self._buffers[key] = self.own(self.vk.vkDestroyBuffer, buffer), triangles
 

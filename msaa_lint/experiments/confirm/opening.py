@@ -79,16 +79,14 @@ class Session:
         if VALIDATION in there:
             version = ".".join(map(str, there[VALIDATION]))
             self.layer = {"name": VALIDATION, "version": version, "vendors": list(self.vendors)}
-        self.instance = self._instance()
-        try:
-            self.physical = self._chosen(name)
-            # Ignore messages about queries of unsupported features.
-            self._deaf = True
-            self.device: dict[str, Any] = {**describe(self.physical), "formats": formats(self.physical)}
-            self._deaf = False
-        except BaseException:
-            self.instance.__exit__(None, None, None)
-            raise
+        with self.unheard():
+            self.instance = self._instance()
+            try:
+                self.physical = self._chosen(name)
+                self.device: dict[str, Any] = {**describe(self.physical), "formats": formats(self.physical)}
+            except BaseException:
+                self.instance.__exit__(None, None, None)
+                raise
         self.names = frozenset(each["extensionName"] for each in self.device["extensions"])
         self.version = min(binding.version_of(self.device["properties"]["apiVersion"])[:2], self.instance.version)
 
@@ -123,6 +121,16 @@ class Session:
             self._said(message)
 
     @contextmanager
+    def unheard(self) -> Iterator[None]:
+        """A block whose messages are ignored. What it creates is shared by all plans, and the messages are about none of them: as those of
+        the first one, they would depend on the order of plans."""
+        self._deaf, before = True, self._deaf
+        try:
+            yield
+        finally:
+            self._deaf = before
+
+    @contextmanager
     def about(self, image: str) -> Iterator[None]:
         """A block in which messages are about an image."""
         self.image, before = image, self.image
@@ -147,9 +155,8 @@ class Session:
         """A logical device with what a plan needs, shared by plans with the same needs."""
         key = (tuple(name for name in plan.extensions if name in self.names), plan.without)
         if key not in self._devices:
-            self.at, before = None, self.at
-            self._devices[key] = OpenDevice(self, *key)
-            self.at = before
+            with self.unheard():
+                self._devices[key] = OpenDevice(self, *key)
         return self._devices[key]
 
     def close(self) -> None:
@@ -242,7 +249,8 @@ class OpenDevice:
         """The module of a built-in shader; for a fragment shader, with only the kinds of outputs in `outputs`."""
         key = (shader, outputs)
         if key not in self.modules:
-            self.modules[key] = self.compiled(read(shader, outputs))
+            with self.session.unheard():
+                self.modules[key] = self.compiled(read(shader, outputs))
         return self.modules[key]
 
     def compiled(self, code: bytes) -> Any:
@@ -252,7 +260,8 @@ class OpenDevice:
     def layout(self, kind: str) -> tuple[Any, Any]:
         """The pipeline layout of `scene`, `shaded`, `read` or `samples`, and its descriptor set layout, if any."""
         if kind not in self._layouts:
-            self._layouts[kind] = self._new_layout(kind)
+            with self.session.unheard():
+                self._layouts[kind] = self._new_layout(kind)
         found: tuple[Any, Any] = self._layouts[kind]
         return found
 
@@ -276,7 +285,8 @@ class OpenDevice:
     def vertices(self) -> tuple[Any, int]:
         """A buffer with the scene's vertices, and their number."""
         if self._vertices is None:
-            self._vertices = self.buffer(vertices())
+            with self.session.unheard():
+                self._vertices = self.buffer(vertices())
         return self._vertices[0], len(vertices()) // VERTEX_BYTES
 
     def buffer(self, data: bytes, usage: int = VERTEX_BUFFER, properties: int = VISIBLE) -> tuple[Any, Any]:

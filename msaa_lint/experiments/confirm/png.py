@@ -7,7 +7,7 @@ import os
 import re
 import struct
 import zlib
-from typing import NamedTuple
+from typing import NamedTuple, Protocol
 
 from msaa_lint.core.atomic_write import write_file
 
@@ -184,6 +184,24 @@ def file_name(*parts: str) -> str:
     return "-".join(clean)[-200:]
 
 
+class Album(Protocol):
+    """What gets pictures, under names made of parts."""
+
+    def write(self, picture: Picture, *parts: str) -> str: ...
+
+
+class PictureList:
+    """The PNG files of pictures, with the parts of their names, to be written to a folder later. `write` returns its number."""
+
+    def __init__(self) -> None:
+        self.files: list[tuple[bytes, tuple[str, ...]]] = []
+
+    def write(self, picture: Picture, *parts: str) -> str:
+        """Adds a picture."""
+        self.files.append((png(picture), parts))
+        return str(len(self.files) - 1)
+
+
 class PictureFolder:
     """A folder of pictures. Pictures of msaa-lint are replaced, other files only if `force` is true, and links are not followed.
 
@@ -234,7 +252,7 @@ def version_pictures(before: Texels, after: Texels | None) -> VersionPictures:
     return VersionPictures(as_written, picture(after), difference(before, after))
 
 
-def show(album: PictureFolder, stem: tuple[str, ...], pictures: VersionPictures, first: tuple[int, int] | None) -> list[str]:
+def show(album: Album, stem: tuple[str, ...], pictures: VersionPictures, first: tuple[int, int] | None) -> list[str]:
     """Writes the pictures of one image and returns their paths: as written; fixed and the difference; and an enlarged edge."""
     names = ("as-written", "fixed", "difference")
     known = [(each, name) for each, name in zip(pictures, names, strict=True) if each is not None]

@@ -6,7 +6,7 @@ import glob
 import os
 from collections.abc import Callable, Mapping, Sequence
 from types import TracebackType
-from typing import Any
+from typing import Any, NamedTuple
 
 from msaa_lint.core.child_environment import child_environment
 from msaa_lint.core.scratch import ScratchFolder
@@ -221,6 +221,20 @@ class Session:
             self.close()
             raise Unusable(_advice(found))
         return found
+
+
+class SessionOptions(NamedTuple):
+    """The arguments of a `Session`, in the environment of the process that opens it."""
+
+    device: str | None
+    validation: bool
+    limits: Limits
+    execute: str = EXECUTE
+
+    def session(self) -> Session:
+        """Such a session."""
+        variables = environment(self.device)
+        return Session(self.device, validation=self.validation, limits=self.limits, environment=variables, execute=self.execute)
 
 
 def _left(number: int) -> PassOutcome:

@@ -56,7 +56,8 @@ class ShaderResources(DeviceObjects):
 
     def _once(self, key: tuple[Any, ...], create: Callable[[], Any]) -> Any:
         if key not in self._known:
-            self._known[key] = create()
+            with self.opened.session.unheard():
+                self._known[key] = create()
         return self._known[key]
 
     def sampler(self, descriptor: Descriptor) -> Any:

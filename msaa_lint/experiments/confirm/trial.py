@@ -32,7 +32,7 @@ from .outcome import (
 )
 from .pixels import ImageComparison, RawImage, compare, read
 from .planner import Planner
-from .png import PictureFolder, file_name, png, show, version_pictures
+from .png import Album, PictureFolder, file_name, png, show, version_pictures
 from .protocol import Event
 from .session import Session
 from .timing import cannot_show
@@ -86,19 +86,61 @@ def trial(
         session.start()
         sources = inputs()
         session.meanwhile = meanwhile
-        device_trial = _Trial(session, options, session.open(), planner or Planner())
-        verdicts = [verdict for source in sources for verdict in device_trial.try_input(source)]
+        device_trial = DeviceTrial(session, options, session.open(), planner or Planner())
+        if options.image is not None:
+            device_trial.album = picture_folder(options, device_trial.info)
+        shown = ShownPictures()
+        verdicts = [verdict for source in sources for verdict in shown.limited(device_trial.try_input(source))]
     except Unusable as error:
         return DeviceRun(None, unusable=str(error), asked=asked)
     finally:
         session.close()
-    info = device_trial.info
-    limits = cannot_show({"type": info.type}, _is_tiler(info))
-    return DeviceRun(info, session.layer, verdicts, device_trial.notes(verdicts), "", asked, limits, session.printed)
+    run = device_run(device_trial.info, session.layer, verdicts, shown, options, session.validation, asked)
+    return run._replace(printed=session.printed)
 
 
-class _Trial:
-    """What is the same for all inputs."""
+def device_run(
+    info: DeviceInfo,
+    layer: Mapping[str, Any] | None,
+    verdicts: Sequence[Verdict],
+    shown: ShownPictures,
+    options: TrialOptions,
+    validation: bool,
+    asked: str,
+) -> DeviceRun:
+    """The verdicts on all inputs, with notes on the device as a whole."""
+    notes = []
+    if layer is None and validation:
+        missing = "the validation layer is not installed, so its agreement with the rules is unknown"
+        notes.append(f"{missing}; on Debian run `apt install vulkan-validationlayers`")
+    if info.software and options.time is None and verdicts:
+        notes.append("times are not measured on a software driver unless --time requests them")
+    if shown.bytes > MAX_SHOWN:
+        kept = f"the report has pictures of {MAX_SHOWN >> 20} MiB"
+        notes.append(f"{kept}; the others are left out: confirm fewer inputs, or a smaller --size")
+    if not options.gate:
+        notes.append("the gate is off: what the device does not support was tried too, and those results are meaningless")
+    return DeviceRun(info, layer, verdicts, notes, "", asked, cannot_show({"type": info.type}, _is_tiler(info)))
+
+
+class ShownPictures:
+    """The pictures that a run keeps for a report: the first ones, up to `MAX_SHOWN` bytes."""
+
+    def __init__(self) -> None:
+        self.bytes = 0
+
+    def limited(self, verdicts: Sequence[Verdict]) -> list[Verdict]:
+        """The verdicts on an input without the pictures that exceed the limit; one that several passes write counts once."""
+        kept: dict[int, bool] = {}
+        for image in (image for verdict in verdicts for image in verdict.shown):
+            if id(image) not in kept:
+                self.bytes += len(image.as_written) + len(image.fixed) + len(image.difference)
+                kept[id(image)] = self.bytes <= MAX_SHOWN
+        return [verdict._replace(shown=tuple(image for image in verdict.shown if kept[id(image)])) for verdict in verdicts]
+
+
+class DeviceTrial:
+    """The trial of inputs on a device, of which `album` gets the pictures."""
 
     def __init__(self, session: Session, options: TrialOptions, device: Mapping[str, Any], planner: Planner) -> None:
         self.session = session
@@ -107,27 +149,7 @@ class _Trial:
         self.info: DeviceInfo = about(device)
         self.planner = planner
         self.timed = options.time if options.time is not None else not self.info.software
-        self.shown_bytes = 0
-        self.album: PictureFolder | None = None
-        if options.image is not None:
-            folder = os.path.join(options.image, file_name(self.info.name)) if options.several else options.image
-            self.album = PictureFolder(folder, options.force)
-
-    def notes(self, verdicts: Sequence[Verdict]) -> list[str]:
-        """Notes on the device as a whole."""
-        notes = []
-        if self.session.layer is None and self.session.validation:
-            missing = "the validation layer is not installed, so its agreement with the rules is unknown"
-            notes.append(f"{missing}; on Debian run `apt install vulkan-validationlayers`")
-        if not self.timed and self.options.time is None and verdicts:
-            notes.append("times are not measured on a software driver unless --time requests them")
-        if self.shown_bytes > MAX_SHOWN:
-            notes.append(
-                f"the report has pictures of {MAX_SHOWN >> 20} MiB; the others are left out: confirm fewer inputs, or a smaller --size"
-            )
-        if not self.options.gate:
-            notes.append("the gate is off: what the device does not support was tried too, and those results are meaningless")
-        return notes
+        self.album: Album | None = None
 
     def try_input(self, source: Input) -> list[Verdict]:
         """The verdicts on the passes of one input; if they cannot be determined, one that says why.
@@ -239,8 +261,7 @@ class _Trial:
                     paths += show(self.album, (*stem, name), pictures, first.get(name))
                 if self.options.shows:
                     files = [png(each) if each is not None else b"" for each in pictures]
-                    self.shown_bytes += sum(map(len, files))
-                    shown += [ShownImage(name, texels.width, texels.height, *files)] if self.shown_bytes <= MAX_SHOWN else []
+                    shown.append(ShownImage(name, texels.width, texels.height, *files))
         return paths, shown
 
     def _agreement(self, source: Input, before: Version) -> Mapping[int, Sequence[AgreementRow]]:
@@ -259,6 +280,12 @@ class _Trial:
         rules = tuple(dict.fromkeys((finding.code, finding.rule) for finding in _findings(source, planned)))
         codes = tuple(dict.fromkeys(code for code, _ in rules))
         return Verdict(source.file, planned.name, source.prefix + planned.path, "", findings=codes, notes=tuple(notes), rules=rules)
+
+
+def picture_folder(options: TrialOptions, info: DeviceInfo) -> PictureFolder:
+    """The folder for the pictures of a device. NotWritten if it cannot be created."""
+    assert options.image is not None
+    return PictureFolder(os.path.join(options.image, file_name(info.name)) if options.several else options.image, options.force)
 
 
 def _findings(source: Input, planned: parts.Pass) -> list[Finding]:

@@ -216,6 +216,7 @@ def test_a_broken_mesh_is_a_finding_and_the_others_are_studied(tmp_path: Path, n
 
 
 STUDY = ("study", "edge-fan", "foliage", "--size", "1024x1024", "--jobs", "2")
+DIVIDED = ("confirm", "many", "--no-time", "--jobs", "2")
 SLOW = ("confirm", "f.msaa.yaml", "--time", "--repeats", "10000", "--size", "4096x4096")
 
 
@@ -223,6 +224,9 @@ SLOW = ("confirm", "f.msaa.yaml", "--time", "--repeats", "10000", "--size", "409
 def started(folder: Path, temporary: Path, command: tuple[str, ...]) -> Iterator[subprocess.Popen[bytes]]:
     """A run that has started its child processes. At the end, it is killed, and so are they."""
     (folder / "f.msaa.yaml").write_text(FRAME.partition("pipelines:")[0])
+    (folder / "many").mkdir()
+    for number in range(400 if command is DIVIDED else 0):
+        shutil.copy(folder / "f.msaa.yaml", folder / "many" / f"{number}.msaa.yaml")
     environment = environment_of({"TMPDIR": str(temporary), "MARK": str(temporary)})
     quiet = subprocess.DEVNULL
     process = subprocess.Popen([sys.executable, "-m", "msaa_lint", *command], cwd=folder, env=environment, stdout=quiet, stderr=quiet)
@@ -248,10 +252,12 @@ def started(folder: Path, temporary: Path, command: tuple[str, ...]) -> Iterator
 
 
 def children(parent: int) -> list[int]:
+    """The processes that a process started, and those that they started."""
     try:
-        return [int(number) for number in Path(f"/proc/{parent}/task/{parent}/children").read_text().split()]
+        numbers = [int(number) for number in Path(f"/proc/{parent}/task/{parent}/children").read_text().split()]
     except OSError:
         return []
+    return [*numbers, *(below for number in numbers for below in children(number))]
 
 
 def alive(numbers: list[int]) -> list[int]:
@@ -267,7 +273,7 @@ def ended(numbers: list[int]) -> bool:
     return not alive(numbers)
 
 
-@pytest.mark.parametrize("command", [SLOW, STUDY], ids=["confirm", "study"])
+@pytest.mark.parametrize("command", [SLOW, DIVIDED, STUDY], ids=["confirm", "jobs", "study"])
 @pytest.mark.parametrize("number", [signal.SIGHUP, signal.SIGQUIT, signal.SIGTERM, signal.SIGINT])
 def test_no_signal_leaves_a_folder_or_a_process(tmp_path: Path, number: signal.Signals, command: tuple[str, ...]) -> None:
     temporary = tmp_path / "temporary"

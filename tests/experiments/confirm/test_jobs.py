@@ -1,0 +1,110 @@
+"""`confirm --jobs`: inputs are tried by several processes, and the report is the same bytes as that of one."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from tests.command import environment_of, run_process
+from tests.descriptions import CLEAN, STORED
+from tests.experiments.confirm.deadly import WIDTH
+from tests.paths import ROOT
+
+pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="lavapipe is Linux's")
+
+SIZE = "frame: {width: 64, height: 64, fps: 60}\n"
+OPTIONS = ("--image", "pictures", "--force")
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    """Frames of two kinds, some with safe fixes and shaders, one in whose pass the driver dies, one that is broken, and a custom rule.
+
+    The names of the pictures of two of them would be the same."""
+    frames = tmp_path / "frames"
+    (frames / "more").mkdir(parents=True)
+    for number in range(6):
+        (frames / f"{number}.msaa.yaml").write_text(SIZE + (CLEAN, STORED)[number % 2])
+    for name in ("more/6", "more-6"):
+        (frames / f"{name}.msaa.yaml").write_text(SIZE + STORED)
+    (frames / "3-deadly.msaa.yaml").write_text(SIZE.replace("64", str(WIDTH)) + CLEAN)
+    (frames / "4-broken.msaa.yaml").write_text("images: {color: {samples: 3}}\n")
+    (frames / "5-example.msaa.yaml").write_text((ROOT / "examples/shader-resolve/note.msaa.yaml").read_text(encoding="utf-8"))
+    return tmp_path
+
+
+def confirmed(folder: Path, *options: str, before: str = "", paths: tuple[str, ...] = ("frames",)) -> subprocess.CompletedProcess[str]:
+    """The command, whose temporary files are in a folder of their own, in which nothing may be left."""
+    code = f"""if True:
+        import os, signal, sys
+        from msaa_lint.__main__ import main
+        from msaa_lint.experiments.confirm import divided_trials, session
+        session.SessionOptions.__new__.__defaults__ = ("tests.experiments.confirm.deadly",)
+        {before}
+        sys.argv = ["msaa-lint", "confirm", *{(*paths, *OPTIONS, *options)!r}]
+        main()
+    """
+    scratch = folder / "scratch"
+    scratch.mkdir(exist_ok=True)
+    environment = environment_of({"TMPDIR": str(scratch)})
+    done = subprocess.run([sys.executable, "-c", code], cwd=folder, capture_output=True, text=True, check=False, env=environment)
+    assert list(scratch.iterdir()) == [] and "Traceback" not in done.stderr
+    return done
+
+
+def test_processes_report_what_one_reports(folder: Path) -> None:
+    def outcome(jobs: str) -> tuple[int, str, str, dict[str, bytes]]:
+        done = confirmed(folder, *reports, "--jobs", jobs)
+        files = [*(folder / "pictures").iterdir(), folder / "report.html", folder / "report.json"]
+        return done.returncode, done.stdout, done.stderr, {path.name: path.read_bytes() for path in files}
+
+    reports = ("--output", "full", "--output", "html=report.html", "--output", "json=report.json")
+    one = outcome("1")
+    assert one[0] == 2 and "4-broken" in one[2] and any("more-6" in name and name.endswith("-2.png") for name in one[3])
+    assert outcome("3") == one
+    statuses = {each["file"]: each["status"] for each in json.loads(one[3]["report.json"])["passes"]}
+    assert [file for file, status in statuses.items() if status == "driver-died"] == ["frames/3-deadly.msaa.yaml"]
+    assert len(statuses) == 10 and set(statuses.values()) == {"driver-died", "confirmed"}
+
+
+def test_each_device_has_its_verdicts(folder: Path) -> None:
+    devices = ("--device", "llvmpipe", "--device", "nothing of this name", "--output", "json", "--no-time")
+    one, two = (confirmed(folder, *devices, "--jobs", jobs) for jobs in ("1", "2"))
+    assert (one.returncode, one.stdout, one.stderr) == (two.returncode, two.stdout, two.stderr)
+    found = json.loads(two.stdout)["devices"]
+    assert (len(found[0]["passes"]) >= 10, found[1]["passes"]) == (True, [])
+    assert "there is no device named nothing of this name" in found[1]["unusable"]
+
+
+def test_an_input_that_ends_processes_is_the_only_one_lost(folder: Path) -> None:
+    poison = """
+        read = divided_trials.of_file
+        def poisonous(workspace, path):
+            if path == "frames/2.msaa.yaml":
+                os.kill(os.getpid(), signal.SIGKILL)
+            return read(workspace, path)
+        divided_trials.of_file = poisonous"""
+    done = confirmed(folder, "--output", "json", "--jobs", "2", before=poison)
+    expected = json.loads(confirmed(folder, "--output", "json").stdout)
+    found = json.loads(done.stdout)
+    assert done.returncode == 2
+    assert [each for each in expected["passes"] if each not in found["passes"]] == [
+        each for each in expected["passes"] if each["file"] == "frames/2.msaa.yaml"
+    ]
+    assert [each["message"] for each in found["errors"] if each not in expected["errors"]] == [
+        "not linted: it ended the process that read it (SIGKILL)"
+    ]
+
+
+def test_times_are_measured_alone(folder: Path) -> None:
+    """Times differ from run to run, so that what else is done at the same time would show in them."""
+    forked = "divided_trials.divided_trials = None"
+    paths = ("frames/0.msaa.yaml", "frames/2.msaa.yaml")
+    done = confirmed(folder, "--time", "--repeats", "2", "--output", "json", "--jobs", "3", before=forked, paths=paths)
+    assert all(each["time_ms"] for each in json.loads(done.stdout)["passes"])
+    shown = run_process(folder, "confirm", "--help").stdout
+    assert "unless times are measured" in " ".join(shown.split())
