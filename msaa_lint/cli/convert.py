@@ -11,6 +11,7 @@ from msaa_lint.core import atomic_write
 from msaa_lint.core.execution.backend import Unusable
 from msaa_lint.core.text.source import Unreadable
 from msaa_lint.core.text.tree import Limits
+from msaa_lint.core.urls import is_url, name_of
 from msaa_lint.input.file_types import DESCRIPTIONS, STDIN
 from msaa_lint.input.opening import load
 from msaa_lint.linter.source_programs import units_of
@@ -121,7 +122,7 @@ def _planned(workspace: Workspace, named: Sequence[str], folder: str, force: boo
     discovered = workspace.discover(sources=True)
     for text in discovered.notes:
         note(text)
-    folders = [path for path in named if os.path.isdir(path)]
+    folders = [name for name in map(name_of, named) if is_url(name) or os.path.isdir(name)]
     units = units_of(discovered.files, workspace.programs(discovered))
     targets = {unit: os.path.join(folder, _description_name(input_path(unit), folders)) for unit in units}
     outputs = set(map(os.path.abspath, targets.values()))
@@ -147,8 +148,9 @@ def _description_name(path: str, folders: Sequence[str]) -> str:
     one. It depends on no other input."""
     if path == STDIN:
         return "stdin" + DESCRIPTIONS[0]
-    names = [os.path.relpath(path, folder) for folder in (*folders, os.curdir)]
-    inside = next((name for name in names if name.split(os.sep)[0] != os.pardir), os.path.basename(path))
+    names = [os.path.relpath(path, folder) for folder in folders] + [os.path.relpath(path.partition("://")[2] if is_url(path) else path)]
+    # A storage may have objects with any name.
+    inside = next((name for name in names if name != os.curdir and name.split(os.sep)[0] != os.pardir), os.path.basename(path))
     return inside + DESCRIPTIONS[0]
 
 

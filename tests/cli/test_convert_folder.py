@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from msaa_lint.cli.convert import _description_name
 from tests.command import environment_of, run, run_process
 from tests.descriptions import CLEAN
 from tests.input.captures.test_converted import SHADER, capture_with_shader
@@ -129,6 +130,20 @@ def test_a_named_input_with_nothing_to_convert_is_an_error(folder: Path) -> None
     assert "inputs/other/plain.msaa.yaml: nothing to convert: `check` reads this input directly" in done.stderr
     assert "missing.jsonl: no such file or folder" in done.stderr
     assert "-o descriptions/" in run(folder, "convert", "inputs/game/a/frame.jsonl", "inputs/game/b/frame.jsonl").stderr
+
+
+@pytest.mark.parametrize(
+    ("path", "name"),
+    [
+        ("s3://bucket/captures/a/b.jsonl", "a/b.jsonl"),
+        ("s3://bucket/other/b.jsonl", "bucket/other/b.jsonl"),
+        ("s3://bucket/captures/../../../b.jsonl", "b.jsonl"),
+        ("s3://../../b.jsonl", "b.jsonl"),
+        ("../b.jsonl", "b.jsonl"),
+    ],
+)
+def test_a_description_is_in_the_folder_whatever_an_object_is_called(path: str, name: str) -> None:
+    assert _description_name(path, ["s3://bucket/captures"]) == f"{name}.msaa.yaml"
 
 
 def test_standard_input_is_named_stdin(folder: Path) -> None:
