@@ -81,7 +81,10 @@ class DaskCluster:
 
     def close(self) -> None:
         """Disconnects; ends the cluster if it was started here."""
-        for each in (getattr(self, "_client", None), self._cluster):
+        client: Any = getattr(self, "_client", None)
+        with suppress(Exception):
+            client.unsubscribe_topic("all")
+        for each in (client, self._cluster):
             if each is not None:
                 with suppress(Exception):
                     each.close(timeout=CONNECT_SECONDS)
@@ -94,6 +97,8 @@ def _local_cluster(workers: int) -> Any:
     import dask
     from distributed import LocalCluster
 
+    # Dask looks at this when a worker ends, and as long afterward gives up a worker that happens to be starting again just then.
+    dask.config.set({"distributed.deploy.lost-worker-timeout": "1000 days"})
     with dask.config.set({"distributed.admin.low-level-log-length": MAX_LOGGED}):
         return LocalCluster(
             n_workers=workers, threads_per_worker=1, dashboard_address="127.0.0.1:0", memory_limit=0, silence_logs=logging.CRITICAL
@@ -162,8 +167,7 @@ class _Run(Generic[Task, Result]):
             try:
                 happened = self._happened.get(timeout=POLL_SECONDS)
             except queue.Empty:
-                if self._client.status != "running":
-                    raise Unusable("the connection to the scheduler is lost") from None
+                yield from self._look()
                 continue
             yield from happened()
             # More may have happened meanwhile: workers get their next tasks together.
@@ -171,11 +175,23 @@ class _Run(Generic[Task, Result]):
                 while True:
                     yield from self._happened.get_nowait()()
 
+    def _look(self) -> Iterator[tuple[Task, Failure]]:
+        """Takes note of workers that have joined or ended, where the scheduler's messages were missed."""
+        if self._client.status != "running":
+            raise Unusable("the connection to the scheduler is lost")
+        try:
+            there = self._client.nthreads()
+        except Exception as error:
+            raise Unusable(f"the connection to the scheduler is lost: {type(error).__name__}") from None
+        for address in self._workers.keys() - there.keys():
+            yield from self._leave(address, None, False)
+        for address in there:
+            self._join(address)
+
     def close(self) -> None:
         sent = [sent.future for _, sent in self._sent.values()]
         self._sent.clear()
         with suppress(Exception):
-            self._client.unsubscribe_topic("all")
             self._client.cancel(sent)
             self._client.unregister_worker_plugin(self._name)
         self._knock = None
