@@ -2,17 +2,22 @@
 
 The corpus is made by variation: 10,000 descriptions, 10,000 pipelines as the Vulkan SC tools write them, 200 captures of 5 MB, and 1,000
 Fossilize databases; `--share` makes a part of it. Each kind is linted by one process, by two, by two workers of each `--backend`, and again
-from the cache; the JSON must be the same bytes each time. Memory is that of the process that divides the work.
+from the cache; the JSON must be the same bytes each time. Memory is that of the process that divides the work. With `--kill`, one of the
+processes of this machine is killed every so many seconds, at random.
 """
 
 from __future__ import annotations
 
 import argparse
+import contextlib
 import filecmp
 import itertools
 import os
+import random
+import signal
 import sys
 import tempfile
+import threading
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -27,6 +32,8 @@ from long_captures import game
 from tests.input.readers.dialects_binary import fossilize
 
 COUNTS = {"descriptions": 10_000, "pipelines": 10_000, "captures": 200, "fossilize": 1_000}
+
+KILLED = "2 processes that are killed"
 
 CAPTURE_BYTES = 5_000_000
 
@@ -48,11 +55,13 @@ finally:
 
 
 class Sample(NamedTuple):
-    """Seconds of wall and processor time, the latter of all processes that ended, and the memory of the first process in bytes."""
+    """Seconds of wall and processor time, the latter of all processes that ended, the memory of the first process in bytes, and how many
+    processes were killed."""
 
     wall: float
     cpu: float
     memory: int
+    killed: int
 
 
 def descriptions() -> Iterator[tuple[str, bytes]]:
@@ -111,31 +120,49 @@ def make(folder: Path, kind: str, share: float) -> int:
     return count
 
 
-def lint(folder: Path, kept: Path, output: Path, *options: str) -> Sample:
-    """Lints a folder to its end."""
+def kill(parent: int, seconds: float, ended: threading.Event, killed: list[int]) -> None:
+    """Kills a child of a process every so many seconds."""
+    numbers = random.Random(1)
+    while not ended.wait(seconds):
+        children = Path(f"/proc/{parent}/task/{parent}/children").read_text(encoding="utf-8").split()
+        if children:
+            with contextlib.suppress(ProcessLookupError):
+                os.kill(int(numbers.choice(children)), signal.SIGKILL)
+                killed.append(1)
+
+
+def lint(folder: Path, kept: Path, output: Path, *options: str, killing: float = 0.0) -> Sample:
+    """Lints a folder to its end; `killing` is the time in seconds after which a process is killed, again and again."""
     measured = output.with_suffix(".measured")
     environment = {name: value for name, value in os.environ.items() if not name.startswith(("PYTHON", "MSAA_LINT_"))}
     environment |= {"PYTHONPATH": ROOT, "XDG_CACHE_HOME": str(kept), "MEASURED": str(measured)}
     command = [sys.executable, "-c", MEASURED, "-", "check", "--isolated", str(folder), "--output", f"json={output}", *options]
     start = time.perf_counter()
     child = os.posix_spawn(sys.executable, command, environment)
+    ended, killed = threading.Event(), list[int]()
+    if killing:
+        threading.Thread(target=kill, args=(child, killing, ended, killed), daemon=True).start()
     _, status, usage = os.wait4(child, 0)
+    ended.set()
     wall = time.perf_counter() - start
     if os.waitstatus_to_exitcode(status) not in (0, 1):
         raise SystemExit(f"exit code {os.waitstatus_to_exitcode(status)}: {' '.join(command[3:])}")
-    return Sample(wall, usage.ru_utime + usage.ru_stime, 1024 * int(measured.read_text(encoding="utf-8")))
+    memory = 1024 * int(measured.read_text(encoding="utf-8"))
+    return Sample(wall, usage.ru_utime + usage.ru_stime, memory, len(killed))
 
 
-def rows(folder: Path, kind: str, share: float, backends: list[str]) -> Iterator[str]:
+def rows(folder: Path, kind: str, share: float, backends: list[str], killing: float) -> Iterator[str]:
     """The lines of the table for a kind."""
     count = make(folder, kind, share)
     kept, one, other = folder / "kept", folder / "one.json", folder / "other.json"
     ways = {"1 process": ("--jobs", "1", "--no-cache"), "2 processes": ("--jobs", "2", "--no-cache")}
+    ways |= {KILLED: ways["2 processes"]} if killing else {}
     ways |= {f"2 workers of {name}": ("--backend", name, "--jobs", "2", "--no-cache") for name in backends}
     ways |= {"1 process, which keeps": ("--jobs", "1"), "1 process, from the cache": ("--jobs", "1")}
     first = 0.0
     for way, options in ways.items():
-        sample = lint(folder / kind, kept, other if first else one, *options)
+        sample = lint(folder / kind, kept, other if first else one, *options, killing=killing if way == KILLED else 0.0)
+        way += f" ({sample.killed})" if way == KILLED else ""
         same = not first or filecmp.cmp(one, other, shallow=False)
         first = first or sample.wall
         speed = f"{first / sample.wall:.2f}" if "cache" not in way else f"{100 * sample.wall / first:.1f} % of its time"
@@ -150,6 +177,7 @@ def main() -> int:
     parser.add_argument("kinds", nargs="*", metavar="KIND", default=list(KINDS), help=", ".join(KINDS))
     parser.add_argument("--share", type=float, default=1.0, help="the part of the corpus to make")
     parser.add_argument("--backend", action="append", default=[], choices=("dask", "ray"))
+    parser.add_argument("--kill", type=float, default=0.0, metavar="SECONDS")
     parser.add_argument("--folder", type=Path, help="where to keep the corpus")
     arguments = parser.parse_args()
     print("| inputs | linted by | wall, s | processor, s | ms an input | times as fast as one process | MB | same bytes |")
@@ -157,7 +185,7 @@ def main() -> int:
     with tempfile.TemporaryDirectory() as temporary:
         folder = (arguments.folder or Path(temporary)).absolute()
         for kind in arguments.kinds:
-            for line in rows(folder, kind, arguments.share, arguments.backend):
+            for line in rows(folder, kind, arguments.share, arguments.backend, arguments.kill):
                 print(line, flush=True)
     return 0
 
