@@ -9,7 +9,7 @@ from msaa_lint.core.finding import Result
 from msaa_lint.core.text.span import Span
 
 from . import Write
-from .escape import clip, escape_json, escape_surrogates
+from .escape import MAX_LENGTH, clip, escape_json, escape_surrogates
 from .place import place
 
 Json = dict[str, object]
@@ -30,7 +30,8 @@ def dump_indented(value: object) -> str:
 
 def text(value: str) -> str:
     """Text of an input, a driver, or a layer: unchanged, except lone surrogates and what exceeds `escape.MAX_LENGTH`."""
-    return escape_surrogates(clip(value))
+    # Nearly all of them are short and ASCII, and a large report has millions.
+    return value if len(value) <= MAX_LENGTH and value.isascii() else escape_surrogates(clip(value))
 
 
 def rounded(value: float | None) -> float | None:

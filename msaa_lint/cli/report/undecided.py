@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from functools import lru_cache
 
 from msaa_lint.core.finding import MissingKey, Result, Undecided
 
@@ -27,7 +28,12 @@ _INDEX = re.compile(r"\[\d+\]")
 
 def pattern(key: MissingKey) -> str:
     """The path of a key for all structures of its kind: `images.*.usage`."""
-    return _INDEX.sub("[*]", _SECTION.sub(r"\1.*", key.path))
+    return _pattern(key.path)
+
+
+@lru_cache(maxsize=4096)
+def _pattern(path: str) -> str:
+    return _INDEX.sub("[*]", _SECTION.sub(r"\1.*", path))
 
 
 def rules_by_key(result: Result) -> list[tuple[str, int]]:
