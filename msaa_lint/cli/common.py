@@ -280,12 +280,17 @@ def log(arguments: Arguments) -> Callable[[str], None] | None:
     return warn if arguments.get("verbose") else None
 
 
+def require_engine(arguments: Arguments) -> None:
+    """UsageError for the address of a cluster without its engine."""
+    if "cluster" in arguments and "backend" not in arguments:
+        raise UsageError("`--cluster` needs the engine of the cluster: `--backend dask` or `--backend ray`")
+
+
 def division(arguments: Arguments) -> "Division":
     """Who reads the inputs. UsageError for an address without an engine."""
     from msaa_lint.linter.workspace import Division
 
-    if "cluster" in arguments and "backend" not in arguments:
-        raise UsageError("`--cluster` needs the engine of the cluster: `--backend dask` or `--backend ray`")
+    require_engine(arguments)
     return Division(arguments.get("backend"), arguments.get("cluster"), arguments.get("jobs"))
 
 

@@ -143,15 +143,18 @@ _FRAME_END = Option(
 SHARED = (_STDIN_FILENAME, _input_format(*INPUT_FORMATS), _FRAME_END, *_CONFIGURATION, _COLOR, *GLOBAL)
 """Options of `check`, `cost`, `confirm`, and `study`."""
 
-_DIVISION = (
-    Option("jobs", "integer", "Inputs to read at once.", "N", default="the cores, for more than a few inputs; the workers of a cluster"),
-    Option("backend", "choice", "Let the workers of a cluster read the inputs.", "NAME", choices=("dask", "ray")),
+_CLUSTER = (
+    Option("backend", "choice", "Let the workers of a cluster do the work.", "NAME", choices=("dask", "ray")),
     Option(
         "cluster",
         "text",
         "Address of the cluster; without one, of DASK_SCHEDULER_ADDRESS or RAY_ADDRESS, or one of this machine.",
         "ADDRESS",
     ),
+)
+_DIVISION = (
+    Option("jobs", "integer", "Inputs to read at once.", "N", default="the cores, for more than a few inputs; the workers of a cluster"),
+    *_CLUSTER,
 )
 _INPUTS = SHARED[:3]
 _SIZE = Option("size", "text", "Size in pixels of inputs that state none.", "WxH")
@@ -332,13 +335,7 @@ COMMANDS = {
             "Execution": (
                 Option("resume", "text", "Save finished points in this folder, and reuse those already there.", "FOLDER"),
                 Option("jobs", "integer", "Points to simulate at once.", "N", default="one per core, or per cluster worker"),
-                Option(
-                    "backend",
-                    "choice",
-                    "Simulate on a cluster, which DASK_SCHEDULER_ADDRESS or RAY_ADDRESS names.",
-                    "NAME",
-                    choices=("dask", "ray"),
-                ),
+                *_CLUSTER,
             ),
             "Inputs": _INPUTS,
             "Configuration": _CONFIGURATION,

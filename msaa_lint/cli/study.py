@@ -67,6 +67,7 @@ class StudyOptions(NamedTuple):
     flip: bool
     jobs: int | None
     backend: str | None
+    cluster: str | None
     budget_ms: float
 
 
@@ -121,6 +122,7 @@ def parse_options(arguments: Arguments) -> StudyOptions:
         bool(arguments.get("flip")),
         arguments.get("jobs") or (None if arguments.get("backend") else cores()),
         arguments.get("backend"),
+        arguments.get("cluster"),
         parse_budget(arguments["budget"]) if "budget" in arguments else DEFAULT_BUDGET_MS,
     )
 
@@ -168,7 +170,9 @@ def _study(arguments: Arguments, options: StudyOptions) -> int:
         for technique in options.techniques
     ]
     with _progress(len(tasks), arguments) as progress:
-        results = list(sweep(tasks, jobs=options.jobs, backend=options.backend, checkpoint=checkpoint, progress=progress))
+        results = list(
+            sweep(tasks, jobs=options.jobs, backend=options.backend, cluster=options.cluster, checkpoint=checkpoint, progress=progress)
+        )
     points: list[Point] = []
     failures: list[FailedPoint] = []
     names = [subject.input.name for subject in studied]

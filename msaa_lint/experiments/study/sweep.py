@@ -88,6 +88,7 @@ def sweep(
     *,
     jobs: int | None = 1,
     backend: str | None = None,
+    cluster: str | None = None,
     checkpoint: Checkpoint | None = None,
     progress: Progress | None = None,
     measure: Measure = measure_point,
@@ -109,7 +110,7 @@ def sweep(
         if progress is not None:
             progress(done, len(tasks), _label(task))
         yield point
-    for number, result in _results(remaining, jobs, backend, measure):
+    for number, result in _results(remaining, jobs, (backend, cluster), measure):
         task = remaining[number]
         done += 1
         if checkpoint is not None and isinstance(result, Point):
@@ -145,20 +146,23 @@ def _label(task: Task) -> str:
     return f"{task.input.name}: {task.technique.name}"
 
 
-def _results(tasks: Sequence[Task], jobs: int | None, backend: str | None, measure: Measure) -> Iterator[tuple[int, Point | str]]:
+def _results(
+    tasks: Sequence[Task], jobs: int | None, engine: tuple[str | None, str | None], measure: Measure
+) -> Iterator[tuple[int, Point | str]]:
     """The number of each task with its point or the reason why there is none, as they finish."""
     if not tasks:
         return
     groups = _groups(tasks)
     attempt_all = partial(_attempt_all, measure)
+    backend, cluster = engine
     if jobs == 1 and backend is None:
         for group in groups:
             yield from attempt_all(group)
         return
     try:
-        engine = open_backend(backend, None, jobs)
-        with contextlib.closing(engine):
-            results = engine.results(attempt_all, sorted(groups, key=_work, reverse=True), _singles)
+        opened = open_backend(backend, cluster, jobs)
+        with contextlib.closing(opened):
+            results = opened.results(attempt_all, sorted(groups, key=_work, reverse=True), _singles)
             with contextlib.closing(results):  # type: ignore[type-var]
                 for group, found in results:
                     yield from ((number, found.reason) for number, _ in group) if isinstance(found, Failure) else found
