@@ -11,6 +11,7 @@ from msaa_lint.core.execution.backend import Unusable
 from msaa_lint.core.finding import Result
 from msaa_lint.core.project import shown
 from msaa_lint.core.quote import quoted
+from msaa_lint.core.spool import SpoolError
 from msaa_lint.frame.cost.amounts import Terms
 from msaa_lint.frame.cost.input_cost import CostComparison, compare_inputs
 from msaa_lint.frame.cost.samples import COUNTS
@@ -44,7 +45,7 @@ MAX_SIDE = 2**31 - 1
 
 def cost(arguments: Arguments) -> int:
     """Prints what inputs cost; returns 0, or 2 if an input, an option, or the configuration cannot be used."""
-    return run_command(_cost, arguments, (Unusable,), terminable="backend" in arguments)
+    return run_command(_cost, arguments, (Unusable, SpoolError), terminable="backend" in arguments)
 
 
 def _cost(arguments: Arguments) -> int:

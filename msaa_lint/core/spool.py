@@ -80,10 +80,11 @@ def _error(error: Exception) -> SpoolError:
 
 
 class SpooledList(Sequence[T]):
-    """A sequence to append to. Read in order, each value is read once from the file."""
+    """A sequence to append to. Read in order, each value is read once from the file. `limit` values stay in memory, or MAX_VALUES."""
 
-    def __init__(self, spool: Spool, values: Iterable[T] = ()) -> None:
+    def __init__(self, spool: Spool, values: Iterable[T] = (), limit: int | None = None) -> None:
         self._spool = spool
+        self._limit = limit
         self._table = ""
         self._written = 0
         """The number of pages in the file. They have equally many values."""
@@ -95,7 +96,7 @@ class SpooledList(Sequence[T]):
     def append(self, value: T) -> None:
         """Adds a value. Raises SpoolError."""
         self._last.append(value)
-        if self._spool.has_to_write(len(self._last)):
+        if self._spool.has_to_write(len(self._last), self._limit):
             if not self._table:
                 self._table, self._size = self._spool.table("page integer primary key, data blob"), len(self._last)
             self._spool.execute(f"insert into {self._table} values (?, ?)", self._written, _dumps(self._last))

@@ -7,6 +7,7 @@ from functools import partial
 from typing import NamedTuple
 
 from msaa_lint.core.finding import Finding, Result
+from msaa_lint.core.spool import SpooledList
 from msaa_lint.core.text.source import Source
 from msaa_lint.frame.cost.amounts import Terms
 from msaa_lint.frame.cost.input_cost import CostedFrame
@@ -18,6 +19,9 @@ from .rules.budget import Spent
 from .savings import Trials
 from .unit_parts import parts
 from .workspace import ALONE, InputFile, Request, Unit, Workspace
+
+MAX_FRAMES = 50
+"""The number of frames with their costs that stay in memory: each takes some ten kilobytes."""
 
 
 class CostResult(NamedTuple):
@@ -39,7 +43,7 @@ def run_costs(request: Request, terms: Terms, counts: Sequence[int]) -> CostResu
     """
     workspace = Workspace(request)
     discovered = workspace.discover()
-    frames: list[CostedFrame] = []
+    frames: SpooledList[CostedFrame] = SpooledList(workspace.spool, limit=MAX_FRAMES)
     findings: list[Finding] = []
     notes = list(discovered.notes)
     for part in parts(CostLinter(workspace, terms, counts), discovered.files, ALONE if request.traceback else request.division):
@@ -49,7 +53,7 @@ def run_costs(request: Request, terms: Terms, counts: Sequence[int]) -> CostResu
         notes.extend(part.notes)
     errors = [finding for finding in dict.fromkeys([*workspace.findings, *findings]) if finding.fatal]
     files = dict.fromkeys([*map(request.input_name, discovered.files), *(finding.file for finding in errors)])
-    return CostResult(frames, Result(errors, [], [], list(files), workspace.sources, []), notes)
+    return CostResult(frames.finished(), Result(errors, [], [], list(files), workspace.sources.finished(), []), notes)
 
 
 class CostPart(NamedTuple):

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from msaa_lint.cli.options import COST_FORMATS
 from msaa_lint.core import spool
 from msaa_lint.linter.settings.settings import OUTPUT_FORMATS
 from tests.command import run
@@ -77,5 +78,14 @@ def test_the_output_is_the_same(corpus: Path, options: tuple[str, ...], spooled:
     found = run(corpus, "check", *PATHS, "--no-cache", *options)
     spooled.undo()
     expected = run(corpus, "check", *PATHS, "--no-cache", *options)
+    assert (found.returncode, found.stdout, found.stderr) == (expected.returncode, expected.stdout, expected.stderr)
+    assert len(expected.stdout) > 100
+
+
+@pytest.mark.parametrize("output", COST_FORMATS)
+def test_costs_are_the_same(corpus: Path, output: str, spooled: pytest.MonkeyPatch) -> None:
+    found = run(corpus, "cost", ".", "--output", output)
+    spooled.undo()
+    expected = run(corpus, "cost", ".", "--output", output)
     assert (found.returncode, found.stdout, found.stderr) == (expected.returncode, expected.stdout, expected.stderr)
     assert len(expected.stdout) > 100

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 from msaa_lint.core.finding import Result
 from msaa_lint.frame.cost.amounts import Amount, FrameCost, Line, PassCost, Shading
@@ -43,8 +43,8 @@ def render_comparison(comparison: CostComparison, errors: Result, out: Write, op
     remarks = [text(remark) for frame in comparison.frames for remark in frame.remarks]
     members = {
         **head(SCHEMA, options.version),
-        "old": _inputs(comparison.old, errors, options),
-        "new": _inputs(comparison.new, errors, options),
+        "old": _complete(_inputs(comparison.old, errors, options)),
+        "new": _complete(_inputs(comparison.new, errors, options)),
         "difference": {"total": total, "passes": passes, "remarks": remarks},
         "errors": _errors(errors, options),
     }
@@ -52,22 +52,32 @@ def render_comparison(comparison: CostComparison, errors: Result, out: Write, op
 
 
 def _inputs(frames: Sequence[CostedFrame], errors: Result, options: Options) -> Json:
-    details = [_frame(frame, errors, options) for frame in frames]
-    passes = [
-        {"file": record["file"], "document": record["document"], **_pass(cost, frame, errors)}
-        for record, frame in zip(details, frames, strict=True)
+    """What is printed of frames, as iterators, since many do not fit into memory."""
+    details = (_frame(frame, errors, options) for frame in frames)
+    passes = (
+        {"file": _file(frame, options), "document": frame.number, **_pass(cost, frame, errors)}
+        for frame in frames
         for cost in frame.cost.passes
-    ]
-    if len(details) == 1:
-        return {**details[0], "passes": passes, "frames": details}
+    )
+    if len(frames) == 1:
+        return {**_frame(frames[0], errors, options), "passes": passes, "frames": details}
     total = {**_amount(inputs_total(frames)), "corrected": _optional([frame.cost.corrected for frame in frames])}
     return {"passes": passes, "total": total, "frames": details}
+
+
+def _complete(members: Json) -> Json:
+    """Members with lists in place of iterators."""
+    return {key: list(value) if isinstance(value, Iterator) else value for key, value in members.items()}
+
+
+def _file(frame: CostedFrame, options: Options) -> str:
+    return escape_surrogates(relative(frame.file, options.root))
 
 
 def _frame(frame: CostedFrame, errors: Result, options: Options) -> Json:
     cost = frame.cost
     return {
-        "file": escape_surrogates(relative(frame.file, options.root)),
+        "file": _file(frame, options),
         "document": frame.number,
         "device": None if cost.device is None else text(cost.device),
         "fps": cost.fps,

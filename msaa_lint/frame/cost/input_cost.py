@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from itertools import groupby
+from operator import attrgetter
 from typing import NamedTuple
 
 from msaa_lint.core.finding import Finding
@@ -85,11 +87,8 @@ class CostedFrame(NamedTuple):
 
 
 def inputs_total(frames: Sequence[CostedFrame]) -> Amount:
-    """The cost of all frames of several inputs, which are separate programs."""
-    files: dict[str, list[FrameCost]] = {}
-    for frame in frames:
-        files.setdefault(frame.file, []).append(frame.cost)
-    return added(input_total(costs).amount for costs in files.values())
+    """The cost of all frames of several inputs, which are separate programs. The frames of an input follow each other."""
+    return added(input_total([frame.cost for frame in group]).amount for _, group in groupby(frames, attrgetter("file")))
 
 
 class CostComparison(NamedTuple):
