@@ -14,7 +14,10 @@ if TYPE_CHECKING:
 T = TypeVar("T")
 
 MAX_VALUES = 500
-"""The number of values that a sequence or a mapping has in memory before it writes them."""
+"""The number of values that a sequence or a mapping writes at once."""
+
+MAX_UNWRITTEN = 40
+"""How many times as many values are in memory before the first are written, unless a limit is stated: most runs write none."""
 
 MAX_READ = 16
 """The number of values of a mapping that stay in memory after they were read."""
@@ -46,9 +49,11 @@ class Spool:
             database.execute(f"pragma {setting}")
         return database
 
-    def has_to_write(self, number: int, limit: int | None = None) -> bool:
-        """Whether so many values are too many for memory: at least `limit`, or MAX_VALUES if that is less."""
-        return number >= min(limit or MAX_VALUES, MAX_VALUES) and self.database is not None
+    def has_to_write(self, number: int, limit: int | None, has_written: bool) -> bool:
+        """Whether so many values are too many for memory: at least `limit`, or MAX_VALUES if that is less; without a limit, MAX_UNWRITTEN
+        times as many if none of them are written yet."""
+        most = min(limit, MAX_VALUES) if limit is not None else MAX_VALUES * (1 if has_written else MAX_UNWRITTEN)
+        return number >= most and self.database is not None
 
     def table(self, columns: str) -> str:
         """The name of a new table."""
@@ -96,11 +101,16 @@ class SpooledList(Sequence[T]):
     def append(self, value: T) -> None:
         """Adds a value. Raises SpoolError."""
         self._last.append(value)
-        if self._spool.has_to_write(len(self._last), self._limit):
+        if self._spool.has_to_write(len(self._last), self._limit, bool(self._table)):
             if not self._table:
-                self._table, self._size = self._spool.table("page integer primary key, data blob"), len(self._last)
-            self._spool.execute(f"insert into {self._table} values (?, ?)", self._written, _dumps(self._last))
-            self._written += 1
+                self._table, self._size = (
+                    self._spool.table("page integer primary key, data blob"),
+                    min(self._limit or MAX_VALUES, MAX_VALUES),
+                )
+            pages = [self._last[start : start + self._size] for start in range(0, len(self._last), self._size)]
+            rows = [(self._written + number, _dumps(page)) for number, page in enumerate(pages)]
+            self._spool.execute_all(f"insert into {self._table} values (?, ?)", rows)
+            self._written += len(pages)
             self._last = []
 
     def extend(self, values: Iterable[T]) -> None:
@@ -153,7 +163,7 @@ class SpooledDict(Mapping[str, T]):
     def update(self, values: Mapping[str, T]) -> None:
         """Adds values, or replaces those of the same keys. Raises SpoolError."""
         self._last.update(values)
-        if self._spool.has_to_write(len(self._last), self._limit):
+        if self._spool.has_to_write(len(self._last), self._limit, bool(self._table)):
             self._write()
 
     def pop(self, key: str) -> T:
@@ -219,7 +229,7 @@ class SpooledSort(Generic[T]):
     def add(self, key: tuple[Any, ...], values: Sequence[T]) -> None:
         """Adds values. Raises SpoolError."""
         self._last.append((key, values))
-        if self._spool.has_to_write(len(self._last)):
+        if self._spool.has_to_write(len(self._last), None, bool(self._table)):
             self._write()
 
     def __iter__(self) -> Iterator[tuple[tuple[Any, ...], Sequence[T]]]:

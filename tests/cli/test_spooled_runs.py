@@ -53,6 +53,7 @@ def spooled(monkeypatch: pytest.MonkeyPatch) -> Iterator[pytest.MonkeyPatch]:
     with monkeypatch.context() as patch:
         patch.setattr(spool.Spool, "table", lambda self, columns: written.append(columns) or create(self, columns))
         patch.setattr(spool, "MAX_VALUES", 2)
+        patch.setattr(spool, "MAX_UNWRITTEN", 1)
         patch.setattr(spool, "MAX_READ", 1)
         yield patch
     assert written

@@ -21,6 +21,7 @@ def small() -> Iterator[None]:
     """Three values stay in memory."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(spools, "MAX_VALUES", 3)
+        patch.setattr(spools, "MAX_UNWRITTEN", 1)
         patch.setattr(spools, "MAX_READ", 2)
         yield
 
