@@ -23,9 +23,9 @@ ROOT = Path(__file__).resolve().parent.parent
 
 GUIDES = {"Engine team": "engine", "Continuous integration": "ci", "Editor": "editor", "Student": "student"}
 REFERENCE = {
-    "Using msaa-lint": ["commands", "configuration", "ci", "editors", "html-report", "facts", "security"],
+    "Using msaa-lint": ["commands", "configuration", "ci", "editors", "html-report", "rows", "facts", "security"],
     "Inputs": ["format", "keys", "captures", "source-code", "impeller", "devices"],
-    "Models and measurements": ["cost", "confirm", "study", "study-numbers", "speed"],
+    "Models and measurements": ["cost", "confirm", "study", "study-numbers", "speed", "scale"],
     "Comparisons": ["captures-and-the-layer", "agreement", "texts"],
 }
 """The pages of docs/ by heading, as in docs/README.md."""

@@ -48,8 +48,6 @@ STUDY = (
     "msaa",
     "--jobs",
     "1",
-    "--backend",
-    "threading",
     "--output",
     "json",
 )

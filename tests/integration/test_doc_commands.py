@@ -34,6 +34,7 @@ NOT_RUN = {
     "docs/devices.md": {"needs reports and a phone"},
     "docs/editors.md": {"installs packages from npm; tests/integration/test_vscode.py builds the extension"},
     "docs/guides/editor.md": {"runs until it is interrupted"},
+    "docs/scale.md": {"needs a corpus, a cluster, and a bucket"},
     "docs/study.md": {"needs a GPU"},
 }
 """Why blocks are not run, page by page."""
