@@ -13,8 +13,13 @@ def parts(linter: Linter[Part], units: Sequence[Unit], division: Division = ALON
     count = division.jobs if division.backend is not None else processes(linter.workspace, units, division.jobs)
     if count == 1 and division.backend is None:
         return runs.in_this_process()
+    from msaa_lint.core.execution.backend import Unusable
     from msaa_lint.core.execution.engines import open_backend
 
     from .job import Job
 
-    return runs.divided(open_backend(division.backend, division.cluster, count), Job(runs))
+    try:
+        backend = open_backend(division.backend, division.cluster, count)
+    except Unusable as error:
+        raise Unusable(f"--backend {division.backend}: {error}") from None
+    return runs.divided(backend, Job(runs))

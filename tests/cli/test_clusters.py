@@ -74,3 +74,11 @@ def test_an_address_needs_an_engine(corpus: Path) -> None:
     done = run_process(corpus, "check", ".", "--cluster", "127.0.0.1:8786")
     assert (done.returncode, done.stdout) == (2, "")
     assert done.stderr == "msaa-lint: `--cluster` needs the engine of the cluster: `--backend dask` or `--backend ray`\n"
+
+
+def test_a_cluster_that_is_not_there_is_an_error_on_one_line(corpus: Path) -> None:
+    pytest.importorskip("distributed", reason="the group of test dependencies has it; not every Python has a wheel")
+    done = run_process(corpus, "check", ".", "--backend", "dask", "--cluster", "127.0.0.1:1")
+    assert (done.returncode, done.stdout) == (2, "")
+    (line,) = done.stderr.splitlines()
+    assert line.startswith("msaa-lint: --backend dask: no cluster: ConnectionRefusedError: ")
