@@ -16,7 +16,7 @@ T = TypeVar("T")
 MAX_VALUES = 500
 """The number of values that a sequence or a mapping writes at once."""
 
-MAX_UNWRITTEN = 40
+MAX_UNWRITTEN = 4
 """How many times as many values are in memory before the first are written, unless a limit is stated: most runs write none."""
 
 MAX_READ = 16
