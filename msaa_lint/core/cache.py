@@ -34,6 +34,11 @@ def digest(*parts: bytes) -> str:
     return hasher.hexdigest()
 
 
+def text_digest(text: str) -> str:
+    """A name for a text, which need not be valid Unicode."""
+    return digest(text.encode("utf-8", "surrogatepass"))
+
+
 class Cache:
     """The entries in one folder. `version` is part of the name of each: entries of other versions are not used."""
 

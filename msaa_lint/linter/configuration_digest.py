@@ -6,7 +6,7 @@ import os
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
-from msaa_lint.core.cache import digest
+from msaa_lint.core.cache import text_digest
 
 if TYPE_CHECKING:
     from .workspace import Request, ResolvedSettings
@@ -17,7 +17,7 @@ def configuration_digest(request: Request, resolved: Iterable[ResolvedSettings])
     their content. It is the same wherever the folder is."""
     stated = (request.ignores, request.format, request.frame_end, bool(request.without_baseline))
     parts = sorted(repr((_place(each.configuration), _values(each))) for each in resolved)
-    return digest(repr((stated, parts)).encode("utf-8", "surrogatepass"))
+    return text_digest(repr((stated, parts)))
 
 
 def _values(resolved: ResolvedSettings) -> tuple[object, ...]:
@@ -35,7 +35,7 @@ def _values(resolved: ResolvedSettings) -> tuple[object, ...]:
         include=tuple(glob._replace(root=_place(glob.root) or "") for glob in settings.include),
         command_line=settings.command_line._replace(pages=()),
     )
-    pages = sorted(digest(source.text.encode("utf-8", "surrogatepass")) for source in resolved.engine.registry.sources.values())
+    pages = sorted(text_digest(source.text) for source in resolved.engine.registry.sources.values())
     return stated, resolved.device, resolved.limits, pages
 
 

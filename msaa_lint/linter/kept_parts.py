@@ -16,7 +16,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from msaa_lint.core import urls
-from msaa_lint.core.cache import digest
+from msaa_lint.core.cache import digest, text_digest
 from msaa_lint.core.finding import (
     CaptureLocation,
     CaptureSummary,
@@ -33,7 +33,7 @@ from msaa_lint.core.finding import (
     Unread,
 )
 from msaa_lint.core.serialized import by_name, dumps, loads
-from msaa_lint.core.text.files import Opened, content, recording
+from msaa_lint.core.text.files import Opened, content, file_state, recording
 from msaa_lint.core.text.source import Origin, Source, Unreadable, decode
 from msaa_lint.core.text.span import Edit, Label, Span
 from msaa_lint.input.file_types import STDIN
@@ -101,13 +101,13 @@ class KeptParts:
 
     def part(self, unit: Unit) -> RunPart:
         """What an input or a program adds: as kept, or as determined now, which is then kept."""
-        found = self.found(unit)
+        key = self._key(unit)
+        found = self._found(unit, key)
         if found is not None:
             return found
         before = time.time_ns() - MIN_AGE
         with recording() as opened:
             part = self._linter.part(unit)
-        key = self._key(unit)
         if key is not None and part.summaries and not part.problems and not part.spent.turned_off:
             entry = self._program_entry(unit, part) if isinstance(unit, ProgramInput) else _entry(part, opened, before)
             if entry is not None:
@@ -117,7 +117,9 @@ class KeptParts:
 
     def found(self, unit: Unit) -> RunPart | None:
         """What an input or a program adds, if that is kept, its files are as they were, and custom rules may take what they took."""
-        key = self._key(unit)
+        return self._found(unit, self._key(unit))
+
+    def _found(self, unit: Unit, key: str | None) -> RunPart | None:
         data = self._cache.read(_KIND, key) if key is not None else None
         if data is None:
             return None
@@ -189,12 +191,10 @@ class KeptParts:
         resolved = self.workspace.resolve(path)
         if resolved.configuration not in self._settings:
             settings = resolved.settings._replace(origin={}, baseline=None, output=())
-            pages = {
-                name: digest(source.text.encode("utf-8", "surrogatepass")) for name, source in resolved.engine.registry.sources.items()
-            }
+            pages = {name: text_digest(source.text) for name, source in resolved.engine.registry.sources.items()}
             values = (os.getcwd(), self._depends_on, settings, resolved.device, resolved.limits, pages)
-            self._settings[resolved.configuration] = digest(repr(values).encode("utf-8", "surrogatepass"))
-        return digest(f"{self._settings[resolved.configuration]} {stated}".encode("utf-8", "surrogatepass"))
+            self._settings[resolved.configuration] = text_digest(repr(values))
+        return text_digest(f"{self._settings[resolved.configuration]} {stated}")
 
 
 def keeping(linter: Callable[[Workspace], PartLinter], depends_on: str, workspace: Workspace) -> Linter[RunPart]:
@@ -242,10 +242,9 @@ def _is_unchanged(path: str, known: State) -> bool:
 
 def _state(path: str) -> State:
     try:
-        status = os.stat(path)
+        return file_state(os.stat(path))
     except (OSError, ValueError):
         return []
-    return [status.st_mode, status.st_size, status.st_mtime_ns, status.st_ctime_ns, status.st_ino]
 
 
 def _program_state(name: str) -> State:

@@ -58,7 +58,7 @@ class PartLinter:
         """Lints an input or a program; problems of its files are in the result, not in the workspace."""
         with self.workspace.reading(unit) as read:
             part = self._input(unit) if isinstance(unit, str) else self._program(unit)
-        return part._replace(problems=read.findings, failed=frozenset(read.failed), spent=read.spent)
+        return part._replace(problems=read.findings, spent=read.spent)
 
     def found(self, unit: Unit) -> None:
         """Nothing is known from an earlier run."""

@@ -175,7 +175,6 @@ class _Run:
         unknown = {name: InputSummary(name, failed=True) for name in names if name not in self.summaries}
         self.summaries.update(unknown | {summary.file: summary for summary in part.summaries})
         self.workspace.sources.update(part.sources)
-        self.workspace.failed.update(part.failed)
         self.savings.update(part.savings)
         self.failing.update(part.failing)
         self.untried.update(part.untried)

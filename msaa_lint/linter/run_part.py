@@ -18,9 +18,9 @@ class RunPart(NamedTuple):
     """What one input, or the files of a program, add to the result of a run.
 
     `findings` are those after settings and before the baseline, which does not apply to `diagnostics`. `sources` has the texts that
-    reports show. `savings`, `failing`, and `untried` are by file. `problems` and `failed` are the findings about files that cannot be
-    read, and these files. `frames` are the frames with their costs, if a report shows them. `notes` are lines for standard error, `fixed`
-    the fixed texts, `passes` what passes move, if an output has rows of them, and `spent` is what custom rules took.
+    reports show. `savings`, `failing`, and `untried` are by file. `problems` are the findings about files that cannot be read. `frames`
+    are the frames with their costs, if a report shows them. `notes` are lines for standard error, `fixed` the fixed texts, `passes` what
+    passes move, if an output has rows of them, and `spent` is what custom rules took.
     """
 
     diagnostics: Sequence[Finding] = ()
@@ -33,7 +33,6 @@ class RunPart(NamedTuple):
     failing: Mapping[str, Savings] = {}
     untried: Mapping[str, bool] = {}
     problems: Sequence[Finding] = ()
-    failed: frozenset[str] = frozenset()
     frames: "Sequence[CostedFrame]" = ()
     notes: Sequence[str] = ()
     fixed: "Sequence[FixedText]" = ()
@@ -53,7 +52,6 @@ class RunPart(NamedTuple):
             {**self.failing, **other.failing},
             {**self.untried, **other.untried},
             [*self.problems, *other.problems],
-            self.failed | other.failed,
             [*self.frames, *other.frames],
             [*self.notes, *other.notes],
             [*self.fixed, *other.fixed],

@@ -192,6 +192,11 @@ def content(path: str) -> bytes | None:
         return None
 
 
+def file_state(status: os.stat_result) -> list[int]:
+    """What differs for a file if it has been written: nobody can set when its state changed last."""
+    return [status.st_mode, status.st_size, status.st_mtime_ns, status.st_ctime_ns, status.st_ino]
+
+
 def _open_named(path: str) -> int:
     mode = os.stat(path).st_mode
     if stat.S_ISDIR(mode) or stat.S_ISSOCK(mode):

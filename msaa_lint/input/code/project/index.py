@@ -13,7 +13,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from msaa_lint.core.project import shown
-from msaa_lint.core.text.files import open_entry, open_file
+from msaa_lint.core.text.files import file_state, open_entry, open_file
 from msaa_lint.input.code import mentions
 from msaa_lint.input.code.languages import unread
 from msaa_lint.input.file_types import HEAD_BYTES
@@ -185,7 +185,7 @@ class Index:
             return None
         name = shown(path)
         known = self._known.files.get(name)
-        if known is None or known[1:] != _state(os.lstat(path)):
+        if known is None or known[1:] != file_state(os.lstat(path)):
             return None
         members = self._known.words.get(known[0])
         found = _words(members) if members is not None else None
@@ -218,7 +218,7 @@ class Index:
             members = [found.length, list(found.includes), sorted(found.names), *found[3:]]
         self._used.words[key] = members
         if status is not None and max(status.st_mtime_ns, status.st_ctime_ns) < self._start - MIN_AGE:
-            self._used.files[path] = [key, *_state(status)]
+            self._used.files[path] = [key, *file_state(status)]
         return found
 
 
@@ -227,11 +227,6 @@ class _Kept(NamedTuple):
 
     files: dict[str, list[Any]]
     words: dict[str, list[Any]]
-
-
-def _state(status: os.stat_result) -> list[int]:
-    """What differs for a file if it has been written: nobody can set when its state changed last."""
-    return [status.st_mode, status.st_size, status.st_mtime_ns, status.st_ctime_ns, status.st_ino]
 
 
 def _words(members: Sequence[Any]) -> Words | None:
