@@ -27,26 +27,14 @@ from msaa_lint.experiments.study.scenes import NAMES
 from msaa_lint.experiments.study.scenes.scene import Scene
 from tests.command import Done, read_terminal
 from tests.command import run as run_command
+from tests.descriptions import CLEAN
 from tests.paths import ROOT
 
 SCHEMA = json.loads((ROOT / "msaa_lint" / "cli" / "report" / "study_v1.schema.json").read_text())
 COMMAND = (sys.executable, "-m", "msaa_lint", "study", "--isolated")
 SMALL = ("--size", "64x48", "--jobs", "1")
 
-FRAME = """\
-frame: {width: 64, height: 48, fps: 60}
-images:
-  color_ms: {format: R8G8B8A8_UNORM, samples: 8, usage: [COLOR_ATTACHMENT, TRANSIENT_ATTACHMENT], memory: [DEVICE_LOCAL, LAZILY_ALLOCATED]}
-  color: {format: R8G8B8A8_UNORM, samples: 1, usage: [COLOR_ATTACHMENT, SAMPLED], memory: [DEVICE_LOCAL]}
-renderPasses:
-  forward:
-    attachments:
-      color_ms: {image: color_ms, loadOp: CLEAR, storeOp: DONT_CARE, initialLayout: UNDEFINED, finalLayout: COLOR_ATTACHMENT_OPTIMAL}
-      color: {image: color, loadOp: DONT_CARE, storeOp: STORE, initialLayout: UNDEFINED, finalLayout: SHADER_READ_ONLY_OPTIMAL}
-    subpasses:
-      - {colorAttachments: [color_ms], resolveAttachments: [color]}
-scene: {edges: true}
-"""
+FRAME = "frame: {width: 64, height: 48, fps: 60}\n" + CLEAN.replace("samples: 4", "samples: 8") + "scene: {edges: true}\n"
 
 
 def run(folder: Path, *arguments: str, text: str = "", **environment: str) -> Done:
