@@ -4,7 +4,7 @@ import os
 import subprocess
 import sys
 
-from msaa_lint.cli.options import COMMANDS
+from msaa_lint.cli.commands import COMMANDS
 
 HEAD = """\
 # Commands

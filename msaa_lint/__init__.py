@@ -32,8 +32,8 @@ def lint(
     The location of a finding is a span of offsets into `result.sources[finding.file].text`; `Source.position` converts an offset to a line
     and a column. A problem of an input, a rule page or the configuration is a finding (MSAA9xx), never an exception.
     """
+    from .linter.request import Request
     from .linter.run import run
-    from .linter.workspace import Request
 
     overrides = {
         "select": select, "extend_select": extend_select, "ignore": ignore, "rules": rules, "profile": profile, "edition": edition,

@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 from markdown_it import MarkdownIt
 
-from msaa_lint.cli.options import COMMANDS
+from msaa_lint.cli.commands import COMMANDS
 from tests.paths import ROOT
 
 _PATTERNS = (

@@ -12,7 +12,8 @@ from typing import Annotated, Any
 import typer
 from typer.core import TyperCommand
 
-from .options import COMMANDS, Command, Option
+from .commands import COMMANDS
+from .options import Command, Option
 
 app = typer.Typer(
     name="msaa-lint",

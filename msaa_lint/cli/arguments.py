@@ -6,8 +6,9 @@ from collections.abc import Iterator, Sequence
 
 from msaa_lint.core.quote import quoted
 
+from .commands import COMMANDS, run
 from .common import UsageError, warn
-from .options import COMMANDS, Arguments, Command, Option, run
+from .options import Arguments, Command, Option
 
 HELP = ("-h", "--help", "--install-completion", "--show-completion")
 """First words that typer answers."""

@@ -5,9 +5,9 @@ from __future__ import annotations
 import os
 
 from msaa_lint.core.project import project_root
+from msaa_lint.linter.request import Request
 from msaa_lint.linter.run import run
 from msaa_lint.linter.suppress import baseline as baselines
-from msaa_lint.linter.workspace import Request
 
 from .common import log, note, overrides, refuse_inputs, run_command, warn, writes
 from .options import Arguments

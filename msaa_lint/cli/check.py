@@ -15,9 +15,9 @@ from msaa_lint.core.finding import Result, is_confident, rank
 from msaa_lint.core.spool import SpoolError
 from msaa_lint.core.text.node import Limits
 from msaa_lint.input.file_types import STDIN
+from msaa_lint.linter.request import Request
 from msaa_lint.linter.run import Outcome, Progress, run
 from msaa_lint.linter.settings.settings import COMMAND_LINE, OUTPUT_FORMATS, TABLE_FORMATS, Settings
-from msaa_lint.linter.workspace import Request
 
 from .common import (
     Target,

@@ -26,7 +26,7 @@ from .report.escape import escape
 from .streams import OutputError
 
 if TYPE_CHECKING:
-    from msaa_lint.linter.workspace import Division
+    from msaa_lint.linter.request import Division
 
 MAX_RENDER_SIDE = 16384
 """Width and height of a rendered picture, in pixels."""
@@ -288,14 +288,14 @@ def require_engine(arguments: Arguments) -> None:
 
 def division(arguments: Arguments) -> "Division":
     """Who reads the inputs. UsageError for an address without an engine."""
-    from msaa_lint.linter.workspace import Division
+    from msaa_lint.linter.request import Division
 
     require_engine(arguments)
     return Division(arguments.get("backend"), arguments.get("cluster"), arguments.get("jobs"))
 
 
 def input_options(arguments: Arguments) -> dict[str, Any]:
-    """The members of a `linter.workspace.Request` that all commands fill alike."""
+    """The members of a `linter.request.Request` that all commands fill alike."""
     return {
         "paths": arguments["paths"],
         "config": arguments.get("config"),

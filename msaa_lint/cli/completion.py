@@ -7,8 +7,9 @@ Values = Iterable[tuple[str, str]]
 
 def rules() -> Values:
     """The names and codes of the rules, custom ones of the configuration included."""
+    from msaa_lint.linter.request import Request
     from msaa_lint.linter.settings.selectors import RuleNames
-    from msaa_lint.linter.workspace import Request, Workspace
+    from msaa_lint.linter.workspace import Workspace
 
     for rule in RuleNames(Workspace(Request([])).current.engine.registry.rules).rules:
         yield rule.name, rule.code

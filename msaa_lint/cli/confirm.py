@@ -37,7 +37,7 @@ from .report.escape import escape
 if TYPE_CHECKING:
     from msaa_lint.experiments.confirm.inputs import Inputs
     from msaa_lint.experiments.confirm.trial import TrialOptions
-    from msaa_lint.linter.workspace import Request
+    from msaa_lint.linter.request import Request
 
 COUNTS = (1, 2, 4, 8, 16, 32, 64)
 
@@ -136,7 +136,7 @@ def _run_divided(arguments: Arguments, options: ConfirmOptions, jobs: int) -> in
 
 
 def _request(arguments: Arguments) -> Request:
-    from msaa_lint.linter.workspace import Request
+    from msaa_lint.linter.request import Request
 
     return Request(**input_options(arguments), overrides=overrides(arguments))
 

@@ -14,9 +14,10 @@ from msaa_lint.core.text.tree import Limits
 from msaa_lint.core.urls import is_url, name_of
 from msaa_lint.input.file_types import DESCRIPTIONS, STDIN
 from msaa_lint.input.opening import load
+from msaa_lint.linter.request import ALONE, Request
 from msaa_lint.linter.source_programs import units_of
 from msaa_lint.linter.unit_parts import parts
-from msaa_lint.linter.workspace import ALONE, Request, Unit, Workspace
+from msaa_lint.linter.workspace import Unit, Workspace
 
 from .common import UsageError, input_options, internal_errors_of, note, refuse_inputs, run_command, warn, write_output, writes
 from .conversion import Conversion, ConvertLinter, converted, input_path, of_programs

@@ -17,7 +17,7 @@ from msaa_lint.frame.cost.input_cost import CostComparison, compare_inputs
 from msaa_lint.frame.cost.samples import COUNTS
 from msaa_lint.frame.cost.variants import DEFAULT_COUNTS
 from msaa_lint.linter.cost_run import CostResult, run_costs
-from msaa_lint.linter.workspace import Request
+from msaa_lint.linter.request import Request
 
 from .common import (
     Target,

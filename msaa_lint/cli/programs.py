@@ -41,7 +41,8 @@ def are_programs(arguments: Arguments) -> bool:
 def read_programs(arguments: Arguments) -> Programs:
     """The programs of folders and source files."""
     from msaa_lint.input.source_file import SourceFile
-    from msaa_lint.linter.workspace import Request, Workspace
+    from msaa_lint.linter.request import Request
+    from msaa_lint.linter.workspace import Workspace
 
     workspace = Workspace(Request(arguments["paths"], cache=not arguments.get("no_cache"), traceback=bool(arguments.get("traceback"))))
     discovered = workspace.discover(sources=True)
@@ -72,7 +73,8 @@ def assumed_values(path: str) -> Mapping[str, bool | int | str]:
     by `read_programs`."""
     if not path.lower().endswith(_PAGE_ENDINGS):
         return {}
-    from msaa_lint.linter.workspace import Request, Workspace
+    from msaa_lint.linter.request import Request
+    from msaa_lint.linter.workspace import Workspace
 
     return Workspace(Request([path])).resolve(path).settings.source
 

@@ -11,10 +11,11 @@ from collections.abc import Collection, Sequence
 from msaa_lint.core.diagnostics import DIAGNOSTICS
 from msaa_lint.core.finding import RuleInfo
 from msaa_lint.core.quote import quoted
+from msaa_lint.linter.request import Request
 from msaa_lint.linter.rules.registry import markdown
 from msaa_lint.linter.rules.rule import APIS, PASSES, Rule
 from msaa_lint.linter.settings.selectors import RuleNames
-from msaa_lint.linter.workspace import Request, Workspace
+from msaa_lint.linter.workspace import Workspace
 
 from .common import overrides, run_command, warn
 from .options import Arguments

@@ -15,7 +15,7 @@ from msaa_lint.experiments.study.tasks import StudyInput, Unusable
 from msaa_lint.frame.devices import DeviceProfile
 from msaa_lint.frame.facts.frame import Frame
 from msaa_lint.frame.profiles import Problem, profile_of
-from msaa_lint.linter.workspace import Request
+from msaa_lint.linter.request import Request
 
 from .common import MAX_RENDER_SIDE, UsageError, input_options, overrides
 from .options import Arguments

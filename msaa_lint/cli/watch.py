@@ -17,9 +17,9 @@ from msaa_lint.core.urls import is_url, name_of
 from msaa_lint.frame.devices.paths import is_path, split
 from msaa_lint.input.file_types import CAPTURES, DATA, PAGE_ENDINGS, SOURCES, STDIN
 from msaa_lint.input.folder_search import SKIPPED_FOLDERS
+from msaa_lint.linter.request import Request
 from msaa_lint.linter.settings.config import Configurations
 from msaa_lint.linter.settings.settings import override
-from msaa_lint.linter.workspace import Request
 
 from .common import UsageError, note
 from .options import Arguments

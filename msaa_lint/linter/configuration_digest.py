@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 from msaa_lint.core.cache import text_digest
 
 if TYPE_CHECKING:
-    from .workspace import Request, ResolvedSettings
+    from .input_file import ResolvedSettings
+    from .request import Request
 
 
 def configuration_digest(request: Request, resolved: Iterable[ResolvedSettings]) -> str:

@@ -13,12 +13,14 @@ from msaa_lint.frame.cost.amounts import Terms
 from msaa_lint.frame.cost.input_cost import CostedFrame
 
 from .costed_frames import costed_frames
+from .input_file import InputFile
 from .input_summary import input_summary
+from .request import ALONE, Request
 from .results import DocumentResult, FileResult, can_try_fixes
 from .rules.budget import Spent
 from .savings import Trials
 from .unit_parts import parts
-from .workspace import ALONE, InputFile, Request, Unit, Workspace
+from .workspace import Unit, Workspace
 
 MAX_FRAMES = 50
 """The number of frames with their costs that stay in memory: each takes some ten kilobytes."""

@@ -13,9 +13,10 @@ from msaa_lint.core.execution.backend import Unusable
 from msaa_lint.core.text.files import content, recording, with_buffers
 
 from .input_runs import InputRuns, Linter, Part, Task
+from .request import Request
 from .rules.registry import pages
 from .settings.config import KnownConfigurations, Loaded
-from .workspace import Request, Workspace
+from .workspace import Workspace
 
 
 class Snapshot(NamedTuple):

@@ -11,11 +11,12 @@ from msaa_lint.core.text.source import Source
 from msaa_lint.core.urls import is_url
 from msaa_lint.input.file_types import STDIN
 
+from .input_file import InputFile
 from .input_summary import input_summaries
 from .results import FileResult, can_try_fixes, finding_kind
 from .run_part import RunPart
 from .source_programs import ProgramInput
-from .workspace import InputFile, Unit, Workspace
+from .workspace import Unit, Workspace
 
 if TYPE_CHECKING:
     from .savings import Trials

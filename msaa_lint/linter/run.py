@@ -12,12 +12,13 @@ from msaa_lint.core.spool import SpooledDict, SpooledList
 from .engine import rule_infos
 from .input_runs import is_worth_keeping
 from .part_linter import Contents, PartLinter, Results
+from .request import Request
 from .run_findings import RunFindings
 from .run_part import RunPart
 from .settings.settings import TABLE_FORMATS, Settings
 from .source_programs import units_of
 from .unit_parts import parts
-from .workspace import Request, Unit, Workspace
+from .workspace import Unit, Workspace
 
 if TYPE_CHECKING:
     from msaa_lint.frame.cost.input_cost import CostedFrame

@@ -3,7 +3,8 @@
 from collections.abc import Generator, Sequence
 
 from .input_runs import MAX_UNITS, InputRuns, Linter, Part, processes
-from .workspace import ALONE, Division, Unit
+from .request import ALONE, Division
+from .workspace import Unit
 
 
 def parts(linter: Linter[Part], units: Sequence[Unit], division: Division = ALONE, per_task: int = MAX_UNITS) -> Generator[Part]:

@@ -1,39 +1,37 @@
 """The settings, rules and inputs of one run: settings are resolved for a file before it is opened."""
 
 import os
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING
 
 from msaa_lint.core import urls
 from msaa_lint.core.allowance import Allowance
 from msaa_lint.core.diagnostics import diagnostic, internal_error
-from msaa_lint.core.finding import Finding, rank
+from msaa_lint.core.finding import Finding
 from msaa_lint.core.garbage import collect_garbage
-from msaa_lint.core.project import shown
-from msaa_lint.core.quote import quoted
 from msaa_lint.core.spool import Spool, SpooledDict
 from msaa_lint.core.text.files import is_there
-from msaa_lint.core.text.source import Source, Unreadable, encode
+from msaa_lint.core.text.source import Source, Unreadable
 from msaa_lint.core.text.tree import Limits
-from msaa_lint.frame.devices import DeviceProfile
 from msaa_lint.frame.profiles import Problem, profile_of
 from msaa_lint.input import opening
 from msaa_lint.input.discovery import Discovered, discover
 from msaa_lint.input.file_types import STDIN
 
 from .engine import Engine, LintOptions, load_rules
-from .fixes.fixer import Lint
-from .results import FileResult, finding_kind, unmerged
+from .input_file import InputFile, ResolvedSettings, configuration_name
+from .request import Request
 from .rules.budget import Spent
 from .rules.registry import folder as pages_folder
 from .rules.rule import EDITIONS
 from .run_limits import RunLimits
 from .settings.config import Configurations, KnownConfigurations, Loaded
+from .settings.invalid_values import invalid_values
 from .settings.selection import Selection
 from .settings.selectors import Weighed, unknown_selectors
-from .settings.settings import COMMAND_LINE, Settings, override
+from .settings.settings import Settings, override
 from .source_programs import ProgramInput, is_read_together, programs, related_text
 
 if TYPE_CHECKING:
@@ -43,126 +41,6 @@ if TYPE_CHECKING:
     from msaa_lint.input.source_file import SourceFile, SourceText
 
     from .rules.budget import Budget
-
-
-class Division(NamedTuple):
-    """Who reads the inputs: the workers of a cluster (`backend` is its engine, `cluster` its address), or processes of this machine. `jobs`
-    is the number of inputs at once (None: the workers, or the cores if there is enough to do)."""
-
-    backend: str | None = None
-    cluster: str | None = None
-    jobs: int | None = None
-
-
-ALONE = Division(jobs=1)
-"""This process reads the inputs."""
-
-
-class Request(NamedTuple):
-    """What a run is asked to do.
-
-    `overrides` are keyword arguments of `settings.override`. `data` replaces standard input, which findings call `stdin_filename`.
-    `format` forces a reader, `frame_end` says what ends the frames of captures. `formats` are the outputs to print instead of those in the
-    settings, and `fallback` is the output if neither names one: findings get prices only if an output shows them. `by_price` sorts findings
-    by price, highest first. `fix` is `write` to fix files in place, or `show` to compute the fixes only; `unsafe_fixes` includes fixes that
-    may change the picture. Standard input is never written. `keys` is the number of undecided rules of an input for which a key is looked
-    up that they lack (None: of all), and `all_keys` finds all keys that undecided rules lack, and not only the next one. `log` is called
-    with a line for each configuration and each input that is used. `traceback` raises an exception that linting an input causes, instead
-    of reporting it. `cache` uses and keeps results in the user's cache folder. `division` says who reads the inputs. `edits` writes the
-    edits of fixes into the findings.
-    """
-
-    paths: Sequence[str]
-    overrides: Mapping[str, Any] = {}
-    config: str | None = None
-    isolated: bool = False
-    ignores: bool = True
-    format: str | None = None
-    frame_end: str | None = None
-    stdin_filename: str | None = None
-    data: bytes | None = None
-    full_rules: bool = False
-    without_baseline: bool = False
-    formats: Sequence[str] = ()
-    fallback: str = "json"
-    by_price: bool = False
-    fix: str | None = None
-    unsafe_fixes: bool = False
-    keys: int | None = None
-    all_keys: bool = False
-    log: Callable[[str], None] | None = None
-    traceback: bool = False
-    cache: bool = False
-    division: Division = ALONE
-    edits: bool = True
-
-    def input_name(self, path: str) -> str:
-        """The name of an input in findings."""
-        return (self.stdin_filename or "<stdin>") if path == STDIN else path
-
-
-class ResolvedSettings(NamedTuple):
-    """The settings that apply to a file, with the rules, the device and the limits that they name."""
-
-    settings: Settings
-    selection: Selection
-    engine: Engine
-    device: DeviceProfile | None
-    limits: Limits
-    configuration: str | None
-
-
-class InputFile(NamedTuple):
-    """An input that has been read, and how to lint it. `path` is `-` for standard input; findings below `min_severity` are hidden."""
-
-    path: str
-    name: str
-    data: "bytes | CaptureInput | SourceFile"
-    resolved: ResolvedSettings
-    options: LintOptions
-    min_severity: str
-    log: Callable[[str], None] | None = None
-
-    def lint(self, data: bytes | None = None, prices: bool = False) -> FileResult:
-        """The findings of the input, or of other `data` in its place."""
-        result = self.resolved.engine.lint(self.data if data is None else data, self.name, self.options._replace(prices=prices))
-        if data is None and self.log is not None:
-            formats = [getattr(self.data, "format", ""), getattr(self.data, "language", "")]
-            formats += [document.document.format for document in result.documents]
-            where = f", {_named(self.resolved.configuration)}" if self.resolved.configuration is not None else ""
-            self.log(f"{self.name}: read as {next(filter(None, formats), 'nothing')}{where}")
-        return result
-
-    def fixable(self, result: FileResult) -> Callable[[Finding], bool]:
-        """Whether to fix a finding of the input or of its description: one that the settings turn off or hide is left alone."""
-        settle, least = self.resolved.selection.settle, rank(self.min_severity)
-
-        def is_shown(finding: Finding) -> bool:
-            return rank(finding.severity) >= least and settle(finding) is not None
-
-        if not result.is_code:
-            return is_shown
-        # The description has neither the comments of the code nor its lower confidence.
-        reported = {finding_kind(finding) for finding in result.findings}
-        return lambda finding: finding_kind(finding) in reported and is_shown(finding)
-
-    def description(self, result: FileResult) -> tuple[FileResult, Lint]:
-        """The result of linting the text that fixes edit, and a function that lints other contents of that text, to try fixes.
-
-        The text is the input itself or, if `result` is that of a capture or source code, the description that `convert` writes of it.
-        """
-        data, engine, name = self.data, self.resolved.engine, self.name
-        # Of a trial, only the findings count.
-        options = self.options._replace(prices=False, keys=None)
-        if isinstance(data, bytes):
-            return unmerged(result), lambda text: unmerged(engine.lint(encode(text, data), name, options))
-        modules = data.modules
-
-        def lint(text: str) -> FileResult:
-            # Without origins, the order of commands would be checked as that of a description that a person wrote.
-            return engine.lint_description(Source(name, text, []), name, options, modules)
-
-        return result.description or lint(data.description), lint
 
 
 MAX_TEXTS = 64
@@ -220,7 +98,7 @@ class Workspace:
             self.findings.extend(loaded.findings)
             self.sources.update(loaded.sources)
             settings = override(loaded.settings, **self.request.overrides)
-            self.findings.extend(_invalid_values(settings))
+            self.findings.extend(invalid_values(settings))
             self._settings[loaded.path] = settings
         return self._settings[loaded.path]
 
@@ -240,7 +118,9 @@ class Workspace:
             if self.request.log is not None:
                 enabled = sum(map(selection.enabled, engine.registry.rules))
                 profile = f", profile {settings.profile}" if settings.profile is not None else ""
-                self.request.log(f"{_named(loaded.path)}: edition {settings.edition or EDITIONS[-1]}, {enabled} rules enabled{profile}")
+                self.request.log(
+                    f"{configuration_name(loaded.path)}: edition {settings.edition or EDITIONS[-1]}, {enabled} rules enabled{profile}"
+                )
             self._resolved[loaded.path] = ResolvedSettings(
                 settings,
                 selection,
@@ -484,28 +364,3 @@ class Workspace:
             self.failed.add(path)
             return None
         return content
-
-
-def _named(configuration: str | None) -> str:
-    return "no configuration file" if configuration is None else f"configuration {shown(configuration)}"
-
-
-def _invalid_values(settings: Settings) -> list[Finding]:
-    """A finding for each setting with the right form that names nothing: an unknown edition or profile, a missing rule page."""
-    findings = []
-    if settings.fail_on_cost is not None:
-        from .settings.cost_limit import budget
-
-        try:
-            budget(settings.fail_on_cost)
-        except ValueError as error:
-            findings.append(settings.problem("fail-on-cost", f"invalid cost {quoted(settings.fail_on_cost)}", str(error)))
-    if settings.edition is not None and settings.edition not in EDITIONS:
-        message = f"unknown edition {quoted(settings.edition)}: expected one of {', '.join(EDITIONS)}"
-        findings.append(settings.problem("edition", message))
-    profile = profile_of(settings.profile, settings.project("profile")) if settings.profile is not None else None
-    if isinstance(profile, Problem):
-        findings.append(settings.problem("profile", profile.message, profile.help))
-    # Those of a configuration are checked where it is read.
-    missing = [quoted(os.path.relpath(path), 200) for path in settings.rules if not is_there(path)]
-    return findings + [diagnostic("MSAA921", f"no such file or folder {path} in `--rules`", COMMAND_LINE) for path in missing]

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from msaa_lint.cli.arguments import parse
-from msaa_lint.cli.options import COMMANDS
+from msaa_lint.cli.commands import COMMANDS
 from tests.command import run
 
 FLAGS = [(name, option) for name, command in COMMANDS.items() for option in command.options]

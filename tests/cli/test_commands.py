@@ -9,7 +9,8 @@ from pathlib import Path
 import pytest
 
 from msaa_lint import __version__
-from msaa_lint.cli.options import CAPTURE_FORMATS, COMMANDS, INPUT_FORMATS, SHARED
+from msaa_lint.cli.commands import COMMANDS
+from msaa_lint.cli.options import CAPTURE_FORMATS, INPUT_FORMATS, SHARED
 from msaa_lint.input import readers
 from msaa_lint.input.file_types import LANGUAGES
 from msaa_lint.linter.settings.settings import OUTPUT_FORMATS

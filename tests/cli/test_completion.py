@@ -10,7 +10,8 @@ from pathlib import Path
 
 import pytest
 
-from msaa_lint.cli.options import CHECK_FORMATS, COMMANDS
+from msaa_lint.cli.commands import COMMANDS
+from msaa_lint.cli.options import CHECK_FORMATS
 from tests.command import run, run_process
 from tests.paths import ROOT
 

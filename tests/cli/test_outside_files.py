@@ -388,8 +388,9 @@ def test_a_folder_has_no_inputs_elsewhere(project: Path) -> None:
 
 
 def test_a_link_that_changes_after_the_search_is_not_followed(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    from msaa_lint.linter.request import Request
     from msaa_lint.linter.run import run as lint
-    from msaa_lint.linter.workspace import Request, Workspace
+    from msaa_lint.linter.workspace import Workspace
 
     (project / "other.msaa.yaml").write_text(FRAME)
     discover = Workspace.discover

@@ -15,7 +15,7 @@ from threading import Timer
 import pytest
 
 from msaa_lint.cli.watch import Watched
-from msaa_lint.linter.workspace import Request
+from msaa_lint.linter.request import Request
 from tests.cli.test_verbosity import CLEAN, STORED
 from tests.command import environment_of, run, run_process
 

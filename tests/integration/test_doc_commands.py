@@ -18,7 +18,7 @@ import pytest
 import yaml
 
 from msaa_lint import lint
-from msaa_lint.cli.options import COMMANDS
+from msaa_lint.cli.commands import COMMANDS
 from msaa_lint.frame.description.models import Description
 from tests.command import environment_of, run
 from tests.doc_blocks import PAGES, Block, blocks

@@ -12,7 +12,8 @@ from msaa_lint.core.execution.backend import Unusable
 from msaa_lint.linter.input_runs import InputRuns, Numbered, Task
 from msaa_lint.linter.job import Job, TravelledJob
 from msaa_lint.linter.part_linter import Contents, PartLinter
-from msaa_lint.linter.workspace import Request, Workspace
+from msaa_lint.linter.request import Request
+from msaa_lint.linter.workspace import Workspace
 from tests.descriptions import STORED
 
 RULE = """\

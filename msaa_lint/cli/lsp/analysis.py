@@ -14,9 +14,9 @@ from pygls.uris import to_fs_path
 from msaa_lint.core.finding import Finding, Suppressed, Undecided
 from msaa_lint.core.text.source import Source
 from msaa_lint.core.text.span import Edit, Span
+from msaa_lint.linter.input_file import InputFile, ResolvedSettings
 from msaa_lint.linter.results import FileResult
 from msaa_lint.linter.rules.registry import Registry
-from msaa_lint.linter.workspace import InputFile, ResolvedSettings
 
 from .positions import Positions
 from .view import View

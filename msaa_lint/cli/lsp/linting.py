@@ -17,11 +17,13 @@ from msaa_lint.core.text.files import with_buffers
 from msaa_lint.input.content import MAX_BYTES, kind_of_text, own_output
 from msaa_lint.input.file_types import DATA, DESCRIPTIONS, HEAD_BYTES, INPUT, SOURCES, STDIN
 from msaa_lint.input.readers import capture_format
+from msaa_lint.linter.input_file import InputFile, ResolvedSettings
+from msaa_lint.linter.request import Request
 from msaa_lint.linter.results import FileResult, location_order
 from msaa_lint.linter.rules.front_matter import split
 from msaa_lint.linter.rules.registry import folder, pages
 from msaa_lint.linter.run import run
-from msaa_lint.linter.workspace import InputFile, Request, ResolvedSettings, Workspace
+from msaa_lint.linter.workspace import Workspace
 
 from .analysis import Analysis, Kind
 from .documents import OpenDocument

@@ -9,9 +9,10 @@ from typing import Any, NamedTuple
 
 from msaa_lint.core.finding import Finding
 from msaa_lint.core.scratch import remove_abandoned
+from msaa_lint.linter.request import Division, Request
 from msaa_lint.linter.rules.budget import Spent
 from msaa_lint.linter.unit_parts import parts
-from msaa_lint.linter.workspace import Division, Request, Unit, Workspace
+from msaa_lint.linter.workspace import Unit, Workspace
 
 from .inputs import Input, Inputs, errors, of_file
 from .outcome import DeviceInfo, DeviceRun, Verdict

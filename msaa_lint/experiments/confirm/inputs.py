@@ -20,8 +20,10 @@ from msaa_lint.input.capture_input import limit_findings
 from msaa_lint.input.source_file import SourceFile
 from msaa_lint.linter.engine import UNLIMITED
 from msaa_lint.linter.fixes.file_fixes import FixedText, fix_input
+from msaa_lint.linter.input_file import InputFile
+from msaa_lint.linter.request import Request
 from msaa_lint.linter.results import DocumentResult, FileResult, unmerged
-from msaa_lint.linter.workspace import InputFile, Request, Workspace
+from msaa_lint.linter.workspace import Workspace
 
 
 class Input(NamedTuple):

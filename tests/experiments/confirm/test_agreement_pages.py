@@ -15,7 +15,7 @@ from msaa_lint.experiments.confirm.session import Session, environment
 from msaa_lint.experiments.confirm.trial import TrialOptions, trial
 from msaa_lint.frame.description.models import RenderPass, Subpass
 from msaa_lint.frame.facts.parts import Pass
-from msaa_lint.linter.workspace import Request
+from msaa_lint.linter.request import Request
 from tests.pages import all_examples
 from tests.paths import ROOT
 

@@ -14,8 +14,8 @@ import jsonschema
 import pytest
 
 from msaa_lint.cli.arguments import parse
+from msaa_lint.cli.commands import COMMANDS
 from msaa_lint.cli.common import UsageError
-from msaa_lint.cli.options import COMMANDS
 from msaa_lint.core.extras import needs_extra
 from tests.descriptions import CLEAN
 from tests.paths import ROOT

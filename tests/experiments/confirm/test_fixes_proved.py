@@ -10,7 +10,7 @@ from msaa_lint.experiments.confirm.inputs import Input, inputs
 from msaa_lint.experiments.confirm.outcome import CONFIRMED, DISAGREES, REFUSED, DeviceRun
 from msaa_lint.experiments.confirm.session import Session, environment
 from msaa_lint.experiments.confirm.trial import TrialOptions, trial
-from msaa_lint.linter.workspace import Request
+from msaa_lint.linter.request import Request
 from tests.pages import all_examples
 from tests.paths import ROOT
 

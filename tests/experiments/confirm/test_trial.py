@@ -24,7 +24,7 @@ from msaa_lint.experiments.confirm.planner import PlannedFrame
 from msaa_lint.experiments.confirm.session import Session
 from msaa_lint.experiments.confirm.trial import TrialOptions, trial
 from msaa_lint.frame.facts.frame import Frame
-from msaa_lint.linter.workspace import Request
+from msaa_lint.linter.request import Request
 from tests.paths import ROOT
 
 SCHEMA = json.loads((ROOT / "msaa_lint" / "cli" / "report" / "confirm_v1.schema.json").read_text())

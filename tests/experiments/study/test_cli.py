@@ -17,8 +17,8 @@ import pytest
 
 from msaa_lint.cli import study as command
 from msaa_lint.cli.arguments import parse
+from msaa_lint.cli.commands import COMMANDS
 from msaa_lint.cli.common import UsageError
-from msaa_lint.cli.options import COMMANDS
 from msaa_lint.core.extras import needs_extra
 from msaa_lint.experiments.confirm.png import is_own_picture
 from msaa_lint.experiments.study import measure

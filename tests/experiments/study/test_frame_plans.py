@@ -13,7 +13,7 @@ from msaa_lint.experiments.confirm.parts import NONE, Image, Pass, Plan
 from msaa_lint.experiments.confirm.session import Session, environment
 from msaa_lint.experiments.study.frame_plans import FramePlans
 from msaa_lint.experiments.study.points import MSAA, SAMPLE_SHADING, SSAA, Technique
-from msaa_lint.linter.workspace import Request
+from msaa_lint.linter.request import Request
 from tests.experiments.confirm.frames import frame
 from tests.paths import ROOT
 

@@ -12,7 +12,7 @@ from msaa_lint.frame.devices.tile_models import MODELS
 from msaa_lint.frame.devices.tiles import bins, tile_use
 from msaa_lint.frame.vulkan.formats import Format, format_of
 from msaa_lint.linter.cost_run import run_costs
-from msaa_lint.linter.workspace import Request
+from msaa_lint.linter.request import Request
 from tests.frame.cost.frames import cost, example
 from tests.frame.cost.published import CONFIGURATIONS, FITTED_ON, MB_PER_MIB, fitted, predictions
 from tests.frame.cost.triangles import invocations_at_most

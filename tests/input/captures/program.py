@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from typing import Any
 
 from msaa_lint.core import finding
+from msaa_lint.linter.request import Request
 from msaa_lint.linter.run import run
-from msaa_lint.linter.workspace import Request
 
 Args = dict[str, Any]
 

@@ -20,7 +20,7 @@ from msaa_lint.frame.cost.amounts import Terms
 from msaa_lint.frame.cost.graph import Flow, FrameGraph, GraphImage, GraphPass
 from msaa_lint.frame.cost.input_cost import CostedFrame
 from msaa_lint.linter.cost_run import run_costs
-from msaa_lint.linter.workspace import Request
+from msaa_lint.linter.request import Request
 from tests.cli.report.sample import finding, printed, result
 from tests.command import run
 from tests.paths import ROOT
