@@ -114,7 +114,9 @@ def test_one_input_that_ends_processes_is_a_finding_of_it(corpus: Path) -> None:
         {**next(each for each in found if each["file"] == "other/04.msaa.yaml"), "code": "MSAA941"}
     ]
     (lost,) = [each for each in found if each["file"] == "other/04.msaa.yaml"]
-    assert lost["message"] == "not linted: it ended the process that read it (SIGKILL)"
+    assert lost["message"] == (
+        "not linted: it ended the process that read it (SIGKILL): memory probably ran out; use fewer `--jobs` or more memory"
+    )
     assert [each for each in found if each != lost] == [each for each in expected if each["file"] != "other/04.msaa.yaml"]
 
 

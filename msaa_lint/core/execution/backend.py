@@ -15,8 +15,9 @@ Result = TypeVar("Result")
 MAX_DEATHS = 2
 """The number of processes that a task may end before it counts as failed."""
 
-ENDED_WORKERS = "it ended the workers that read it"
-"""Why a task failed that ended so many workers of a cluster, the same with every cluster."""
+ENDED_WORKERS = "it ended the workers that read it: give them more memory; if that does not help, please report it with the input"
+"""Why a task failed that ended so many workers of a cluster, and what to do: the same with every cluster, which do not say how they
+ended."""
 
 Work = Callable[[Task], Result]
 """What is done with a task. It travels to other processes, as tasks and results do."""

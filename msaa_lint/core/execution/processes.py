@@ -134,7 +134,7 @@ class _Process(Generic[Task, Result]):
         for other in others:
             waiting.repeat(*other)
         if not waiting.died(task, deaths):
-            yield task, Failure(f"it ended the process that read it ({_reason(self._process.exitcode)})")
+            yield task, Failure(_ended(self._process.exitcode))
         self.connection.close()
 
     def end(self) -> None:
@@ -155,6 +155,14 @@ def _few_threads() -> Iterator[None]:
     finally:
         for name in stated:
             del os.environ[name]
+
+
+def _ended(code: int | None) -> str:
+    """Why a task failed that ended its processes, and what to do."""
+    reason = _reason(code)
+    # The system kills processes when it runs out of memory.
+    advice = "memory probably ran out; use fewer `--jobs` or more memory" if reason == "SIGKILL" else "please report it with the input"
+    return f"it ended the process that read it ({reason}): {advice}"
 
 
 def _reason(code: int | None) -> str:

@@ -17,7 +17,7 @@ from typing import Any
 import pytest
 
 from msaa_lint.core.execution import dask_cluster, ray_cluster
-from msaa_lint.core.execution.backend import Backend, Failure, Unusable
+from msaa_lint.core.execution.backend import ENDED_WORKERS, Backend, Failure, Unusable
 from msaa_lint.core.execution.engines import open_backend
 from msaa_lint.core.execution.processes import Processes
 from tests.paths import ROOT
@@ -93,7 +93,7 @@ def test_a_task_that_ends_processes_fails_alone(cluster: Backend) -> None:
     """The others of its group are done, and those that its worker had; an exception fails the whole task."""
     tasks = [(10, 11), (12, 13, 14), (7, 8), (13,), *((number,) for number in range(15, 25))]
     found = dict(cluster.results(work.poisonous, tasks, work.split))
-    assert found.pop((13,)) == Failure("it ended the workers that read it")
+    assert found.pop((13,)) == Failure(ENDED_WORKERS)
     squares = {(number,): [number * number] for number in (12, 14, *range(15, 25))}
     assert found == {(10, 11): [100, 121], (7, 8): Failure("ValueError: it is 7"), **squares}
 

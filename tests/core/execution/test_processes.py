@@ -67,7 +67,7 @@ def test_a_task_that_ends_processes_fails_alone(processes: Processes) -> None:
     """The others of its group are done; an exception fails the whole task."""
     tasks = [(10, 11), (12, 13, 14), (7, 8), (13,), (15,)]
     found = dict(processes.results(work.poisonous, tasks, work.split))
-    ended = Failure("it ended the process that read it (SIGKILL)")
+    ended = Failure("it ended the process that read it (SIGKILL): memory probably ran out; use fewer `--jobs` or more memory")
     assert found == {(10, 11): [100, 121], (12,): [144], (13,): ended, (14,): [196], (7, 8): Failure("ValueError: it is 7"), (15,): [225]}
 
 

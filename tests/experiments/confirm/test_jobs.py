@@ -96,7 +96,7 @@ def test_an_input_that_ends_processes_is_the_only_one_lost(folder: Path) -> None
         each for each in expected["passes"] if each["file"] == "frames/2.msaa.yaml"
     ]
     assert [each["message"] for each in found["errors"] if each not in expected["errors"]] == [
-        "not linted: it ended the process that read it (SIGKILL)"
+        "not linted: it ended the process that read it (SIGKILL): memory probably ran out; use fewer `--jobs` or more memory"
     ]
 
 

@@ -56,7 +56,7 @@ def test_a_worker_that_dies_takes_only_its_own_point() -> None:
     results = in_order(list(sweep(tasks("a", "dies", techniques=FEW), jobs=2, measure=measure)), "a", "dies", own=FEW)
     (failed,) = [each for each in results if isinstance(each, FailedPoint)]
     assert (failed.scene, failed.technique) == ("dies", Technique(MSAA, 4))
-    assert failed.reason == "it ended the process that read it (exit code 3)"
+    assert failed.reason == "it ended the process that read it (exit code 3): please report it with the input"
     assert len(results) == 8
 
 
