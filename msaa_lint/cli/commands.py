@@ -155,7 +155,13 @@ COMMANDS = {
                 FORCE,
                 COLOR,
             ),
-            "Inputs": (*INPUTS, DIVISION[0]._replace(help="Inputs to try at once, unless times are measured.", default="1")),
+            "Inputs": (
+                *INPUTS,
+                DIVISION[0]._replace(
+                    help="Inputs to try at once, unless times are measured.", default="1; the workers of a cluster"
+                ),
+                *CLUSTER,
+            ),
             "Configuration": CONFIGURATION,
             "Other": (
                 GLOBAL[0],

@@ -8,6 +8,7 @@ from functools import partial
 from typing import IO, TYPE_CHECKING, Any, NamedTuple
 
 from msaa_lint.core.child_environment import ignored_paths
+from msaa_lint.core.execution.backend import Unusable as NoCluster
 from msaa_lint.core.quote import quoted
 from msaa_lint.experiments.confirm.child import Limits
 from msaa_lint.experiments.confirm.outcome import DeviceRun, about, exit_code
@@ -18,6 +19,7 @@ from .common import (
     MAX_RENDER_SIDE,
     Target,
     UsageError,
+    division,
     input_options,
     note,
     overrides,
@@ -58,7 +60,7 @@ class ConfirmOptions(NamedTuple):
 
 def confirm(arguments: Arguments) -> int:
     """Renders what the arguments name on a device and prints the verdicts; returns the exit code."""
-    return run_command(_confirm, arguments, (NotWritten, Unusable), terminable=True)
+    return run_command(_confirm, arguments, (NotWritten, Unusable, NoCluster), terminable=True)
 
 
 def _confirm(arguments: Arguments) -> int:
@@ -70,9 +72,8 @@ def _confirm(arguments: Arguments) -> int:
         return _list_devices(options)
     if not arguments["paths"]:
         raise UsageError("no input: give files or folders to confirm, or --list-devices")
-    jobs = _jobs(arguments, options)
-    if jobs > 1:
-        return _run_divided(arguments, options, jobs)
+    if _is_divided(arguments, options):
+        return _run_divided(arguments, options)
     with options.session(options.devices[0]).session() as session:
         # The device opens while the inputs are read.
         session.start()
@@ -110,12 +111,17 @@ def _parse_seconds(text: str) -> float:
     return seconds
 
 
-def _jobs(arguments: Arguments, options: ConfirmOptions) -> int:
-    """The number of inputs to try at once: one if times are measured, or lines are printed in the order in which inputs are tried."""
-    jobs: int = arguments.get("jobs", 1)
-    if jobs == 1 or options.trial["time"] or arguments.get("verbose") or arguments.get("traceback"):
-        return 1
-    return jobs if options.trial["time"] is False or all(map(_is_software, map(options.session, options.devices))) else 1
+def _is_divided(arguments: Arguments, options: ConfirmOptions) -> bool:
+    """Whether other processes try the inputs: not if times are measured, or lines are printed in the order in which inputs are tried."""
+    backend, _, jobs = division(arguments)
+    time = options.trial["time"]
+    if backend is not None and time:
+        raise UsageError("`--time` measures times on this machine: leave out `--backend`")
+    if arguments.get("verbose") or arguments.get("traceback"):
+        return False
+    if backend is not None:
+        return True
+    return (jobs or 1) > 1 and (time is False or (not time and all(map(_is_software, map(options.session, options.devices)))))
 
 
 def _is_software(device: SessionOptions) -> bool:
@@ -127,11 +133,13 @@ def _is_software(device: SessionOptions) -> bool:
             return True
 
 
-def _run_divided(arguments: Arguments, options: ConfirmOptions, jobs: int) -> int:
+def _run_divided(arguments: Arguments, options: ConfirmOptions) -> int:
     from msaa_lint.experiments.confirm.divided_trials import divided_trials
 
     devices = list(map(options.session, options.devices))
-    runs, read = divided_trials(_request(arguments), devices, _trial_options(arguments, options), jobs)
+    runs, read = divided_trials(_request(arguments), devices, _trial_options(arguments, options))
+    if options.trial["time"] is None and any(run.device is not None and not run.device.software for run in runs):
+        note("times are not measured by the workers of a cluster")
     return _report(arguments, options, runs, read)
 
 

@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import closing
 from functools import partial
+from threading import Lock, Timer
 from typing import Any, NamedTuple
 
 from msaa_lint.core.finding import Finding
 from msaa_lint.core.scratch import remove_abandoned
-from msaa_lint.linter.request import Division, Request
+from msaa_lint.linter.request import Request
 from msaa_lint.linter.rules.budget import Spent
 from msaa_lint.linter.unit_parts import parts
 from msaa_lint.linter.workspace import Unit, Workspace
@@ -21,6 +22,9 @@ from .png import PictureFolder, PictureList
 from .session import Session, SessionOptions
 from .trial import DeviceTrial, ShownPictures, TrialOptions, device_run, picture_folder
 from .vulkan_errors import Unusable
+
+IDLE_SECONDS = 10.0
+"""How long a device of a worker stays open without an input: the worker of a cluster is not told that a run has ended."""
 
 
 class Outcome(NamedTuple):
@@ -41,17 +45,18 @@ class TrialPart(NamedTuple):
     spent: Spent = Spent()
 
 
-def divided_trials(
-    request: Request, devices: Sequence[SessionOptions], options: TrialOptions, jobs: int
-) -> tuple[list[DeviceRun], Inputs]:  # fmt: skip
-    """The outcome of the inputs of a request on devices, without times, and what else is known of the inputs, without their documents."""
+def divided_trials(request: Request, devices: Sequence[SessionOptions], options: TrialOptions) -> tuple[list[DeviceRun], Inputs]:
+    """The outcome of the inputs of a request on devices, without times, and what else is known of the inputs, without their documents.
+
+    Raises `core.execution.backend.Unusable` if the cluster that the request names cannot be used.
+    """
     workspace = Workspace(request)
     discovered = workspace.discover()
     merged = [_Merged(device, options) for device in devices]
     findings: list[Finding] = []
     try:
-        linter = TrialLinter(workspace, devices, options)
-        with closing(linter), closing(parts(linter, discovered.files, Division(jobs=jobs), per_task=1)) as found:
+        linter = TrialLinter(workspace, devices, options._replace(time=False))
+        with closing(linter), closing(parts(linter, discovered.files, request.division, per_task=1)) as found:
             for part in found:
                 findings += part.errors
                 for device, outcome in zip(merged, part.outcomes, strict=False):
@@ -64,12 +69,15 @@ def divided_trials(
 
 
 class TrialLinter:
-    """Reads and tries the inputs of a workspace one by one."""
+    """Reads and tries the inputs of a workspace one by one. A device stays open for `idle_seconds` without an input (None: until
+    `close`)."""
 
-    def __init__(self, workspace: Workspace, devices: Sequence[SessionOptions], options: TrialOptions) -> None:
+    def __init__(
+        self, workspace: Workspace, devices: Sequence[SessionOptions], options: TrialOptions, idle_seconds: float | None = None
+    ) -> None:
         self.workspace = workspace
         self._terms = devices, options
-        self._devices = [_Device(device, options) for device in devices]
+        self._devices = [_Device(device, options, idle_seconds) for device in devices]
 
     def part(self, unit: Unit) -> TrialPart:
         """The outcome of an input on each device."""
@@ -92,7 +100,7 @@ class TrialLinter:
     def travelling(self) -> Callable[[Workspace], TrialLinter]:
         """Creates such a linter in another process."""
         devices, options = self._terms
-        return partial(TrialLinter, devices=devices, options=options)
+        return partial(TrialLinter, devices=devices, options=options, idle_seconds=IDLE_SECONDS)
 
     def close(self) -> None:
         """Ends the driver processes of this process."""
@@ -101,17 +109,31 @@ class TrialLinter:
 
 
 class _Device:
-    """A device of this process, which opens when the first input is tried."""
+    """A device of this process, which opens when the first input is tried, and after it was idle."""
 
-    def __init__(self, given: SessionOptions, options: TrialOptions) -> None:
+    def __init__(self, given: SessionOptions, options: TrialOptions, idle_seconds: float | None) -> None:
         self._given = given
         self._options = options
+        self._idle_seconds = idle_seconds
+        self._lock = Lock()
+        self._timer: Timer | None = None
         self._session: Session | None = None
         self._trial: DeviceTrial | None = None
         self._unusable = ""
 
     def outcome(self, inputs: Sequence[Input]) -> Outcome:
         """The outcome of the documents of an input."""
+        if self._timer is not None:
+            self._timer.cancel()
+        with self._lock:
+            outcome = self._outcome(inputs)
+        if self._idle_seconds is not None:
+            self._timer = Timer(self._idle_seconds, self.close)
+            self._timer.daemon = True
+            self._timer.start()
+        return outcome
+
+    def _outcome(self, inputs: Sequence[Input]) -> Outcome:
         pictures = PictureList()
         try:
             if self._session is None:
@@ -129,8 +151,10 @@ class _Device:
 
     def close(self) -> None:
         """Ends the driver process, if there is one."""
-        if self._session is not None:
-            self._session.__exit__(None, None, None)
+        with self._lock:
+            session, self._session, self._trial = self._session, None, None
+            if session is not None:
+                session.__exit__(None, None, None)
 
 
 class _Merged:
@@ -146,7 +170,12 @@ class _Merged:
 
     def add(self, outcome: Outcome) -> None:
         """Adds the outcome of an input, and writes its pictures. NotWritten if they cannot be."""
+        known, found = self._last.device, outcome.device
         if self._last.unusable:
+            return
+        if known is not None and found is not None and known != found:
+            devices = f"{known.name} ({known.driver}) and {found.name} ({found.driver})"
+            self._last = Outcome(unusable=f"the workers of the cluster have different devices, {devices}: name one with `--device`")
             return
         self._last = outcome._replace(verdicts=(), pictures=())
         if outcome.device is None:

@@ -3,15 +3,26 @@
 from __future__ import annotations
 
 import json
+import shutil
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 import pytest
 
+from msaa_lint.experiments.confirm import divided_trials
+from msaa_lint.experiments.confirm.child import Limits
+from msaa_lint.experiments.confirm.inputs import of_file
+from msaa_lint.experiments.confirm.outcome import DeviceInfo
+from msaa_lint.experiments.confirm.session import SessionOptions
+from msaa_lint.experiments.confirm.trial import TrialOptions
+from msaa_lint.linter.request import Request
+from msaa_lint.linter.workspace import Workspace
 from tests.command import environment_of, run_process
 from tests.descriptions import CLEAN, STORED
 from tests.experiments.confirm.deadly import WIDTH
+from tests.experiments.study.test_clusters import CLUSTERS
 from tests.paths import ROOT
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="lavapipe is Linux's")
@@ -50,7 +61,8 @@ def confirmed(folder: Path, *options: str, before: str = "", paths: tuple[str, .
     """
     scratch = folder / "scratch"
     scratch.mkdir(exist_ok=True)
-    environment = environment_of({"TMPDIR": str(scratch)})
+    # Ray has a folder of its own, whose path must be short.
+    environment = environment_of({"TMPDIR": str(scratch), "RAY_TMPDIR": tempfile.gettempdir()})
     done = subprocess.run([sys.executable, "-c", code], cwd=folder, capture_output=True, text=True, check=False, env=environment)
     assert list(scratch.iterdir()) == [] and "Traceback" not in done.stderr
     return done
@@ -69,6 +81,45 @@ def test_processes_report_what_one_reports(folder: Path) -> None:
     statuses = {each["file"]: each["status"] for each in json.loads(one[3]["report.json"])["passes"]}
     assert [file for file, status in statuses.items() if status == "driver-died"] == ["frames/3-deadly.msaa.yaml"]
     assert len(statuses) == 10 and set(statuses.values()) == {"driver-died", "confirmed"}
+
+
+@pytest.mark.parametrize("backend", CLUSTERS)
+def test_a_cluster_reports_what_one_process_reports(folder: Path, backend: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    expected = confirmed(folder, "--output", "json")
+    pictures = {path.name: path.read_bytes() for path in (folder / "pictures").iterdir()}
+    monkeypatch.setenv("PYTHONPATH", str(ROOT))
+    with CLUSTERS[backend]() as (address, _):
+        shutil.rmtree(folder / "pictures")
+        for name, value in address.items():
+            monkeypatch.setenv(name, value)
+        found = confirmed(folder, "--output", "json", "--backend", backend)
+    assert (found.returncode, found.stdout, found.stderr) == (expected.returncode, expected.stdout, expected.stderr)
+    assert {path.name: path.read_bytes() for path in (folder / "pictures").iterdir()} == pictures
+
+
+def test_no_times_on_a_cluster(folder: Path) -> None:
+    done = run_process(folder, "confirm", "frames", "--backend", "dask", "--time")
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr == "msaa-lint: `--time` measures times on this machine: leave out `--backend`\n"
+
+
+def test_an_idle_device_closes_and_opens_again(folder: Path) -> None:
+    """The worker of a cluster is not told that a run has ended."""
+    inputs = of_file(Workspace(Request([])), str(folder / "frames/1.msaa.yaml"))
+    device = divided_trials._Device(SessionOptions("llvmpipe", False, Limits()), TrialOptions(), 0.01)
+    first = device.outcome(inputs)
+    assert device._timer is not None and first.verdicts
+    device._timer.join()
+    assert device._session is None
+    assert device.outcome(inputs) == first
+    device.close()
+
+
+def test_workers_with_different_devices_are_no_device() -> None:
+    merged = divided_trials._Merged(SessionOptions(None, False, Limits()), TrialOptions())
+    for name in ("A", "A", "B", "A"):
+        merged.add(divided_trials.Outcome(DeviceInfo(name, driver="1.0")))
+    assert merged.run().unusable == "the workers of the cluster have different devices, A (1.0) and B (1.0): name one with `--device`"
 
 
 def test_each_device_has_its_verdicts(folder: Path) -> None:
