@@ -168,10 +168,13 @@ class Worker:
         if uri not in self._requests:
             return
         self._seconds[uri], self._finished[uri] = seconds, number
+        # The older result is freed at the end, which takes milliseconds: the answer does not wait for it.
+        older = self.results.get(uri)
         self.results[uri] = analysis
         self._done(analysis)
         for future in self._waiting.pop(uri, ()):
             _succeed(future, None)
+        del older
 
 
 def _succeed(future: asyncio.Future[T], result: T) -> None:
