@@ -1,7 +1,7 @@
-"""Results that are kept between runs, in the cache folder of the user. Deleting it loses nothing but time.
+"""Results that are kept between runs, in a database in the cache folder of the user. Deleting it loses nothing but time.
 
-An entry is named by what it was made from. It is written under another name first, so that processes can use the folder at the same time,
-and an entry that is incomplete or damaged is like none. Nothing is read that another user could have written.
+An entry is named by what it was made from. Processes can use the database at the same time; one that is damaged is begun anew, and an entry
+that is damaged is like none. Nothing is read that another user could have written.
 """
 
 from __future__ import annotations
@@ -10,8 +10,19 @@ import os
 import stat
 import sys
 import time
-from contextlib import suppress
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager, suppress
 from hashlib import blake2b
+from importlib.util import find_spec
+from itertools import accumulate
+from operator import sub
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from sqlite3 import Connection
+
+FILE = "cache-1.sqlite"
+"""The name of the database in the folder; one with other columns has another."""
 
 MAX_BYTES = 256 << 20
 """The size of all entries together, from which on the oldest ones are removed."""
@@ -19,10 +30,18 @@ MAX_BYTES = 256 << 20
 KEPT_SHARE = 0.75
 """The share of `MAX_BYTES` that is left then."""
 
-_FRESH_SECONDS = 86_400.0
-"""How long an entry that is used counts as used without being marked again."""
+MAX_UNWRITTEN = 1 << 20
+"""The number of bytes of entries that wait to be written together."""
 
+MAX_NAMES = 500
+"""The number of entries that are looked up together: more than SQLite's oldest versions take."""
+
+WAIT_SECONDS = 2.0
+"""How long to wait for other processes that write."""
+
+_DAY = 86_400
 _DIGEST_BYTES = 16
+_NUMBER_BYTES = 8
 
 
 def digest(*parts: bytes) -> str:
@@ -40,65 +59,152 @@ def text_digest(text: str) -> str:
 
 
 class Cache:
-    """The entries in one folder. `version` is part of the name of each: entries of other versions are not used."""
+    """The entries in the database of one folder. `version` is part of the name of each: entries of other versions are not used. `notes` are
+    lines for the user."""
 
     def __init__(self, folder: str, version: str) -> None:
         self.folder = folder
-        self._version = digest(version.encode()).encode()
-        self._written = False
+        self.notes: list[str] = []
+        self._version = digest(version.encode())
+        self._path = os.path.join(folder, FILE)
+        self._process = -1
+        self._is_usable = True
+        self._database: Connection | None = None
+        self._inherited: list[Connection | None] = []
+        """Those of the processes that this one is a copy of; closing one would affect theirs."""
+        self._unwritten: dict[int, bytes] = {}
+        self._length = 0
+        self._used: set[int] = set()
 
     def read(self, kind: str, name: str) -> bytes | None:
         """The entry of a kind and name; None if there is none that can be used."""
-        path = self._path(kind, name)
-        try:
-            with open(os.open(path, os.O_RDONLY | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_BINARY", 0)), "rb") as file:
-                status = os.fstat(file.fileno())
-                if not _is_private(status) or not stat.S_ISREG(status.st_mode):
-                    return None
-                data = file.read()
-            if time.time() - status.st_mtime > _FRESH_SECONDS:
-                os.utime(path)
-        except OSError:
-            return None
-        check, content = data[:_DIGEST_BYTES], data[_DIGEST_BYTES:]
-        return content if check == blake2b(content, digest_size=_DIGEST_BYTES).digest() else None
+        return self.read_all(kind, [name]).get(name)
+
+    def read_all(self, kind: str, names: Iterable[str]) -> dict[str, bytes]:
+        """The entries of a kind by name, those that there are."""
+        wanted = {self._number(kind, name): name for name in names}
+        found: dict[str, bytes] = {}
+        numbers, today = list(wanted), int(time.time()) // _DAY
+        for start in range(0, len(numbers), MAX_NAMES):
+            some = numbers[start : start + MAX_NAMES]
+            for number, day, data in self._rows(some):
+                content = data[_DIGEST_BYTES:]
+                if data[:_DIGEST_BYTES] == _check(number, content):
+                    found[wanted[number]] = content
+                    if day != today:
+                        self._used.add(number)
+            found |= {wanted[number]: self._unwritten[number][_DIGEST_BYTES:] for number in some if number in self._unwritten}
+        return found
 
     def write(self, kind: str, name: str, content: bytes) -> None:
         """Keeps an entry. Without room or permission, nothing is kept."""
-        with suppress(OSError):
-            os.makedirs(self.folder, mode=0o700, exist_ok=True)
-            if _is_private(os.lstat(self.folder)):
-                path = self._path(kind, name)
-                unfinished = f"{path}-{os.getpid()}"
-                with open(os.open(unfinished, os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0), 0o600), "wb") as file:
-                    file.write(blake2b(content, digest_size=_DIGEST_BYTES).digest() + content)
-                os.replace(unfinished, path)
-                self._written = True
+        self._enter()
+        number = self._number(kind, name)
+        self._unwritten[number] = _check(number, content) + content
+        self._length += len(content)
+        if self._length > MAX_UNWRITTEN:
+            self.flush()
+
+    def flush(self) -> None:
+        """Writes the entries that wait for it."""
+        unwritten, used, today = self._unwritten, self._used, int(time.time()) // _DAY
+        self._unwritten, self._used, self._length = {}, set(), 0
+        if (unwritten or used) and (database := self._open(create=True)) is not None:
+            with self._errors(), database:
+                database.executemany("update entries set day = ? where number = ?", ((today, number) for number in used))
+                rows = ((number, today, data) for number, data in unwritten.items())
+                database.executemany("insert or replace into entries values (?, ?, ?)", rows)
+                if unwritten:
+                    _make_room(database)
 
     def close(self) -> None:
-        """Removes the entries that were not used for the longest time, if there are too many."""
-        if not self._written:
-            return
-        with suppress(OSError), os.scandir(self.folder) as scan:
-            entries = [(status.st_mtime, entry.name, status.st_size) for entry in scan if (status := entry.stat(follow_symlinks=False))]
-            total = sum(size for _, _, size in entries)
-            if total <= MAX_BYTES:
-                return
-            for _, name, size in sorted(entries):
-                with suppress(OSError):
-                    os.unlink(os.path.join(self.folder, name))
-                total -= size
-                if total <= MAX_BYTES * KEPT_SHARE:
-                    return
+        """Writes the entries that wait for it; the cache can still be used."""
+        self.flush()
+        if self._database is not None:
+            self._database.close()
+        self._process = -1
 
-    def _path(self, kind: str, name: str) -> str:
-        return os.path.join(self.folder, f"{kind}-{digest(self._version, name.encode())}")
+    def _rows(self, numbers: list[int]) -> list[tuple[int, int, bytes]]:
+        database = self._open(create=False)
+        if database is not None:
+            with self._errors():
+                marks = ",".join("?" * len(numbers))
+                return database.execute(f"select number, day, data from entries where number in ({marks})", numbers).fetchall()
+        return []
+
+    def _enter(self) -> None:
+        """Forgets what belongs to the process that this one is a copy of."""
+        if self._process != os.getpid():
+            self._inherited.append(self._database)
+            self._process, self._database = os.getpid(), None
+            self._unwritten, self._used, self._length = {}, set(), 0
+
+    def _open(self, create: bool) -> Connection | None:
+        """The database; None if it cannot be used, or is not there and not to be created."""
+        self._enter()
+        if self._database is None and self._is_usable:
+            from sqlite3 import connect
+
+            with self._errors(), suppress(OSError):
+                if create:
+                    os.makedirs(self.folder, mode=0o700, exist_ok=True)
+                    if _is_private(os.lstat(self.folder)):
+                        with suppress(FileExistsError):
+                            os.close(os.open(self._path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600))
+                status = os.lstat(self._path)
+                if stat.S_ISREG(status.st_mode) and _is_private(status) and (create or status.st_size):
+                    # Without a log beside it, it may be on a file system of several machines. What is written need not outlive this one.
+                    database = connect(self._path, timeout=WAIT_SECONDS, check_same_thread=False)
+                    database.execute("pragma synchronous = off")
+                    database.execute("create table if not exists entries (number integer primary key, day integer, data blob)")
+                    self._database = database
+        return self._database
+
+    @contextmanager
+    def _errors(self) -> Iterator[None]:
+        """Begins a damaged database anew, and does without one that cannot be used."""
+        from sqlite3 import DatabaseError, OperationalError
+
+        try:
+            yield
+        except OperationalError:
+            # It is locked, or there is no room, or no permission.
+            self._is_usable = False
+        except DatabaseError:
+            self._database = None
+            with suppress(OSError):
+                os.unlink(self._path)
+                self.notes.append(f"{self._path} was damaged and is begun anew: all inputs are read")
+            with suppress(OSError):
+                os.unlink(f"{self._path}-journal")
+
+    def _number(self, kind: str, name: str) -> int:
+        name_of_all = f"{self._version} {kind} {name}".encode("utf-8", "surrogatepass")
+        return int.from_bytes(blake2b(name_of_all, digest_size=_NUMBER_BYTES).digest(), "big", signed=True)
+
+
+def _check(number: int, content: bytes) -> bytes:
+    """What shows that an entry is undamaged, and that of this name."""
+    key = number.to_bytes(_NUMBER_BYTES, "big", signed=True)
+    return blake2b(content, digest_size=_DIGEST_BYTES, key=key).digest()
+
+
+def _make_room(database: Connection) -> None:
+    """Removes the entries that were not used for the longest time, if there are too many."""
+    pages, free, size = (database.execute(f"pragma {name}").fetchone()[0] for name in ("page_count", "freelist_count", "page_size"))
+    total = (pages - free) * size
+    if total <= MAX_BYTES:
+        return
+    oldest = database.execute("select number, length(data) from entries order by day, number").fetchall()
+    left = accumulate((length for _, length in oldest), sub, initial=total)
+    removed = ((number,) for (number, _), rest in zip(oldest, left, strict=False) if rest > MAX_BYTES * KEPT_SHARE)
+    database.executemany("delete from entries where number = ?", removed)
 
 
 def user_cache(version: str) -> Cache | None:
-    """The user's cache; None if there is no folder for it that is the user's own."""
+    """The user's cache; None if there is no folder for it that is the user's own, or no SQLite."""
     base = _base()
-    if base is None or not os.path.isabs(base):
+    if base is None or not os.path.isabs(base) or find_spec("_sqlite3") is None:
         return None
     folder = os.path.join(base, "msaa-lint")
     try:

@@ -126,6 +126,7 @@ class InputRuns(Generic[Part]):
                 self._workspace.enter(unit, project)
             self._workspace.forget_spent()
             parts.append(self.linter.part(unit))
+        self._workspace.flush()
         return parts
 
     def _configuration(self, unit: Unit) -> str | None:

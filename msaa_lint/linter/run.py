@@ -122,8 +122,7 @@ class _Run:
             self._add(next(parts), names)
             done += len(paths)
             collect_garbage()
-        self.workspace.close()
-        notes = [*discovered.notes, *self.notes, *self._stale_entries(files)]
+        notes = [*discovered.notes, *self.notes, *self._stale_entries(files), *self.workspace.close()]
         current, spool = self.workspace.current, self.workspace.spool
         rules = rule_infos(current.engine.registry, current.selection.for_file(os.curdir), self.with_pages)
         findings = self.findings.by_price() if self.request.by_price else self.findings.by_file()

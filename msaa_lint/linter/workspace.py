@@ -265,12 +265,20 @@ class Workspace:
 
         return user_cache(version(pages_folder()))
 
-    def close(self) -> None:
-        """Keeps what the cache is for."""
+    def flush(self) -> None:
+        """Keeps what the cache is for, as far as it is known: this process may be ended after any task."""
+        if (cache := self.__dict__.get("cache")) is not None:
+            cache.flush()
+
+    def close(self) -> list[str]:
+        """Keeps what the cache is for; returns lines for the user."""
         if "index" in self.__dict__:
             self.index.close()
-        if (cache := self.__dict__.get("cache")) is not None:
-            cache.close()
+        cache: Cache | None = self.__dict__.get("cache")
+        if cache is None:
+            return []
+        cache.close()
+        return cache.notes
 
     def _speaks(self, path: str) -> bool:
         from msaa_lint.input.code.mentions import is_api

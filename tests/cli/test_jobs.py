@@ -13,6 +13,7 @@ from pathlib import Path
 
 import pytest
 
+from msaa_lint.core.cache import FILE
 from msaa_lint.linter.engine import Engine
 from msaa_lint.linter.kept_parts import MIN_AGE
 from tests.command import environment_of, run, run_process
@@ -97,7 +98,8 @@ def test_one_input_that_ends_processes_is_a_finding_of_it(corpus: Path) -> None:
     code = """if True:
         import os, signal, sys
         from msaa_lint.__main__ import main
-        from msaa_lint.linter.engine import Engine
+        from msaa_lint.core.cache import FILE
+from msaa_lint.linter.engine import Engine
         lint = Engine.lint
         def poisonous(self, data, file, options):
             if file == "other/04.msaa.yaml":
@@ -126,6 +128,16 @@ def test_a_second_run_says_the_same(corpus: Path, tmp_path: Path, jobs: str) -> 
     first = check(corpus, "--jobs", jobs, **kept)
     assert any((tmp_path / "kept" / "msaa-lint").iterdir())
     assert check(corpus, "--jobs", jobs, **kept) == first == check(corpus, "--no-cache")
+
+
+def test_a_damaged_cache_is_begun_anew(corpus: Path, tmp_path: Path) -> None:
+    kept = {"XDG_CACHE_HOME": str(tmp_path / "kept")}
+    first = check(corpus, **kept)
+    database = tmp_path / "kept" / "msaa-lint" / FILE
+    database.write_bytes(b"no database")
+    code, out, errors = check(corpus, **kept)
+    assert (code, out) == first[:2] and errors.count("was damaged and is begun anew") == 1
+    assert check(corpus, **kept) == first
 
 
 def linted(corpus: Path, kept: Path, monkeypatch: pytest.MonkeyPatch, *options: str) -> list[str]:

@@ -102,7 +102,7 @@ def test_the_same_bytes_every_time(folder: Path, extra: tuple[str, ...]) -> None
         for one, other in zip(parquet_paths("a.parquet").values(), parquet_paths("b.parquet").values(), strict=True):
             assert (folder / one).read_bytes() == (folder / other).read_bytes()
         assert (folder / "a.sqlite").read_bytes() == (folder / "b.sqlite").read_bytes()
-    assert any(entry.name.startswith("part-") for entry in (cache / "msaa-lint").iterdir())
+    assert any((cache / "msaa-lint").iterdir())
 
 
 def test_the_configuration_is_that_of_settings_and_not_of_places(tmp_path: Path) -> None:
