@@ -317,7 +317,7 @@ COMMANDS = {
     "schema": Command(
         """Print a JSON Schema.""",
         {"Options": GLOBAL},
-        Paths("WHICH", "The description format (the default), or the JSON of `check` or `cost`.", 0, 1, SCHEMAS),
+        Paths("WHICH", "The description format (the default), or the JSON of a command: json-v1 is that of `check`.", 0, 1, SCHEMAS),
     ),
     "lsp": Command(
         """Run the language server, for editors.""",

@@ -34,7 +34,7 @@ COST_FORMATS = ("full", "json", "markdown", "html")
 PAGE_FORMATS = ("full", "json", "html")
 """The values of `--output` of `confirm` and `study`."""
 
-SCHEMAS = ("description", "json-v1", "cost-v1")
+SCHEMAS = ("description", "json-v1", "cost-v1", "confirm-v1", "study-v1", "corpus-v1")
 
 Arguments = dict[str, Any]
 """Values by option name, and `paths`. Options that are not on the command line are not in it."""

@@ -30,7 +30,7 @@ def _schema(arguments: Arguments) -> int:
 
 
 def print_schema(which: str) -> int:
-    """Prints the schema of the description format, or of the JSON output of `check` (json-v1) or `cost` (cost-v1)."""
+    """Prints the schema of the description format, or of the JSON output of a command: json-v1 is that of `check`."""
     if which == "description":
         print(json.dumps(description_schema(), indent=2))
     else:

@@ -10,7 +10,7 @@ import pytest
 
 from msaa_lint import __version__
 from msaa_lint.cli.commands import COMMANDS
-from msaa_lint.cli.options import CAPTURE_FORMATS, INPUT_FORMATS, SHARED
+from msaa_lint.cli.options import CAPTURE_FORMATS, INPUT_FORMATS, SCHEMAS, SHARED
 from msaa_lint.input import readers
 from msaa_lint.input.file_types import LANGUAGES
 from msaa_lint.linter.settings.settings import OUTPUT_FORMATS
@@ -54,8 +54,8 @@ def test_facts(tmp_path: Path) -> None:
 def test_schema(tmp_path: Path) -> None:
     schema = json.loads(run(tmp_path, "schema").stdout)
     assert "renderPasses" in schema["properties"]
-    assert json.loads(run(tmp_path, "schema", "json-v1").stdout)["$id"] == "urn:msaa-lint:json-v1"
-    assert json.loads(run(tmp_path, "schema", "cost-v1").stdout)["$id"] == "urn:msaa-lint:cost-v1"
+    for which in SCHEMAS[1:]:
+        assert json.loads(run(tmp_path, "schema", which).stdout)["$id"] == f"urn:msaa-lint:{which}"
 
 
 def test_the_formats_are_those_there_are() -> None:

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from msaa_lint.cli.commands import COMMANDS
-from msaa_lint.cli.options import CHECK_FORMATS
+from msaa_lint.cli.options import CHECK_FORMATS, SCHEMAS
 from tests.command import run, run_process
 from tests.paths import ROOT
 
@@ -56,7 +56,7 @@ def completed(folder: Path, line: str) -> list[str]:
         ("msaa-lint rule --output ma", ["markdown"]),
         ("msaa-lint device apple-m", ["apple-m1"]),
         ("msaa-lint facts --profile apple-m", ["apple-m1"]),
-        ("msaa-lint schema ", ["description", "json-v1", "cost-v1"]),
+        ("msaa-lint schema ", list(SCHEMAS)),
         ("msaa-lint convert --input-format fo", ["fossilize"]),
         # What is a path is left to the shell.
         ("msaa-lint check fra", []),

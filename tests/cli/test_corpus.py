@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import json
 import os
 import re
@@ -10,11 +11,13 @@ import sqlite3
 from contextlib import closing
 from pathlib import Path
 
+import jsonschema
 import pytest
 
 pytest.importorskip("duckdb")
 pytest.importorskip("pyarrow")
 
+import msaa_lint.cli.report
 from msaa_lint.core.package import VERSION
 from msaa_lint.linter.corpus.tables import TABLES, parquet_paths
 from tests.cli.corpora import SIZE, sqlite_tables, write_inputs
@@ -42,10 +45,20 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return path
 
 
+@functools.cache
+def validator() -> jsonschema.Draft202012Validator:
+    schema = json.loads(Path(msaa_lint.cli.report.__file__).with_name("corpus_v1.schema.json").read_text())
+    jsonschema.Draft202012Validator.check_schema(schema)
+    return jsonschema.Draft202012Validator(schema)
+
+
 def answer(folder: Path, *words: str) -> dict[str, object]:
+    """What JSON says, which is as its schema says."""
     done = run(folder, "corpus", *words, "--output", "json")
     assert (done.returncode, done.stderr) == (0, "")
-    return json.loads(done.stdout)  # type: ignore[no-any-return]
+    found = json.loads(done.stdout)
+    validator().validate(found)
+    return found  # type: ignore[no-any-return]
 
 
 @pytest.mark.parametrize("format", SUFFIXES)

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from msaa_lint.cli.options import SCHEMAS
 from msaa_lint.input.content import MAX_BYTES, kind_of
 from msaa_lint.input.file_types import HEAD_BYTES
 from tests.command import run
@@ -176,7 +177,7 @@ def written(tmp_path: Path) -> Path:
         run(tmp_path, "check", "frame.msaa.yaml", "--isolated", "--output", f"{output}=check{number}.msaa.json")
     run(tmp_path, "cost", "frame.msaa.yaml", "--size", "64x64", "--isolated", "--output", "json=cost.msaa.json")
     run(tmp_path, "baseline", "frame.msaa.yaml", "--isolated", "--file", "baseline.msaa.json")
-    for which in ("description", "json-v1", "cost-v1"):
+    for which in SCHEMAS:
         (tmp_path / f"{which}.msaa.json").write_text(run(tmp_path, "schema", which).stdout)
     (tmp_path / "device.msaa.json").write_text(run(tmp_path, "device", "arm", "--output", "json").stdout)
     assert all(path.stat().st_size for path in tmp_path.iterdir())
@@ -205,11 +206,9 @@ def test_a_named_output_of_msaa_lint_is_refused_in_one_line(written: Path) -> No
         "check3.msaa.json": "msaa-lint's own JUnit output",
         "check4.msaa.json": "msaa-lint's own Markdown output",
         "check5.msaa.json": "msaa-lint's own reviewdog output",
-        "cost-v1.msaa.json": "a JSON Schema of msaa-lint",
         "cost.msaa.json": "msaa-lint's own JSON output",
-        "description.msaa.json": "a JSON Schema of msaa-lint",
         "device.msaa.json": "msaa-lint's own JSON output",
-        "json-v1.msaa.json": "a JSON Schema of msaa-lint",
+        **{f"{which}.msaa.json": "a JSON Schema of msaa-lint" for which in SCHEMAS},
     }
     assert done.stdout.splitlines()[0] == (
         "baseline.msaa.json: error[syntax] this is an msaa-lint baseline, not an input: "

@@ -1,4 +1,4 @@
-"""The JSON of `msaa-lint corpus`. Figures have six decimals."""
+"""The versioned JSON of `msaa-lint corpus`; `corpus_v1.schema.json` next to this file is its schema. Figures have six decimals."""
 
 from __future__ import annotations
 
