@@ -55,5 +55,5 @@ def write_tables(target: Target, outcome: Outcome, arguments: Arguments) -> None
     assert target.path is not None
     options = report_options(arguments, sys.stdout)._replace(edition=outcome.settings.edition or EDITIONS[-1])
     with writes(target.path):
-        tables = rows(outcome.result, outcome.passes, outcome.configuration, options)
+        tables = rows(outcome.result, outcome.passes, outcome.configuration, options, outcome.owners)
         report_module("check", target.format).write(target.path, tables, options.version)

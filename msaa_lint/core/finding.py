@@ -177,7 +177,8 @@ class InputSummary(NamedTuple):
 
     `format` is its `--input-format`; empty if it could not be read. Objects that several documents of the input share count once;
     `shaders` are those of source code that read samples, `choices` the sample count choices. `failed` says that an error kept a document
-    of it from being checked. `capture` is None for an input that is not a capture.
+    of it from being checked. `capture` is None for an input that is not a capture. `frames` is the number of documents of a description,
+    each of which is a frame; None for other inputs. `device` is the profile that it was checked for; empty without one.
     """
 
     file: str
@@ -190,6 +191,8 @@ class InputSummary(NamedTuple):
     failed: bool = False
     unread: Unread | None = None
     capture: CaptureSummary | None = None
+    frames: int | None = None
+    device: str = ""
 
 
 class PassTraffic(NamedTuple):
@@ -197,7 +200,7 @@ class PassTraffic(NamedTuple):
 
     `frame` is the index of the frame's document in its input, `path` the structural path of the pass, `kind` `renderPass`, `rendering`, or
     `command`. `times` is how often a frame begins it; `samples` are the most that an attachment has. MB is 10^6 bytes, MiB 2^20; the
-    traffic is that of all times. `unknown` says what could not be counted. `device` is the profile that the frame was checked for.
+    traffic is that of all times. `unknown` says what could not be counted.
     """
 
     file: str
@@ -214,7 +217,6 @@ class PassTraffic(NamedTuple):
     memory_mib: float
     milliwatts: float
     unknown: str
-    device: str | None
 
 
 class RuleInfo(NamedTuple):

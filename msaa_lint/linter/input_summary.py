@@ -25,6 +25,11 @@ if TYPE_CHECKING:
 
 def input_summaries(data: bytes | CaptureInput | SourceFile, result: FileResult) -> list[InputSummary]:
     """The summaries of an input that was linted: of a program, one for each of its files that is an input."""
+    device = next((each.device.name for each in result.documents if each.device is not None), "")
+    return [summary._replace(device=device) for summary in _input_summaries(data, result)]
+
+
+def _input_summaries(data: bytes | CaptureInput | SourceFile, result: FileResult) -> list[InputSummary]:
     files = () if isinstance(data, bytes) else getattr(data, "files", ())
     if isinstance(data, bytes) or len(files) < 2:
         return [input_summary(data, result)]
@@ -50,7 +55,9 @@ def input_summary(data: bytes | CaptureInput | SourceFile, result: FileResult) -
     failed = len(documents) < len(result.documents) or any(finding.fatal for finding in result.findings)
     if isinstance(data, bytes):
         format = next((each.document.format for each in result.documents), "")
-        return _summary(result.file, format, documents, failed, _unread_frame(documents, "add `renderPasses` or `beginRendering` commands"))
+        unread = _unread_frame(documents, "add `renderPasses` or `beginRendering` commands")
+        count = len(result.documents) if format == "description" else None
+        return _summary(result.file, format, documents, failed, unread)._replace(frames=count)
     from msaa_lint.input.source_file import SourceFile
 
     if isinstance(data, SourceFile):

@@ -166,7 +166,8 @@ class PartLinter:
         if self.contents.passes:
             from .pass_traffic import pass_traffic
 
-            part = part._replace(passes=pass_traffic(result))
+            files = {found.file for found in (*findings, *(entry.finding for entry in result.suppressed))} - {result.file}
+            part = part._replace(passes=pass_traffic(result), owners=dict.fromkeys(sorted(files), result.file))
         if not self.contents.savings or all(found.fix is None for found in findings):
             return self._with_frames(part, result, None)
         if can_try_fixes(result) or self.settings.fail_on_cost is not None:

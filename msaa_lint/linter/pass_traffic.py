@@ -36,7 +36,6 @@ def _pass_traffic(result: FileResult) -> Iterator[PassTraffic]:
                 _samples(each),
                 *each.amount,
                 "; ".join(each.unknown),
-                cost.device,
             )
 
 

@@ -46,8 +46,8 @@ class Outcome(NamedTuple):
 
     `settings` are those of the current folder, with the outputs and thresholds; `notes` are lines for standard error. `fixed` has the
     fixed text of each input, `failing` by file what fixes save of the findings that can fail the run. `frames` are the frames of the
-    inputs with their costs, if an output shows them. `passes` is what passes move, and `configuration` a name for the settings of the
-    inputs, if an output has rows of them.
+    inputs with their costs, if an output shows them. `passes` is what passes move, `owners` names the inputs whose passes findings in other
+    files are about, and `configuration` is a name for the settings of the inputs, if an output has rows of them.
     """
 
     result: Result
@@ -57,6 +57,7 @@ class Outcome(NamedTuple):
     failing: Mapping[str, Savings] = {}
     frames: "Sequence[CostedFrame]" = ()
     passes: Sequence[PassTraffic] = ()
+    owners: Mapping[str, Sequence[str]] = {}
     configuration: str = ""
 
 
@@ -85,6 +86,7 @@ class _Run:
         spool = self.workspace.spool
         self.findings = RunFindings(self.workspace)
         self.passes: SpooledList[PassTraffic] = SpooledList(spool)
+        self.owners: dict[str, list[str]] = {}
         self.undecided: SpooledList[Undecided] = SpooledList(spool)
         self.suppressed: SpooledList[Suppressed] = SpooledList(spool)
         self.accepted: SpooledList[Suppressed] = SpooledList(spool)
@@ -139,8 +141,8 @@ class _Run:
             SpooledList(spool, (self.summaries[file] for file in files)).finished(),
             self.untried,
         )
-        passes = self.passes.finished()
-        return Outcome(result, self.settings, notes, self.fixed, self.failing.finished(), self.frames, passes, self._configuration())
+        passes, configuration = self.passes.finished(), self._configuration()
+        return Outcome(result, self.settings, notes, self.fixed, self.failing.finished(), self.frames, passes, self.owners, configuration)
 
     def _parts(self, units: Sequence[Unit]) -> Iterator[RunPart]:
         """What the units add to the result, in their order."""
@@ -180,6 +182,8 @@ class _Run:
         self.untried.update(part.untried)
         self.frames.extend(part.frames)
         self.passes.extend(part.passes)
+        for file, owner in part.owners.items():
+            self.owners.setdefault(file, []).append(owner)
         self.notes.extend(part.notes)
         self.fixed.extend(part.fixed)
 

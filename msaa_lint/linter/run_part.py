@@ -20,7 +20,8 @@ class RunPart(NamedTuple):
     `findings` are those after settings and before the baseline, which does not apply to `diagnostics`. `sources` has the texts that
     reports show. `savings`, `failing`, and `untried` are by file. `problems` are the findings about files that cannot be read. `frames`
     are the frames with their costs, if a report shows them. `notes` are lines for standard error, `fixed` the fixed texts, `passes` what
-    passes move, if an output has rows of them, and `spent` is what custom rules took.
+    passes move, if an output has rows of them, which are of the `owners` of the other files of a program, and `spent` is what custom rules
+    took.
     """
 
     diagnostics: Sequence[Finding] = ()
@@ -37,6 +38,7 @@ class RunPart(NamedTuple):
     notes: Sequence[str] = ()
     fixed: "Sequence[FixedText]" = ()
     passes: Sequence[PassTraffic] = ()
+    owners: Mapping[str, str] = {}
     spent: Spent = Spent()
 
     def __add__(self, other: "RunPart") -> "RunPart":  # type: ignore[override]
@@ -56,4 +58,5 @@ class RunPart(NamedTuple):
             [*self.notes, *other.notes],
             [*self.fixed, *other.fixed],
             [*self.passes, *other.passes],
+            {**self.owners, **other.owners},
         )

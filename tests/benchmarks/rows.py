@@ -38,11 +38,9 @@ def corpus(count: int) -> tuple[Result, list[PassTraffic]]:
             Finding(f"MSAA{rule:03}", RULES[rule], "warning", "high", message, file, None, f"{path}.attachments.color", fix=Fix("x", True))
             ._replace(price=price)
         )  # fmt: skip
-        passes.append(
-            PassTraffic(file, 0, f"pass{number % PER_INPUT}", path, "renderPass", 1920, 1080, 1, 4, *price, "", f"GPU {number % 17}")
-        )
+        passes.append(PassTraffic(file, 0, f"pass{number % PER_INPUT}", path, "renderPass", 1920, 1080, 1, 4, *price, ""))
         if number % PER_INPUT == 0:
-            inputs.append(InputSummary(file, "description", 2, PER_INPUT))
+            inputs.append(InputSummary(file, "description", 2, PER_INPUT, device=f"GPU {number % 17}"))
     return Result(findings, [], [], [each.file for each in inputs], {}, [], inputs=inputs), passes
 
 

@@ -18,15 +18,16 @@ pytest.importorskip("pyarrow")
 
 from msaa_lint.cli.report import Options, check_parquet, check_sqlite
 from msaa_lint.cli.report.rows import rows
-from msaa_lint.core.finding import PassTraffic, Result
+from msaa_lint.core.finding import Finding, PassTraffic, Result
 from msaa_lint.core.package import VERSION
-from msaa_lint.linter.corpus.tables import BOOLEAN, FINDINGS, PASSES, RUN, TABLES, Table, parquet_paths
+from msaa_lint.linter.corpus.tables import BOOLEAN, FINDINGS, INPUTS, PASSES, RUN, TABLES, Table, parquet_paths
 from msaa_lint.linter.rules.rule import EDITIONS
 from tests.benchmarks.rows import corpus
 from tests.cli.corpora import SIZE, parquet_tables, sqlite_tables, write_inputs
 from tests.cli.report.hostile import TOKENS, results, texts
 from tests.command import run
 from tests.descriptions import STORED
+from tests.input.code.project import test_folders as folders
 from tests.paths import ROOT
 from tests.strength import examples
 
@@ -90,6 +91,31 @@ def test_a_finding_names_its_frame_and_pass(folder: Path) -> None:
     assert {row["frame"] for row in found if row["input"].endswith("wrong.msaa.yaml")} == {None}
 
 
+def test_a_finding_in_another_file_of_a_program_names_its_pass(tmp_path: Path) -> None:
+    """The passes of a program are those of its first file."""
+    pytest.importorskip("tree_sitter_cpp")
+    folders.write(tmp_path, {"lib/pass.cpp": folders.PASS, "lib/settings.h": folders.settings(4)})
+    folders.write(tmp_path, {f"app{number}/main.cpp": f'#include "../lib/settings.h"\n{folders.MAIN}' for number in range(2)})
+    options = ("--isolated", "--profile", "mali-g76", "--output", "sqlite=a.sqlite")
+    for jobs in ("1", "2", "2"):
+        run(tmp_path, "check", ".", *options, "--jobs", jobs, XDG_CACHE_HOME=str(tmp_path / "cache"))
+        tables = sqlite_tables(tmp_path / "a.sqlite")
+        (stored,) = records(FINDINGS, tables["findings"])
+        assert (stored["input"], stored["frame"], stored["pass"]) == ("lib/pass.cpp", 0, "render_pass")
+        assert {row["input"] for row in records(PASSES, tables["passes"])} == {"lib/settings.h"}
+        assert {row["device"] for row in records(INPUTS, tables["inputs"])} == {"Mali-G76"}
+
+
+def test_programs_with_other_passes_at_the_same_place_leave_it_open() -> None:
+    subject = "commands[0].beginRendering.colorAttachments[0]"
+    found = Finding("MSAA201", "rule", "warning", "high", "message", "shared.h", None, subject)
+    passes = [PassTraffic(f"{name}.cpp", 0, name, "commands[0]", "rendering", None, None, 1, 4, 0, 0, 0, 0, "") for name in ("one", "two")]
+    for owners, name in ((["one.cpp"], "one"), (["one.cpp", "two.cpp"], None)):
+        tables = rows(Result([found], [], [], [], {}, []), passes, "", Options(), {"shared.h": owners})
+        (row,) = records(FINDINGS, list(tables["findings"]))
+        assert row["pass"] == name
+
+
 @pytest.mark.parametrize("extra", [(), ("--jobs", "2"), ("--sort", "price"), ("--output", "full")])
 def test_the_same_bytes_every_time(folder: Path, extra: tuple[str, ...]) -> None:
     cache = folder / "cache"
@@ -121,7 +147,7 @@ numbers = st.one_of(st.none(), st.integers(0, 2**40))
 amounts = st.floats(0, 1e12)
 traffic = st.builds(
     PassTraffic, texts, st.integers(0, 9), texts, texts, st.just("renderPass"), numbers, numbers, st.integers(1, 9), numbers,
-    amounts, amounts, amounts, amounts, texts, st.one_of(st.none(), texts),
+    amounts, amounts, amounts, amounts, texts,
 )  # fmt: skip
 
 

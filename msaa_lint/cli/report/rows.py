@@ -26,18 +26,20 @@ _VERSION = re.compile(r"(.*\S) (\d+(?:\.\d+)+)")
 _LIMIT = 2**63 - 1
 
 
-def rows(result: Result, passes: Sequence[PassTraffic], configuration: str, options: Options) -> dict[str, Iterable[Row]]:
-    """The rows of each table by its name, which are made as they are read."""
+def rows(
+    result: Result, passes: Sequence[PassTraffic], configuration: str, options: Options, owners: Mapping[str, Sequence[str]] = {}
+) -> dict[str, Iterable[Row]]:
+    """The rows of each table by its name, which are made as they are read. Findings in files with `owners` are about their passes."""
     counts = (len(result.inputs), len(result.findings) + len(result.suppressed), len(passes))
     return {
-        "findings": _findings(result, passes, options),
+        "findings": _findings(result, passes, owners, options),
         "passes": (_pass(each, options) for each in passes),
-        "inputs": _inputs(result, passes, options),
+        "inputs": (_input(each, options) for each in result.inputs),
         "run": [(SCHEMA, options.version, text(options.edition), configuration, *counts)],
     }
 
 
-def _findings(result: Result, passes: Sequence[PassTraffic], options: Options) -> Iterator[Row]:
+def _findings(result: Result, passes: Sequence[PassTraffic], owners: Mapping[str, Sequence[str]], options: Options) -> Iterator[Row]:
     """The rows of the findings with those that are suppressed, by file and place, whatever order the run prints them in."""
     # A long run has its findings in a file, in which they are looked up by number.
     count = len(result.findings)
@@ -47,7 +49,7 @@ def _findings(result: Result, passes: Sequence[PassTraffic], options: Options) -
     numbers = _by_file(passes)
     order = {file: number for number, file in enumerate(result.files)}
     for file in sorted(by_file, key=lambda file: (order.get(file, -1), file)):
-        names = {(each.frame, each.path): each.name for each in map(passes.__getitem__, numbers.get(file, ()))}
+        names = _names(passes, chain.from_iterable(numbers.get(owner, ()) for owner in owners.get(file, [file])))
         entries = [
             Suppressed(result.findings[number], "") if number < count else result.suppressed[number - count] for number in by_file.pop(file)
         ]
@@ -55,6 +57,15 @@ def _findings(result: Result, passes: Sequence[PassTraffic], options: Options) -
         identifiers = fingerprints((entry.finding for entry in entries), options.root)
         for entry, identifier in zip(entries, identifiers, strict=True):
             yield _finding(entry, identifier, names, result, options)
+
+
+def _names(passes: Sequence[PassTraffic], numbers: Iterable[int]) -> dict[tuple[int, str], str | None]:
+    """The names of passes by frame and path; None if they differ, since a file may be of several programs."""
+    names: dict[tuple[int, str], str | None] = {}
+    for each in map(passes.__getitem__, numbers):
+        key = each.frame, each.path
+        names[key] = each.name if names.get(key, each.name) == each.name else None
+    return names
 
 
 def _by_file(passes: Sequence[PassTraffic]) -> dict[str, range]:
@@ -65,7 +76,7 @@ def _by_file(passes: Sequence[PassTraffic]) -> dict[str, range]:
     return numbers
 
 
-def _finding(entry: Suppressed, identifier: str, names: Mapping[tuple[int, str], str], result: Result, options: Options) -> Row:
+def _finding(entry: Suppressed, identifier: str, names: Mapping[tuple[int, str], str | None], result: Result, options: Options) -> Row:
     """The row of a finding, or of a suppressed one, of which it is said how."""
     found = entry.finding
     frame, subject = _frame(found.subject)
@@ -108,7 +119,7 @@ def _frame(subject: str) -> tuple[int | None, str]:
     return int(stated[1]), subject[stated.end() :]
 
 
-def _pass_of(frame: int, subject: str, names: Mapping[tuple[int, str], str]) -> str | None:
+def _pass_of(frame: int, subject: str, names: Mapping[tuple[int, str], str | None]) -> str | None:
     """The name of the pass that a subject belongs to: that of the longest path that it begins with."""
     if not names:
         return None
@@ -136,17 +147,9 @@ def _pass(each: PassTraffic, options: Options) -> Row:
     )
 
 
-def _inputs(result: Result, passes: Iterable[PassTraffic], options: Options) -> Iterator[Row]:
-    devices: dict[str, str] = {}
-    for each in passes:
-        if each.device is not None:
-            devices.setdefault(each.file, each.device)
-    for summary in result.inputs:
-        yield _input(summary, devices.get(summary.file, ""), options)
-
-
-def _input(summary: InputSummary, profile: str, options: Options) -> Row:
+def _input(summary: InputSummary, options: Options) -> Row:
     capture = summary.capture
+    frames, kinds = (capture.frames, capture.kinds) if capture else (summary.frames, summary.frames)
     engine, version = _engine(capture)
     return (
         _file(summary.file, options),
@@ -154,9 +157,9 @@ def _input(summary: InputSummary, profile: str, options: Options) -> Row:
         text(capture.program) or None if capture else None,
         engine,
         version,
-        text(capture.device if capture and capture.device else profile) or None,
-        _integer(capture.frames) if capture else None,
-        _integer(capture.kinds) if capture else None,
+        text(capture.device if capture and capture.device else summary.device) or None,
+        _integer(frames),
+        _integer(kinds),
         summary.images,
         summary.passes,
         summary.pipelines,
