@@ -215,6 +215,7 @@ def folder(tmp_path: Path) -> Path:
         ("extends = '^'", "configuration", ["base.toml"]),
         ("rules = ['pages/^']", "configuration", ["pages/r.md"]),
         ("baseline = ^", "configuration", ["reports/gpu.json"]),
+        ("profile = 'reports/^'", "configuration", ["reports/gpu.json"]),
     ],
 )
 def test_files(folder: Path, text: str, kind: str, expected: list[str]) -> None:

@@ -191,6 +191,9 @@ commands:
         ("[limits]\ndep^th = 3", "**limits.depth**", "nodes"),
         ("[lim^its]\ndepth = 3", "`limits.nodes`", "**"),
         ("[tool.msaa-lint]\ninc^lude = ['a']", "Default: as below", "](#"),
+        ("fail^-on", "**fail-on**: the lowest severity", "(#"),
+        ("select = ['ALL']\n[limits]\ndep^th =\n", "**limits.depth**", "nodes"),
+        ("[tool.ruff]\na = 1\n[tool.msaa-lint]\nfail^-on =\n", "**fail-on**: the lowest severity", "(#"),
         ("[tool.msaa-lint.source.ass^ume]\na = 1", "**source.assume**: values that source code does not state", "]("),
     ],
 )
@@ -200,6 +203,7 @@ def test_settings(text: str, expected: str, other: str) -> None:
     assert answer is not None and expected in answer.markdown and other not in answer.markdown
 
 
-def test_keys_of_other_tools_are_no_settings() -> None:
-    text, offset = at("[tool.ruff]\nexc^lude = ['a']")
+@pytest.mark.parametrize("line", ["exc^lude = ['a']", "exc^lude ="])
+def test_keys_of_other_tools_are_no_settings(line: str) -> None:
+    text, offset = at(f"[tool.ruff]\n{line}")
     assert hover(view(text, "configuration"), offset) is None

@@ -54,7 +54,7 @@ _VALUES: Mapping[str, Sequence[str]] = {
     "respect-gitignore": ("true", "false"),
     "strict-inputs": ("true", "false"),
 }
-_FILES: Mapping[str, str] = {"extends": ".toml", "rules": ".md", "baseline": ".json"}
+_FILES: Mapping[str, str] = {"extends": ".toml", "rules": ".md", "baseline": ".json", "profile": ".json"}
 """By key: how the names of the files end that it names."""
 
 _PAGE_VALUES: Mapping[str, Sequence[str]] = {
@@ -121,7 +121,7 @@ def _configuration(view: View, offset: int) -> tuple[int, int, list[Item]]:
     keys_before = _KEY.findall(body)
     key = table if table in ("severity", "per-file-ignores") else keys_before[-1] if keys_before else ""
     is_value = bool(re.search(r"=[ \t]*[\"']?[\w.-]*\Z", body))
-    items = list(_configuration_values(view, key, is_value and (table == "severity" or "{" in body)))
+    items = list(_configuration_values(view, key, is_value and (table == "severity" or "{" in body), word))
     start, end = offset - len(word) - len(quote), _PATH.match(view.text, offset).end()  # type: ignore[union-attr]
     if quote:
         end += view.text.startswith(quote, end)
@@ -133,11 +133,11 @@ def _type(table: str, name: str) -> str:
     return setting.type if setting is not None else ""
 
 
-def _configuration_values(view: View, key: str, is_entry: bool) -> Iterable[Item]:
-    """The values of a key; `is_entry` says that the cursor is after the `=` of an entry of its table."""
+def _configuration_values(view: View, key: str, is_entry: bool, word: str) -> Iterable[Item]:
+    """The values of a key; `is_entry` says that the cursor is after the `=` of an entry of its table, `word` is what stands before it."""
     if key in _SELECTORS or (key == "severity" and not is_entry):
         return [*_rules(view), (ALL, ALL, "all rules")]
-    if key == "profile":
+    if key == "profile" and "/" not in word:
         return [(name, name, detail) for name, detail in profiles()]
     if key in _FILES and view.folder is not None:
         return [(path, path, "") for path in paths(view.folder, (_FILES[key],))]

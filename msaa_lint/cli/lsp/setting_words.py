@@ -9,6 +9,10 @@ from msaa_lint.linter.settings.reference import documentation
 from msaa_lint.linter.settings.toml_text import places
 
 _PYPROJECT = ("tool", "msaa-lint")
+_UNFINISHED = re.compile(r"^[ \t]*([\w-]+)[ \t]*=?[ \t]*$", re.MULTILINE)
+"""A key that has no value yet, with which the text is not TOML."""
+
+_TABLE = re.compile(r"^[ \t]*\[([^\[\]\n]+)\]", re.MULTILINE)
 _LINK = re.compile(r"\[([^\]]+)\]\((?!https?://)[^)\s]*\)")
 
 
@@ -21,6 +25,12 @@ def setting_at(text: str, offset: int) -> tuple[str, Span] | None:
         for span in (place.key, place.value):
             if words and span.start <= offset <= span.end and (found is None or _length(span) <= _length(found[1])):
                 found = without_links(words), span
+    unfinished = next((match for match in _UNFINISHED.finditer(text) if match.start(1) <= offset <= match.end(1)), None)
+    if found is None and unfinished is not None:
+        table = ["", *_TABLE.findall(text, 0, unfinished.start())][-1].strip()
+        own = not table.startswith("tool.") or table.startswith(".".join(_PYPROJECT))
+        words = setting_text(unfinished[1]) if own else ""
+        return (words, Span(*unfinished.span(1))) if words else None
     return found
 
 
