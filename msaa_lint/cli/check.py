@@ -11,7 +11,7 @@ from typing import IO
 
 from msaa_lint.core.diagnostics import diagnostic, internal_error
 from msaa_lint.core.execution.backend import Unusable
-from msaa_lint.core.finding import Result, is_confident, rank
+from msaa_lint.core.finding import CONFIDENCES, Result, rank
 from msaa_lint.core.spool import SpoolError
 from msaa_lint.core.text.node import Limits
 from msaa_lint.input.file_types import STDIN
@@ -36,6 +36,7 @@ from .common import (
 )
 from .options import CHECK_FORMATS, Arguments
 from .progress import input_progress, shows_progress
+from .report.by_input import RENDERERS
 from .report.summary import plural
 from .table_outputs import check_table, paths_of, write_tables
 
@@ -149,18 +150,21 @@ def request(arguments: Arguments, targets: Sequence[Target] = (), fallback: str 
         unsafe_fixes=bool(arguments.get("unsafe_fixes")),
         keys=None if lists_keys else SUMMARIZED_KEYS,
         all_keys=lists_keys,
+        renderers=RENDERERS,
     )
 
 
 def exit_code(outcome: Outcome, exit_zero: bool = False) -> int:
     """2 if an input or the configuration cannot be used; 1 if a finding reaches `fail-on`, or an input's findings reach `fail-on-cost`,
     counting only findings that reach `fail-confidence`; else 0."""
-    if any(finding.fatal for finding in outcome.result.findings):
+    result = outcome.result
+    levels = set(result.rendered.counts.levels) if result.rendered is not None else {finding.level for finding in result.findings}
+    if any(fatal for _, _, fatal in levels):
         return 2
     if exit_zero:
         return 0
-    severity, confidence = rank(outcome.settings.fail_on), outcome.settings.fail_confidence
-    failing = any(rank(finding.severity) >= severity and is_confident(finding, confidence) for finding in outcome.result.findings)
+    least, confidences = rank(outcome.settings.fail_on), CONFIDENCES[CONFIDENCES.index(outcome.settings.fail_confidence) :]
+    failing = any(rank(severity) >= least and confidence in confidences for severity, confidence, _ in levels)
     return int(failing or bool(_over_budget(outcome)))
 
 

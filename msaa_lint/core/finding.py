@@ -6,6 +6,7 @@ Their texts may contain raw text of an input: a report must escape them for its 
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
+from .rendered import Level, RenderedReport
 from .text.span import Edit, Label, Span
 
 if TYPE_CHECKING:
@@ -101,6 +102,11 @@ class Finding(NamedTuple):
     def fatal(self) -> bool:
         """Whether an input, a rule page or the configuration cannot be used (a 9xx error): the exit code is then 2."""
         return self.code.startswith("MSAA9") and self.severity == "error"
+
+    @property
+    def level(self) -> Level:
+        """What the exit code depends on."""
+        return self.severity, self.confidence, self.fatal
 
 
 class MissingKey(NamedTuple):
@@ -237,7 +243,8 @@ class Result(NamedTuple):
 
     `savings` are those of each file with findings that have fixes, if the run determined them. `has_baseline` is whether the findings were
     compared with a baseline. `inputs` says what of each file was checked. `untried` are the files that are too large to try their fixes,
-    each with whether it has to be converted first.
+    each with whether it has to be converted first. `rendered` takes the place of findings, undecided rules, inputs, and sources in a
+    report that is rendered input by input.
     """
 
     findings: Sequence[Finding]
@@ -250,6 +257,7 @@ class Result(NamedTuple):
     has_baseline: bool = False
     inputs: Sequence[InputSummary] = ()
     untried: Mapping[str, bool] = {}
+    rendered: RenderedReport | None = None
 
 
 def is_confident(finding: Finding, confidence: str) -> bool:

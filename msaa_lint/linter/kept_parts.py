@@ -32,6 +32,7 @@ from msaa_lint.core.finding import (
     Undecided,
     Unread,
 )
+from msaa_lint.core.rendered import Counts, RenderedFinding, RenderedPart
 from msaa_lint.core.serialized import by_name, dumps, loads
 from msaa_lint.core.text.files import Opened, content, file_state, recording
 from msaa_lint.core.text.source import Origin, Source, Unreadable, decode
@@ -83,8 +84,8 @@ class _Entry(NamedTuple):
 
 
 _TYPES = by_name(
-    RunPart, CaptureLocation, CaptureSummary, Edit, Finding, Fix, InputSummary, Label, MissingKey, Origin, PassTraffic, Price, Saving,
-    Savings, Span, Spent, Suppressed, Undecided, Unread, _Entry, _Text,
+    RunPart, CaptureLocation, CaptureSummary, Counts, Edit, Finding, Fix, InputSummary, Label, MissingKey, Origin, PassTraffic, Price,
+    RenderedFinding, RenderedPart, Saving, Savings, Span, Spent, Suppressed, Undecided, Unread, _Entry, _Text,
 )  # fmt: skip
 
 
@@ -108,7 +109,7 @@ class KeptParts:
         before = time.time_ns() - MIN_AGE
         with recording() as opened:
             part = self._linter.part(unit)
-        if key is not None and part.summaries and not part.problems and not part.spent.turned_off:
+        if key is not None and _is_whole(part) and not part.problems and not part.spent.turned_off:
             entry = self._program_entry(unit, part) if isinstance(unit, ProgramInput) else _entry(part, opened, before)
             if entry is not None:
                 with suppress(RecursionError):
@@ -222,6 +223,11 @@ def _entry(part: RunPart, opened: Opened, before: int) -> _Entry | None:
         texts.append(_Text(name, None if data is not None and _is_text(data, source.text) else source.text, source.origins))
     programs = {name: _program_state(name) for name in opened.programs}
     return _Entry(part._replace(sources={}), texts, files, programs, opened.urls)
+
+
+def _is_whole(part: RunPart) -> bool:
+    """Whether it is known what of an input was checked."""
+    return bool(part.summaries or (part.rendered is not None and part.rendered.inputs))
 
 
 def _is_text(data: bytes, text: str) -> bool:

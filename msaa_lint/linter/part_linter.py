@@ -6,7 +6,7 @@ from functools import partial
 from typing import TYPE_CHECKING, NamedTuple
 
 from msaa_lint.core.diagnostics import diagnostic
-from msaa_lint.core.finding import Finding, Suppressed, is_confident
+from msaa_lint.core.finding import Finding, Result, Suppressed, is_confident, rank
 from msaa_lint.core.text.source import Source
 from msaa_lint.core.urls import is_url
 from msaa_lint.input.file_types import STDIN
@@ -19,6 +19,7 @@ from .source_programs import ProgramInput
 from .workspace import Unit, Workspace
 
 if TYPE_CHECKING:
+    from .run_report import Render
     from .savings import Trials
     from .suppress.baseline import Baseline
 
@@ -38,16 +39,22 @@ class Contents(NamedTuple):
 
 class PartLinter:
     """Lints the inputs of a workspace one by one. What it says of an input does not depend on the others, except that custom rules have one
-    budget; `results` are called in this process."""
+    budget; `results` are called in this process. `render` renders what it says, if the report is rendered input by input."""
 
     def __init__(
-        self, workspace: Workspace, contents: Contents, baseline: "Baseline | None" = None, results: Results | None = None
+        self,
+        workspace: Workspace,
+        contents: Contents,
+        baseline: "Baseline | None" = None,
+        results: Results | None = None,
+        render: "Render | None" = None,
     ) -> None:
         self.workspace = workspace
         self.request = workspace.request
         self.settings = workspace.current.settings
         self.contents = contents
         self.baseline = baseline
+        self.render = render
         self._results = results
 
     @property
@@ -59,7 +66,7 @@ class PartLinter:
         """Lints an input or a program; problems of its files are in the result, not in the workspace."""
         with self.workspace.reading(unit) as read:
             part = self._input(unit) if isinstance(unit, str) else self._program(unit)
-        return part._replace(problems=read.findings, spent=read.spent)
+        return self._rendered(part._replace(problems=read.findings, spent=read.spent))
 
     def found(self, unit: Unit) -> None:
         """Nothing is known from an earlier run."""
@@ -70,11 +77,21 @@ class PartLinter:
 
     def failed(self, unit: Unit, reason: str) -> RunPart:
         """What an input or a program adds that ended the processes that read it."""
-        return RunPart(problems=[self.workspace.not_read(unit, reason)])
+        return self._rendered(RunPart(problems=[self.workspace.not_read(unit, reason)]))
 
     def travelling(self) -> Callable[[Workspace], "PartLinter"]:
         """Creates such a linter in another process."""
-        return partial(PartLinter, contents=self.contents, baseline=self.baseline)
+        return partial(PartLinter, contents=self.contents, baseline=self.baseline, render=self.render)
+
+    def _rendered(self, part: RunPart) -> RunPart:
+        if self.render is None:
+            return part
+        least = rank(self.settings.min_severity)
+        findings = [found for found in (*part.diagnostics, *part.findings) if found.fatal or rank(found.severity) >= least]
+        result = Result(findings, part.undecided, part.suppressed, (), part.sources, (), inputs=part.summaries)
+        return part._replace(
+            diagnostics=(), findings=(), undecided=(), suppressed=(), summaries=(), sources={}, rendered=self.render(result)
+        )
 
     def _input(self, path: str) -> RunPart:
         with self.workspace.guard(path):

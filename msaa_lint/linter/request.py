@@ -1,9 +1,19 @@
 """What a run is asked to do."""
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Protocol
 
+from msaa_lint.core.finding import Result
+from msaa_lint.core.rendered import RenderedPart
 from msaa_lint.input.file_types import STDIN
+
+
+class Renderer(Protocol):
+    """Renders what an input adds to a report. It travels by name."""
+
+    def __call__(self, result: Result, docs_url: str) -> RenderedPart:
+        """What the result of an input adds to a report that links to the documentation at an address."""
+        ...
 
 
 class Division(NamedTuple):
@@ -30,7 +40,8 @@ class Request(NamedTuple):
     up that they lack (None: of all), and `all_keys` finds all keys that undecided rules lack, and not only the next one. `log` is called
     with a line for each configuration and each input that is used. `traceback` raises an exception that linting an input causes, instead
     of reporting it. `cache` uses and keeps results in the user's cache folder. `division` says who reads the inputs. `edits` writes the
-    edits of fixes into the findings.
+    edits of fixes into the findings. `renderers` are those of the formats that are rendered input by input; the result has texts in place
+    of findings if there is no other output.
     """
 
     paths: Sequence[str]
@@ -56,6 +67,7 @@ class Request(NamedTuple):
     cache: bool = False
     division: Division = ALONE
     edits: bool = True
+    renderers: Mapping[str, Renderer] = {}
 
     def input_name(self, path: str) -> str:
         """The name of an input in findings."""

@@ -1,7 +1,8 @@
 """Runs `check`: lints every input of a request, and fixes it if asked to. The command line and `msaa_lint.lint` both use it."""
 
 import os
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence, Set
+from functools import partial
 from itertools import chain
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -15,6 +16,7 @@ from .part_linter import Contents, PartLinter, Results
 from .request import Request
 from .run_findings import RunFindings
 from .run_part import RunPart
+from .run_report import Render, RunReport
 from .settings.settings import TABLE_FORMATS, Settings
 from .source_programs import units_of
 from .unit_parts import parts
@@ -72,7 +74,7 @@ class _Run:
         self.workspace = Workspace(request)
         self.settings = self.workspace.current.settings
         self.baseline = self._load_baseline()
-        outputs = request.formats or [text.partition("=")[0] for text in self.settings.output] or [request.fallback]
+        outputs = set(request.formats or [text.partition("=")[0] for text in self.settings.output] or [request.fallback])
         limited = self.settings.fail_on_cost is not None
         contents = Contents(
             prices=request.by_price or limited or not PRICED_FORMATS.isdisjoint(outputs),
@@ -80,7 +82,9 @@ class _Run:
             frames="html" in outputs,
             passes=not set(TABLE_FORMATS).isdisjoint(outputs),
         )
-        self.linter = PartLinter(self.workspace, contents, self.baseline, results)
+        render = self._render(outputs, results is not None)
+        self.linter = PartLinter(self.workspace, contents, self.baseline, results, render)
+        self.report = RunReport(self.workspace, render) if render is not None else None
         self.with_pages = request.full_rules or not RULE_PAGE_FORMATS.isdisjoint(outputs)
         self.frames: list[CostedFrame] = []
         spool = self.workspace.spool
@@ -96,6 +100,14 @@ class _Run:
         self.failing: SpooledDict[Savings] = SpooledDict(spool)
         self.fixed: list[FixedText] = []
         self.notes: list[str] = []
+
+    def _render(self, outputs: Set[str], has_callback: bool) -> Render | None:
+        """What renders the report input by input, if that is possible: findings need not be known all at once."""
+        request = self.request
+        if len(outputs) > 1 or self.baseline is not None or request.by_price or request.fix is not None or has_callback:
+            return None
+        renderer = request.renderers.get(next(iter(outputs)))
+        return partial(renderer, docs_url=self.settings.docs_url) if renderer is not None else None
 
     def _load_baseline(self) -> "Baseline | None":
         if self.settings.baseline is None or self.request.without_baseline:
@@ -127,6 +139,10 @@ class _Run:
         notes = [*discovered.notes, *self.notes, *self._stale_entries(files), *self.workspace.close()]
         current, spool = self.workspace.current, self.workspace.spool
         rules = rule_infos(current.engine.registry, current.selection.for_file(os.curdir), self.with_pages)
+        if self.report is not None:
+            rendered = self.report.finish(self.findings.in_order(), files)
+            result = Result((), (), (), files, {}, rules, self.savings.finished(), untried=self.untried, rendered=rendered)
+            return Outcome(result, self.settings, notes, failing=self.failing.finished())
         findings = self.findings.by_price() if self.request.by_price else self.findings.by_file()
         suppressed = SpooledList(spool, chain(self.suppressed, self.accepted))
         result = Result(
@@ -165,18 +181,23 @@ class _Run:
         request, settings = self.request, self.settings
         accepted = (settings.fail_confidence, self.baseline) if settings.fail_on_cost is not None else None
         stated = (request.ignores, request.format, request.frame_end, request.keys, request.all_keys, request.edits, settings.min_severity)
-        return repr((self.linter.contents, stated, accepted))
+        rendered = self.linter.render is not None and self.settings.docs_url
+        return repr((self.linter.contents, stated, accepted, rendered))
 
     def _add(self, part: RunPart, names: Sequence[str]) -> None:
         """Adds what the inputs of these names add to the result of the run, after the baseline."""
-        findings, accepted = self.linter.apply_baseline(part.findings)
-        self.findings.add(part.problems, [*part.diagnostics, *findings])
-        self.accepted.extend(accepted)
-        self.undecided.extend(part.undecided)
-        self.suppressed.extend(part.suppressed)
-        unknown = {name: InputSummary(name, failed=True) for name in names if name not in self.summaries}
-        self.summaries.update(unknown | {summary.file: summary for summary in part.summaries})
-        self.workspace.sources.update(part.sources)
+        if self.report is not None and part.rendered is not None:
+            self.findings.add(part.problems, part.rendered.findings)
+            self.report.add(part.rendered, names)
+        else:
+            findings, accepted = self.linter.apply_baseline(part.findings)
+            self.findings.add(part.problems, [*part.diagnostics, *findings])
+            self.accepted.extend(accepted)
+            self.undecided.extend(part.undecided)
+            self.suppressed.extend(part.suppressed)
+            unknown = {name: InputSummary(name, failed=True) for name in names if name not in self.summaries}
+            self.summaries.update(unknown | {summary.file: summary for summary in part.summaries})
+            self.workspace.sources.update(part.sources)
         self.savings.update(part.savings)
         self.failing.update(part.failing)
         self.untried.update(part.untried)

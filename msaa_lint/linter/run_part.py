@@ -4,6 +4,7 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from msaa_lint.core.finding import Finding, InputSummary, PassTraffic, Savings, Suppressed, Undecided
+from msaa_lint.core.rendered import RenderedPart
 from msaa_lint.core.text.source import Source
 
 from .rules.budget import Spent
@@ -21,7 +22,8 @@ class RunPart(NamedTuple):
     reports show. `savings`, `failing`, and `untried` are by file. `problems` are the findings about files that cannot be read. `frames`
     are the frames with their costs, if a report shows them. `notes` are lines for standard error, `fixed` the fixed texts, `passes` what
     passes move, if an output has rows of them, which are of the `owners` of the other files of a program, and `spent` is what custom rules
-    took.
+    took. `rendered` takes the place of findings except `problems`, undecided rules, summaries, and sources in a report that is rendered
+    input by input.
     """
 
     diagnostics: Sequence[Finding] = ()
@@ -40,6 +42,7 @@ class RunPart(NamedTuple):
     passes: Sequence[PassTraffic] = ()
     owners: Mapping[str, str] = {}
     spent: Spent = Spent()
+    rendered: RenderedPart | None = None
 
     def __add__(self, other: "RunPart") -> "RunPart":  # type: ignore[override]
         """Both together."""

@@ -88,6 +88,20 @@ def test_every_format_is_the_same(corpus: Path, output: str) -> None:
     assert one == three and "MSAA201" in one
 
 
+def test_json_is_the_same_with_another_output(corpus: Path) -> None:
+    """Beside one that needs all findings, it is not put together from the texts of the inputs."""
+    pytest.importorskip("tree_sitter_cpp")
+    from tests.input.code.project.test_folders import PASS, settings, write
+
+    write(corpus / "code", {"a.cpp": PASS, "b.cpp": PASS, "settings.h": settings(4), "other.cpp": PASS.replace('"settings.h"', '"no.h"')})
+    (corpus / "msaa-lint.toml").write_text('select = ["MSAA2", "MSAA4", "MSAA999"]\nmin-severity = "warning"\n')
+    alone = run(corpus, "check", ".", "missing.msaa.yaml", "--output", "json", "--no-cache")
+    run(corpus, "check", ".", "missing.msaa.yaml", "--output", "json=both.json", "--output", "concise", "--no-cache")
+    assert json.loads(alone.stdout)["summary"]["files_with_findings"] > 20
+    assert {"code/a.cpp", "missing.msaa.yaml"} <= {finding["file"] for finding in json.loads(alone.stdout)["findings"]}
+    assert (corpus / "both.json").read_text() == alone.stdout
+
+
 @pytest.mark.usefixtures("thread")
 def test_processes_that_are_not_copies_say_the_same(corpus: Path) -> None:
     done = run(corpus, "check", ".", "--output", "json", "--jobs", "2", "--no-cache")
@@ -98,8 +112,7 @@ def test_one_input_that_ends_processes_is_a_finding_of_it(corpus: Path) -> None:
     code = """if True:
         import os, signal, sys
         from msaa_lint.__main__ import main
-        from msaa_lint.core.cache import FILE
-from msaa_lint.linter.engine import Engine
+        from msaa_lint.linter.engine import Engine
         lint = Engine.lint
         def poisonous(self, data, file, options):
             if file == "other/04.msaa.yaml":

@@ -14,13 +14,21 @@ from .place import place
 
 Json = dict[str, object]
 
+SEPARATOR = ",\n    "
+"""What is between the elements of a list of a report."""
+
+
+class Dumped(str):
+    """JSON of an element of a list of a report, or of several with `SEPARATOR` between them."""
+
+
 _ENCODER = json.JSONEncoder(ensure_ascii=True, allow_nan=False)
 """Made once: `json.dumps` with these options makes one for each value."""
 
 
 def dump(value: object) -> str:
     """`value` on one line. It is ASCII, so every encoding of an output stream can hold it, and no terminal and no CI runner acts on it."""
-    return escape_json(_ENCODER.encode(value))
+    return value if isinstance(value, Dumped) else escape_json(_ENCODER.encode(value))
 
 
 def dump_indented(value: object) -> str:

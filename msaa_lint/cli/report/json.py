@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 from msaa_lint.core.finding import CaptureSummary, Finding, Fix, InputSummary, Result, Saving, Suppressed, Undecided, Unread
+from msaa_lint.core.rendered import RenderedFinding, RenderedPart
 from msaa_lint.core.text.span import Label, Span
 from msaa_lint.linter.rules.reference_links import rule_address
 
 from . import Options, Write
-from .data import Json, head, text, write_object
+from .counts import counts, most_rules
+from .data import SEPARATOR, Dumped, Json, dump, head, text, write_object
 from .escape import escape_surrogates
 from .inputs import COUNTS
 from .paths import relative
 from .place import Place, place
 from .summary import converted_saving, files_saving, tally, usable_price
-from .undecided import rules_by_key
 
 SCHEMA = "msaa-lint/json-v1"
 _COUNTS = (
@@ -26,14 +27,29 @@ def render(result: Result, out: Write, options: Options) -> None:
     members: Json = head(SCHEMA, options.version)
     if options.edition:
         members["edition"] = options.edition
-    members |= {
-        "findings": (_finding(finding, result, options) for finding in result.findings),
-        "suppressed": (_suppressed(entry, result, options) for entry in result.suppressed),
-        "undecided": (_undecided(entry, result, options) for entry in result.undecided),
-        "inputs": (_input(entry, result, options) for entry in result.inputs),
-        "summary": _summary(result),
-    }
+    rendered = result.rendered
+    if rendered is None:
+        members |= {
+            "findings": (_finding(finding, result, options) for finding in result.findings),
+            "suppressed": (_suppressed(entry, result, options) for entry in result.suppressed),
+            "undecided": (_undecided(entry, result, options) for entry in result.undecided),
+            "inputs": (_input(entry, result, options) for entry in result.inputs),
+        }
+    else:
+        members |= {name: map(Dumped, getattr(rendered, name)) for name in ("findings", "suppressed", "undecided", "inputs")}
+    members["summary"] = _summary(result)
     write_object(members, out)
+
+
+def part(result: Result, options: Options) -> RenderedPart:
+    """What one input adds to the lists of the object, and to its summary."""
+    return RenderedPart(
+        [RenderedFinding(dump(_finding(each, result, options)), each.file, each.level) for each in result.findings],
+        SEPARATOR.join(dump(_suppressed(entry, result, options)) for entry in result.suppressed),
+        SEPARATOR.join(dump(_undecided(entry, result, options)) for entry in result.undecided),
+        {entry.file: dump(_input(entry, result, options)) for entry in result.inputs},
+        counts(result._replace(findings=())),
+    )
 
 
 def _finding(finding: Finding, result: Result, options: Options) -> Json:
@@ -131,19 +147,13 @@ def _place(result: Result, file: str, span: Span | None) -> Json:
 
 
 def _summary(result: Result) -> Json:
-    count, files, converted = tally(result), files_saving(result), converted_saving(result)
-    checked = dict.fromkeys(COUNTS, 0)
-    unread = 0
-    for entry in result.inputs:
-        unread += entry.unread is not None
-        for name in COUNTS:
-            checked[name] += getattr(entry, name)
+    figures, count, files, converted = counts(result), tally(result), files_saving(result), converted_saving(result)
     return {
         **{name: getattr(count, name) for name in _COUNTS},
         "missing": {text(fact): rules for fact, rules in count.missing},
-        "missing_keys": {text(key): rules for key, rules in rules_by_key(result)},
-        "checked": checked,
-        "unread": unread,
+        "missing_keys": {text(key): rules for key, rules in most_rules(figures.keys)},
+        "checked": {name: figures.numbers.get(name, 0) for name in COUNTS},
+        "unread": figures.numbers.get("unread", 0),
         "price": files.all.price._asdict() if files.all.price else None,
         "savings": {
             "fix": _saving(files.safe),

@@ -17,8 +17,7 @@ from .fingerprint import fingerprints
 from .inputs import checked
 from .paths import uri
 from .place import place
-from .summary import files_saving, is_choice, usable_price
-from .undecided import summary_line
+from .summary import files_saving, is_choice, summary_line, usable_price
 
 SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
 

@@ -9,8 +9,9 @@ from msaa_lint.core.finding import CONFIDENCES, Finding, Price, Result, Saving, 
 from msaa_lint.linter.settings.settings import COMMAND_LINE
 
 from . import Options
+from .counts import counts, most_rules
+from .escape import display
 from .inputs import captured, checked, unread
-from .undecided import summary_line
 from .words import plural as plural
 
 
@@ -39,30 +40,22 @@ class Tally(NamedTuple):
 
 def tally(result: Result) -> Tally:
     """The counts of a run."""
+    figures, savings = counts(result), files_saving(result)
     severities: Counter[str] = Counter()
-    with_findings = dict.fromkeys(result.files, False)
-    for finding in result.findings:
-        severities[finding.severity] += 1
-        with_findings[finding.file] = True
-    with_findings.pop(COMMAND_LINE, None)
-    savings = files_saving(result)
-    rules_by_fact: dict[str, set[str]] = {}
-    for entry in result.undecided:
-        for fact in entry.missing:
-            rules_by_fact.setdefault(fact, set()).add(entry.code)
-    missing = sorted(((fact, len(codes)) for fact, codes in rules_by_fact.items()), key=lambda item: (-item[1], item[0]))
+    for (severity, _, _), number in figures.levels.items():
+        severities[severity] += number
     return Tally(
         errors=severities["error"],
         warnings=severities["warning"],
         notes=severities["note"],
         fixable=savings.all.findings,
         safely_fixable=savings.safe.findings,
-        files=len(with_findings),
-        files_with_findings=sum(with_findings.values()),
-        suppressed=len(result.suppressed),
-        undecided=len(result.undecided),
-        undecided_rules=len({entry.code for entry in result.undecided}),
-        missing=tuple(missing),
+        files=len(figures.files.union(result.files) - {COMMAND_LINE}),
+        files_with_findings=len(figures.files - {COMMAND_LINE}),
+        suppressed=figures.numbers.get("suppressed", 0),
+        undecided=figures.numbers.get("undecided", 0),
+        undecided_rules=len(figures.codes),
+        missing=tuple(most_rules(figures.facts)),
     )
 
 
@@ -95,6 +88,19 @@ def sentence(result: Result, options: Options) -> str:
     if count.suppressed:
         text += f"; {count.suppressed} suppressed"
     return text
+
+
+def summary_line(result: Result, options: Options) -> str:
+    """`4 rules undecided, missing keys: images.*.usage (2), ...`; empty if none is."""
+    figures = counts(result)
+    if not figures.codes:
+        return ""
+    lacking = most_rules(figures.keys)
+    keys = [f"{display(key)} ({count})" for key, count in lacking[: options.max_undecided]]
+    if len(lacking) > options.max_undecided:
+        keys.append(f"and {len(lacking) - options.max_undecided} more")
+    text = f"{plural(len(figures.codes), 'rule')} undecided" + (f", missing keys: {', '.join(keys)}" if keys else "")
+    return text if options.explain_undecided else f"{text}; --explain-undecided lists what to add"
 
 
 def fixable(result: Result) -> list[str]:

@@ -13,7 +13,6 @@ from .escape import display
 from .inputs import SOURCE
 from .paths import display_path
 from .place import place
-from .words import plural
 
 MAX_SUBJECTS = 3
 """The places that an explanation names for one rule and one kind of key."""
@@ -34,28 +33,6 @@ def pattern(key: MissingKey) -> str:
 @lru_cache(maxsize=4096)
 def _pattern(path: str) -> str:
     return _INDEX.sub("[*]", _SECTION.sub(r"\1.*", path))
-
-
-def rules_by_key(result: Result) -> list[tuple[str, int]]:
-    """The missing keys with the number of rules that lack each, the largest number first."""
-    rules: dict[str, set[str]] = {}
-    for entry in result.undecided:
-        for key in entry.keys:
-            rules.setdefault(pattern(key), set()).add(entry.code)
-    return sorted(((key, len(codes)) for key, codes in rules.items()), key=lambda item: (-item[1], item[0]))
-
-
-def summary_line(result: Result, options: Options) -> str:
-    """`4 rules undecided, missing keys: images.*.usage (2), ...`; empty if none is."""
-    rules = len({entry.code for entry in result.undecided})
-    if not rules:
-        return ""
-    counts = rules_by_key(result)
-    keys = [f"{display(key)} ({count})" for key, count in counts[: options.max_undecided]]
-    if len(counts) > options.max_undecided:
-        keys.append(f"and {len(counts) - options.max_undecided} more")
-    text = f"{plural(rules, 'rule')} undecided" + (f", missing keys: {', '.join(keys)}" if keys else "")
-    return text if options.explain_undecided else f"{text}; --explain-undecided lists what to add"
 
 
 def explanation(result: Result, options: Options) -> Iterator[str]:

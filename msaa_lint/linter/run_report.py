@@ -1,0 +1,49 @@
+"""The report of a run that is rendered input by input, so that what is known of an input need not leave the process that reads it."""
+
+from collections.abc import Callable, Iterator, Sequence
+
+from msaa_lint.core.finding import Finding, InputSummary, Result
+from msaa_lint.core.rendered import RenderedFinding, RenderedPart, RenderedReport, no_counts
+from msaa_lint.core.spool import SpooledDict, SpooledList
+
+from .workspace import Workspace
+
+Render = Callable[[Result], RenderedPart]
+"""What renders what an input adds to a report."""
+
+
+class RunReport:
+    """The texts of the inputs of a run, except their findings."""
+
+    def __init__(self, workspace: Workspace, render: Render) -> None:
+        spool = workspace.spool
+        self._workspace = workspace
+        self._render = render
+        self._suppressed: SpooledList[str] = SpooledList(spool)
+        self._undecided: SpooledList[str] = SpooledList(spool)
+        self._inputs: SpooledDict[str] = SpooledDict(spool)
+        self._counts = no_counts()
+
+    def add(self, part: RenderedPart, names: Sequence[str]) -> None:
+        """Adds what the inputs of these names add to the report. Those that it does not know could not be read."""
+        unknown = [InputSummary(name, failed=True) for name in names if name not in part.inputs and name not in self._inputs]
+        for each in (part, *([self._render(Result((), (), (), (), {}, (), inputs=unknown))] if unknown else [])):
+            self._suppressed.extend(filter(None, [each.suppressed]))
+            self._undecided.extend(filter(None, [each.undecided]))
+            self._inputs.update(each.inputs)
+            self._counts.add(each.counts)
+
+    def finish(self, findings: Iterator[Finding | RenderedFinding], files: Sequence[str]) -> RenderedReport:
+        """The report with these findings, and the inputs in the order of their names."""
+        texts: SpooledList[str] = SpooledList(self._workspace.spool)
+        for finding in findings:
+            rendered = self._finding(finding) if isinstance(finding, Finding) else finding
+            texts.append(rendered.text)
+            self._counts.add_finding(rendered.level, rendered.file)
+        inputs = (self._inputs[file] for file in files)
+        return RenderedReport(texts, self._suppressed, self._undecided, inputs, self._counts)
+
+    def _finding(self, finding: Finding) -> RenderedFinding:
+        """A finding about the configuration, a rule page, or an input that could not be read."""
+        (rendered,) = self._render(Result([finding], (), (), (), self._workspace.sources, ())).findings
+        return rendered
