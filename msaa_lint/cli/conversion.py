@@ -100,8 +100,9 @@ class ConvertLinter:
         problems = [finding_line(finding) for finding in dict.fromkeys(read.findings) if finding.fatal]
         return found._replace(errors=[*problems, *found.errors])
 
-    def found(self, unit: Unit) -> None:
+    def known(self, units: Sequence[Unit]) -> Mapping[int, Conversion]:
         """Descriptions are not kept between runs."""
+        return {}
 
     def included(self, part: Conversion) -> bool:
         """True: converting runs no custom rules."""

@@ -3,7 +3,7 @@ to do."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Container, Generator, Iterator, Sequence
+from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
 from itertools import accumulate
 from typing import Generic, NamedTuple, Protocol, TypeVar
 
@@ -31,6 +31,9 @@ MAX_BYTES = 64 << 10
 
 MAX_WAITING = 100
 """The number of parts in memory that wait for those of inputs before theirs."""
+
+MAX_LOOKED_UP = 64
+"""The number of inputs of which is looked up together what is known of them."""
 
 MAX_PROCESSES = 8
 """The number of processes on this machine, unless one is asked for: each takes memory of its own."""
@@ -60,12 +63,12 @@ class Linter(Protocol[Part]):
         """What an input or a program adds."""
         ...
 
-    def found(self, unit: Unit) -> Part | None:
-        """What an input or a program adds, if that is known from an earlier run."""
+    def known(self, units: Sequence[Unit]) -> Mapping[int, Part]:
+        """What is known from an earlier run, by the numbers of the inputs and programs among these."""
         ...
 
     def included(self, part: Part) -> bool:
-        """Counts what custom rules took for a part in another process; False if that may be more than they have left in this one."""
+        """Counts what custom rules took for a part in another process or run; False if that may be more than they have left in this one."""
         ...
 
     def failed(self, unit: Unit, reason: str) -> Part:
@@ -88,31 +91,31 @@ class InputRuns(Generic[Part]):
 
     def in_this_process(self) -> Generator[Part]:
         """Yields the parts."""
-        return (self.linter.part(unit) for unit in self._units)
+        for start in range(0, len(self._units), MAX_LOOKED_UP):
+            units = self._units[start : start + MAX_LOOKED_UP]
+            known = self.linter.known(units)
+            for number, unit in enumerate(units):
+                yield self._part(unit, known.get(number))
 
     def divided(self, backend: Backend, job: Callable[[Task], list[Part]]) -> Generator[Part]:
         """Yields the parts, which `backend` determines by `job`. They are what one process would say."""
         for unit in self._units:
             # Here, what the rules of a configuration take is counted once.
             self._configuration(unit)
-        waiting: SpooledDict[Part] = SpooledDict(self._workspace.spool, MAX_WAITING)
-        known: set[int] = set()
-        for number, unit in enumerate(self._units):
-            if isinstance(unit, ProgramInput) and (part := self.linter.found(unit)) is not None:
-                waiting.update({str(number): part})
-                known.add(number)
+        known = _Known(self.linter, self._units)
+        waiting = known.parts
         results = backend.results(job, self._tasks(known), list_of_each)
         try:
             for number, unit in enumerate(self._units):
                 if unit == STDIN:
                     yield self.linter.part(unit)
                     continue
+                known.look_up(number)
                 while str(number) not in waiting:
                     task, found = next(results)
                     parts = [self.linter.failed(each.unit, found.reason) for each in task.units] if isinstance(found, Failure) else found
                     waiting.update({str(each.number): part for each, part in zip(task.units, parts, strict=True)})
-                part = waiting.pop(str(number))
-                yield part if number in known or self.linter.included(part) else self.linter.part(unit)
+                yield self._part(unit, waiting.pop(str(number)))
         finally:
             results.close()  # type: ignore[attr-defined]
             backend.close()
@@ -121,28 +124,32 @@ class InputRuns(Generic[Part]):
         """What the units of a task add to the result."""
         parts = []
         self._workspace.use(task.configuration)
-        for _, unit, project in task.units:
-            if isinstance(unit, str):
-                self._workspace.enter(unit, project)
+        self._workspace.enter({each.unit: each.project for each in task.units if isinstance(each.unit, str) and each.project is not None})
+        known = self.linter.known([each.unit for each in task.units])
+        for number, (_, unit, _) in enumerate(task.units):
             self._workspace.forget_spent()
-            parts.append(self.linter.part(unit))
+            parts.append(self._part(unit, known.get(number)))
         self._workspace.flush()
         return parts
+
+    def _part(self, unit: Unit, known: Part | None) -> Part:
+        """What a unit adds, which may be known, if custom rules may take what they took for it."""
+        return known if known is not None and self.linter.included(known) else self.linter.part(unit)
 
     def _configuration(self, unit: Unit) -> str | None:
         return self._workspace.resolve(unit if isinstance(unit, str) else unit.inputs[0]).configuration
 
-    def _tasks(self, done: Container[int]) -> Iterator[Task]:
-        """The units in groups: long programs first, so that all processes end together, then inputs in their order."""
-        programs = [
-            Numbered(number, unit) for number, unit in enumerate(self._units) if isinstance(unit, ProgramInput) and number not in done
-        ]
-        for each in sorted(programs, key=lambda each: -self._workspace.length(each.unit)):
+    def _tasks(self, known: _Known[Part]) -> Iterator[Task]:
+        """The units of which nothing is known, in groups: long programs first, so that all processes end together, then inputs in their
+        order."""
+        programs = [Numbered(number, unit) for number, unit in enumerate(self._units) if isinstance(unit, ProgramInput)]
+        unknown = (each for each in programs if not known.is_known(each.number))
+        for each in sorted(unknown, key=lambda each: -self._workspace.length(each.unit)):
             yield Task((each,), self._configuration(each.unit))
         group: list[Numbered] = []
         length, common = 0, None
         for number, unit in enumerate(self._units):
-            if isinstance(unit, ProgramInput) or unit == STDIN:
+            if isinstance(unit, ProgramInput) or unit == STDIN or known.is_known(number):
                 continue
             size, configuration = self._workspace.length(unit), self._configuration(unit)
             if group and (len(group) == self._per_task or length + size > MAX_BYTES or configuration != common):
@@ -152,6 +159,31 @@ class InputRuns(Generic[Part]):
             length, common = length + size, configuration
         if group:
             yield Task(group, common)
+
+
+class _Known(Generic[Part]):
+    """What is known of units, which is looked up in their order; `parts` has it, by their numbers."""
+
+    def __init__(self, linter: Linter[Part], units: Sequence[Unit]) -> None:
+        self.parts: SpooledDict[Part] = SpooledDict(linter.workspace.spool, MAX_WAITING)
+        self._linter = linter
+        self._units = units
+        self._looked_up = 0
+        self._is_known = bytearray(len(units))
+
+    def is_known(self, number: int) -> bool:
+        """Whether a unit need not be read."""
+        self.look_up(number)
+        return bool(self._is_known[number])
+
+    def look_up(self, number: int) -> None:
+        """Looks up what is known of the units up to this one."""
+        while self._looked_up <= number:
+            units = self._units[self._looked_up : self._looked_up + MAX_LOOKED_UP]
+            for number, part in self._linter.known(units).items():
+                self.parts.update({str(self._looked_up + number): part})
+                self._is_known[self._looked_up + number] = True
+            self._looked_up += len(units)
 
 
 def list_of_each(task: Task) -> list[Task]:

@@ -10,7 +10,7 @@ from __future__ import annotations
 import os
 import time
 import zlib
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -101,11 +101,8 @@ class KeptParts:
         """What parts depend on by configuration."""
 
     def part(self, unit: Unit) -> RunPart:
-        """What an input or a program adds: as kept, or as determined now, which is then kept."""
+        """What an input or a program adds, which is then kept."""
         key = self._key(unit)
-        found = self._found(unit, key)
-        if found is not None:
-            return found
         before = time.time_ns() - MIN_AGE
         with recording() as opened:
             part = self._linter.part(unit)
@@ -116,19 +113,18 @@ class KeptParts:
                     self._cache.write(_KIND, key, zlib.compress(dumps(entry), 1))
         return part
 
-    def found(self, unit: Unit) -> RunPart | None:
-        """What an input or a program adds, if that is kept, its files are as they were, and custom rules may take what they took."""
-        return self._found(unit, self._key(unit))
-
-    def _found(self, unit: Unit, key: str | None) -> RunPart | None:
-        data = self._cache.read(_KIND, key) if key is not None else None
-        if data is None:
-            return None
-        with suppress(ValueError, RecursionError, zlib.error):
-            entry = loads(zlib.decompress(data), _TYPES)
-            part = self._unchanged(unit, entry) if isinstance(entry, _Entry) else None
-            return part if part is not None and self.included(part) else None
-        return None
+    def known(self, units: Sequence[Unit]) -> Mapping[int, RunPart]:
+        """What inputs and programs add that is kept, if their files are as they were."""
+        keys = list(map(self._key, units))
+        kept = self._cache.read_all(_KIND, filter(None, keys))
+        found: dict[int, RunPart] = {}
+        for number, (unit, key) in enumerate(zip(units, keys, strict=True)):
+            if key in kept:
+                with suppress(ValueError, RecursionError, zlib.error):
+                    entry = loads(zlib.decompress(kept[key]), _TYPES)
+                    if isinstance(entry, _Entry) and (part := self._unchanged(unit, entry)) is not None:
+                        found[number] = part
+        return found
 
     def included(self, part: RunPart) -> bool:
         """Whether custom rules may take what they took for a part in another process, which then counts here."""

@@ -1,7 +1,7 @@
 """Lints one input, or the files of a program, and says what it adds to the result of a run."""
 
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -68,8 +68,9 @@ class PartLinter:
             part = self._input(unit) if isinstance(unit, str) else self._program(unit)
         return self._rendered(part._replace(problems=read.findings, spent=read.spent))
 
-    def found(self, unit: Unit) -> None:
+    def known(self, units: Sequence[Unit]) -> Mapping[int, RunPart]:
         """Nothing is known from an earlier run."""
+        return {}
 
     def included(self, part: RunPart) -> bool:
         """Whether custom rules may take what they took for a part in another process, which then counts here."""

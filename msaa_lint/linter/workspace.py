@@ -229,10 +229,9 @@ class Workspace:
         if isinstance(self.configurations, KnownConfigurations):
             self.configurations.current = configuration
 
-    def enter(self, path: str, project: str | None) -> None:
-        """Makes an input known, with the project that it must be in."""
-        if project is not None:
-            self._projects = {path: project}
+    def enter(self, projects: Mapping[str, str]) -> None:
+        """Makes inputs known, with the projects that they must be in."""
+        self._projects = projects
 
     def project(self, path: str) -> str | None:
         """The project that an input must be in; None for one that is named."""
