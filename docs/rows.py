@@ -26,7 +26,9 @@ msaa-lint corpus findings.parquet --output html=corpus.html
   save of the same bytes counts twice. `msaa-lint check` says what the fixes of an input save together.
 - the 50th, 90th, and 99th percentile of prices, and the highest, in MB/s read and written.
 - with `--since`, what is new and what is gone since an earlier run. A finding is the same if its input, rule, and subject are; lines may
-  move. Paths must be stated the same way in both runs. If the earlier run had another version, edition, or configuration, a note says so.
+  move, and indices and the numbers of captured objects may differ. An input is the same if its path is. If one run lacks a path, it is the
+  input of the other run with the same rows, or else with the same name in the same folders at the end of the path, so inputs may be
+  renamed or moved, and folders be named in another way. If the earlier run had another version, edition, or configuration, a note says so.
 
 ## SQL
 

@@ -13,6 +13,10 @@ from .rules.rule_runner import FixSpecs
 
 _INDEX = re.compile(r"\[[0-9]+\]")
 
+NUMBERS = r"^documents\[[0-9]+\]\.|\[[0-9]+\]| #[0-9]+"
+"""A pattern of the numbers in a subject that say nothing of it: the document, which is not stated of a single one, indices, which shift
+when an entry before them is removed, and those of captured objects without a name, which every capture gives anew. RE2 reads it as well."""
+
 
 MAX_TRIED = 1 << 20
 """Characters of a text up to which its fixes are tried for a summary; `--fix`, `--diff`, and `--fail-on-cost` try them for any."""

@@ -127,6 +127,58 @@ def test_since_knows_moved_findings_again(folder: Path) -> None:
     assert (same["new"], same["gone"], same["rules"]) == (0, 0, [])  # type: ignore[index]
 
 
+def counts(since: object) -> dict[str, int]:
+    assert isinstance(since, dict)
+    return {key: since[key] for key in ("new", "gone", "new_inputs", "gone_inputs", "moved_inputs") if since[key]}
+
+
+def test_since_knows_moved_inputs_again(tmp_path: Path) -> None:
+    """One is renamed, one is moved and edited, one is replaced by another one, and the folder is named in another way."""
+
+    def checked(folder: str, output: str) -> None:
+        assert run(tmp_path, "check", "--isolated", folder, "--output", f"sqlite={output}.sqlite").returncode == 1
+
+    def since(after: str, before: str) -> dict[str, int]:
+        return counts(answer(tmp_path, f"{after}.sqlite", "--since", f"{before}.sqlite")["since"])
+
+    folder = tmp_path / "inputs"
+    glow = STORED.replace("forward", "glow")
+    for name, text in {"a/one": STORED, "a/b/two": glow, "three": CLEAN, "c/same": CLEAN, "d/same": CLEAN}.items():
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (folder / f"{name}.msaa.yaml").write_text(SIZE + text)
+    checked("inputs", "old")
+    shutil.copytree(folder, tmp_path / "data")
+    checked("data", "data")
+    assert since("data", "old") == since("old", "data") == {"moved_inputs": 5}
+    (folder / "a/one.msaa.yaml").rename(folder / "renamed.msaa.yaml")
+    (folder / "x").mkdir()
+    (folder / "a/b").rename(folder / "x/b")
+    (folder / "x/b/two.msaa.yaml").write_text(SIZE + glow + "---\n" + STORED)
+    (folder / "three.msaa.yaml").unlink()
+    (folder / "other.msaa.yaml").write_text(SIZE + STORED.replace("forward", "other"))
+    checked("inputs", "new")
+    per_frame = len([row for row in sqlite_tables(tmp_path / "old.sqlite")["findings"] if "one" in row[0]])
+    assert since("new", "old") == {"new": 2 * per_frame, "new_inputs": 1, "gone_inputs": 1, "moved_inputs": 2}
+    assert since("old", "new") == {"gone": 2 * per_frame, "new_inputs": 1, "gone_inputs": 1, "moved_inputs": 2}
+
+
+def test_since_ignores_indices_and_numbers_of_captured_objects(folder: Path, tmp_path: Path) -> None:
+    for name in ("old", "new"):
+        shutil.copy(folder / "new.sqlite", tmp_path / f"{name}.sqlite")
+    subjects = {
+        "old": ("commands[1].draw", "images.color 4x #3", "images.color 4x #7"),
+        "new": ("commands[2].draw", "images.color 4x #4", "images.a"),
+    }
+    for name, stated in subjects.items():
+        with closing(sqlite3.connect(tmp_path / f"{name}.sqlite", isolation_level=None)) as connection:
+            connection.execute("DELETE FROM findings WHERE rowid > ?", (len(stated),))
+            for number, subject in enumerate(stated, 1):
+                connection.execute(
+                    "UPDATE findings SET input = 'i', rule = 'r', line = ?, subject = ? WHERE rowid = ?", (number, subject, number)
+                )
+    assert counts(answer(tmp_path, "new.sqlite", "--since", "old.sqlite")["since"]) == {"new": 1, "gone": 1}
+
+
 def test_since_says_what_else_differs(folder: Path, tmp_path: Path) -> None:
     run(folder, "check", "--isolated", "inputs", "--ignore", "MSAA4", "--output", f"sqlite={tmp_path / 'less.sqlite'}")
     done = run(folder, "corpus", "new.sqlite", "--since", str(tmp_path / "less.sqlite"))

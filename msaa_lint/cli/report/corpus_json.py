@@ -61,6 +61,7 @@ def _since(since: Since) -> Json:
         "gone": since.gone,
         "new_inputs": since.new_inputs,
         "gone_inputs": since.gone_inputs,
+        "moved_inputs": since.moved_inputs,
         "rules": [{name: _value(value) for name, value in each._asdict().items()} for each in since.changes],
         "new_findings": [{name: _value(value) for name, value in each._asdict().items()} for each in since.new_findings],
         "remarks": list(map(text, since.remarks)),

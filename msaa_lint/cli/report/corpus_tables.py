@@ -102,6 +102,7 @@ def _name(group: Group) -> str:
 def since_line(since: Since) -> str:
     """What is new and what is gone since an earlier run, in numbers."""
     inputs = f"; {plural(since.new_inputs, 'new input')}, {since.gone_inputs} gone" if since.new_inputs or since.gone_inputs else ""
+    inputs += f"; {plural(since.moved_inputs, 'input')} moved or renamed" if since.moved_inputs else ""
     return f"since {', '.join(file.name for file in since.files)}: {plural(since.new, 'new finding')}, {since.gone} gone{inputs}"
 
 

@@ -1,19 +1,23 @@
-"""Identifiers of findings that survive edits: a mistake keeps its fingerprint when lines move."""
+"""Identifiers of findings that survive edits: a mistake keeps its fingerprint when lines move, or entries before it."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 from hashlib import sha256
 
 from msaa_lint.core.finding import Finding
+from msaa_lint.linter.results import NUMBERS
 
 from .paths import relative
 
+_NUMBERS = re.compile(NUMBERS)
+
 
 def fingerprint(finding: Finding, n: int, root: str = "") -> str:
-    """32 hexadecimal digits from the rule, the file relative to `root`, the subject, and `n`, the number of earlier findings with the same
-    three."""
-    text = "\0".join((finding.rule, relative(finding.file, root), finding.subject, str(n)))
+    """32 hexadecimal digits from the rule, the file relative to `root`, the subject without `NUMBERS`, and `n`, the number of earlier
+    findings with the same three."""
+    text = "\0".join((*_key(finding, root), str(n)))
     return sha256(text.encode("utf-8", "surrogatepass")).hexdigest()[:32]
 
 
@@ -22,8 +26,12 @@ def fingerprints(findings: Iterable[Finding], root: str = "") -> list[str]:
     counts: dict[tuple[str, str, str], int] = {}
     names = []
     for finding in findings:
-        key = (finding.rule, relative(finding.file, root), finding.subject)
+        key = _key(finding, root)
         n = counts.get(key, 0)
         counts[key] = n + 1
         names.append(fingerprint(finding, n, root))
     return names
+
+
+def _key(finding: Finding, root: str) -> tuple[str, str, str]:
+    return (finding.rule, relative(finding.file, root), _NUMBERS.sub("", finding.subject))

@@ -9,22 +9,32 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
+from msaa_lint.linter.results import NUMBERS
+
 from .database import Database
 from .files import CorpusFile
+from .moved import moved_inputs
 
 _DECIMAL = "TRY_CAST({} AS DECIMAL(38, 6))"
 """Sums of these do not depend on their order, which those of DOUBLE do."""
 
 _SHOWN = f"""
-    SELECT f.corpus, f.input, f.rule, f.code, i.engine, i.device, f.line, f.fingerprint,
+    SELECT f.corpus, coalesce(m.input, f.input) AS input, f.rule, f.code, i.engine, i.device, f.line,
+        regexp_replace(coalesce(f.subject, ''), '{NUMBERS}', '', 'g') AS object,
         {_DECIMAL.format("f.read_mb_per_s + f.write_mb_per_s")} AS traffic,
         {_DECIMAL.format("f.memory_mib")} AS memory, {_DECIMAL.format("f.milliwatts")} AS power,
         coalesce(f.is_saving, false) AS priced,
-        row_number() OVER (PARTITION BY f.input, f.fingerprint ORDER BY f.corpus) AS number
+        row_number() OVER (
+            PARTITION BY coalesce(m.input, f.input), f.rule, object ORDER BY f.corpus, f.line, f.column_number, f.call_number, f.subject
+        ) AS number
     FROM {{schema}}.findings f LEFT JOIN {{schema}}.inputs i ON i.corpus = f.corpus AND i.input = f.input
+        LEFT JOIN {{moved}} m ON m.earlier = f.input
     WHERE f.suppressed IS NULL
 """
-"""The findings that count. Those of several corpora about the same are told apart by `number`."""
+"""The findings that count. Those of an input about the same are told apart by `number`, as in fingerprints. Inputs that have `moved` have
+their names of now."""
+
+_NOT_MOVED = "(SELECT NULL AS input, NULL AS earlier)"
 
 _PERCENTILES = (0.5, 0.9, 0.99)
 
@@ -76,8 +86,8 @@ class NewFinding(NamedTuple):
 
 
 class Since(NamedTuple):
-    """What has changed since an earlier run. `new_findings` are the most expensive ones; `new_inputs` and `gone_inputs` count
-    inputs.
+    """What has changed since an earlier run. `new_findings` are the most expensive ones; `new_inputs`, `gone_inputs`, and `moved_inputs`,
+    which have another name, count inputs.
 
     `remarks` say what makes the runs hard to compare.
     """
@@ -89,6 +99,7 @@ class Since(NamedTuple):
     gone: int
     new_inputs: int
     gone_inputs: int
+    moved_inputs: int
     remarks: Sequence[str]
 
 
@@ -123,7 +134,7 @@ class Summary(NamedTuple):
 def summarize(database: Database, by: str, top: int | None) -> Summary:
     """Answers what is asked of corpora, with at most `top` rows in each answer; None for all. Findings are grouped `by` rule, by input, or
     by engine or device and then by rule."""
-    database.rows(f"CREATE TEMP TABLE shown AS {_SHOWN.format(schema='main')}")
+    database.rows(f"CREATE TEMP TABLE shown AS {_SHOWN.format(schema='main', moved=_NOT_MOVED)}")
     runs = _runs(database, "main", database.files)
     findings, suppressed = database.rows("SELECT count(*), count(suppressed) FROM findings")[0]
     keys = (by, "rule") if by in ("engine", "device") else (by,)
@@ -167,10 +178,12 @@ def _group(row: Sequence[Any], width: int) -> Group:
 
 
 def _since(database: Database, runs: Sequence[Run], top: int | None) -> Since:
-    """What differs from the tables of the earlier run: findings are the same if their input and fingerprint are."""
-    database.rows(f"CREATE TEMP TABLE shown_since AS {_SHOWN.format(schema='since')}")
+    """What differs from the tables of the earlier run: findings are the same if their input, rule, and object are."""
+    moved = moved_inputs(database)
+    database.rows("CREATE TEMP TABLE moved AS SELECT unnest($1) AS input, unnest($2) AS earlier", [list(moved), list(moved.values())])
+    database.rows(f"CREATE TEMP TABLE shown_since AS {_SHOWN.format(schema='since', moved='moved')}")
     for name, these, others in (("new_findings", "shown", "shown_since"), ("gone_findings", "shown_since", "shown")):
-        database.rows(f"CREATE TEMP TABLE {name} AS SELECT * FROM {these} ANTI JOIN {others} USING (input, fingerprint, number)")
+        database.rows(f"CREATE TEMP TABLE {name} AS SELECT * FROM {these} ANTI JOIN {others} USING (input, rule, object, number)")
     changes = database.rows(f"""
         SELECT rule, count(*) FILTER (is_new), count(*) FILTER (NOT is_new),
             coalesce(sum(traffic) FILTER (priced AND is_new), 0)::DOUBLE, coalesce(sum(traffic) FILTER (priced AND NOT is_new), 0)::DOUBLE
@@ -179,21 +192,24 @@ def _since(database: Database, runs: Sequence[Run], top: int | None) -> Since:
     """)
     findings = database.rows(f"""
         SELECT rule, input, line, CASE WHEN priced THEN traffic::DOUBLE END FROM new_findings
-        ORDER BY 4 DESC NULLS LAST, rule, input, line, fingerprint, corpus {_limit(top)}
+        ORDER BY 4 DESC NULLS LAST, rule, input, line, object, number {_limit(top)}
     """)
     (new,), (gone,) = database.rows("SELECT count(*) FROM new_findings UNION ALL SELECT count(*) FROM gone_findings")
     new_inputs, gone_inputs = (
         database.rows(f"SELECT count(*) FROM (SELECT input FROM {these}.inputs EXCEPT SELECT input FROM {others}.inputs)")[0][0]
         for these, others in (("main", "since"), ("since", "main"))
     )
+    # Other files of programs may have moved, too.
+    ((moved_count,),) = database.rows("SELECT count(*) FROM moved SEMI JOIN (SELECT DISTINCT input FROM main.inputs) USING (input)")
     return Since(
         database.since,
         [Change(*row) for row in changes],
         [NewFinding(*row) for row in findings],
         new,
         gone,
-        new_inputs,
-        gone_inputs,
+        new_inputs - moved_count,
+        gone_inputs - moved_count,
+        moved_count,
         _remarks(_runs(database, "since", database.since), runs),
     )
 

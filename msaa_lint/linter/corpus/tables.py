@@ -66,9 +66,7 @@ FINDINGS = Table(
         Column("message", TEXT, "", "The message."),
         Column("suppressed", TEXT, "", "How the finding is suppressed: `inline` or `baseline`. Null if it is not."),
         Column("reason", TEXT, "", "The reason that the suppression comment states."),
-        Column(
-            "fingerprint", TEXT, "", "An identifier of the finding in its input that stays when lines move: `corpus --since` compares it."
-        ),
+        Column("fingerprint", TEXT, "", "An identifier of the finding in its input that stays when lines move."),
     ),
 )
 

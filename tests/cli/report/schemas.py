@@ -97,11 +97,11 @@ def check_sarif(log: dict[str, Any]) -> None:
         assert ids[result["ruleIndex"]] == result["ruleId"]
         assert re.fullmatch("[0-9a-f]{32}", result["partialFingerprints"]["msaaLint/v1"])
         (location,) = result["locations"]
-        for place in [location, *result.get("relatedLocations", ())]:
-            region = place["physicalLocation"]["region"]
+        for place in (each["physicalLocation"] for each in [location, *result.get("relatedLocations", ())]):
+            region = place["region"]
             ends = [region[key] for key in ("startLine", "startColumn", "endLine", "endColumn")]
             assert min(ends) >= 1 and ends[:2] <= ends[2:]
-            assert re.fullmatch("([A-Za-z0-9._~/-]|%[0-9A-F]{2}|^file:)*", place["physicalLocation"]["artifactLocation"]["uri"])
+            assert re.fullmatch("([A-Za-z0-9._~/-]|%[0-9A-F]{2}|^[A-Za-z][A-Za-z0-9+.-]*:(?=//))*", place["artifactLocation"]["uri"])
         ids_of_places = [place["id"] for place in result.get("relatedLocations", ())]
         assert ids_of_places == list(range(1, len(ids_of_places) + 1))
         links = [int(number) for number in re.findall(r"(?<!\\)\]\((.*?)\)", result["message"]["text"])]
