@@ -130,7 +130,7 @@ ONLY_IN = {
     "orjson": {"input.captures.json_stream", "input.code.project", "input.readers.fossilize_objects"},
     "vulkan": {"experiments.confirm.binding"},
     "tree_sitter": {"input.code"},
-    "backports": {"input.compression"},
+    "backports": {"core.zstd"},
     "altair": {"cli.report"},
     "duckdb": {"linter.corpus.database"},
     "pyarrow": {"linter.corpus", "cli.report.check_parquet"},

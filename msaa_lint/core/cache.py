@@ -36,6 +36,9 @@ MAX_UNWRITTEN = 1 << 20
 MAX_NAMES = 500
 """The number of entries that are looked up together: more than SQLite's oldest versions take."""
 
+LEVEL = 1
+"""The level of compression, which is among the fastest."""
+
 WAIT_SECONDS = 2.0
 """How long to wait for other processes that write."""
 
@@ -88,20 +91,25 @@ class Cache:
         for start in range(0, len(numbers), MAX_NAMES):
             some = numbers[start : start + MAX_NAMES]
             for number, day, data in self._rows(some):
-                content = data[_DIGEST_BYTES:]
-                if data[:_DIGEST_BYTES] == _check(number, content):
-                    found[wanted[number]] = content
+                if data[:_DIGEST_BYTES] == _check(number, data[_DIGEST_BYTES:]):
+                    found[wanted[number]] = data
                     if day != today:
                         self._used.add(number)
-            found |= {wanted[number]: self._unwritten[number][_DIGEST_BYTES:] for number in some if number in self._unwritten}
-        return found
+            found |= {wanted[number]: self._unwritten[number] for number in some if number in self._unwritten}
+        if not found:
+            return {}
+        from .zstd import decompress
+
+        return {name: decompress(data[_DIGEST_BYTES:]) for name, data in found.items()}
 
     def write(self, kind: str, name: str, content: bytes) -> None:
         """Keeps an entry. Without room or permission, nothing is kept."""
+        from .zstd import compress
+
         self._enter()
-        number = self._number(kind, name)
-        self._unwritten[number] = _check(number, content) + content
-        self._length += len(content)
+        number, data = self._number(kind, name), compress(content, LEVEL)
+        self._unwritten[number] = _check(number, data) + data
+        self._length += len(data)
         if self._length > MAX_UNWRITTEN:
             self.flush()
 

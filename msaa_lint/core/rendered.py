@@ -7,19 +7,21 @@ Level = tuple[str, str, bool]
 """The severity of a finding, its confidence, and whether it is fatal."""
 
 
+Lack = tuple[str, str, str]
+"""The code of an undecided rule, `fact` or `key`, and what it lacks; the last two are empty if that is unknown."""
+
+
 class Counts(NamedTuple):
     """What the summary of a report counts.
 
-    `levels` are the numbers of findings by level, and `files` what they are about. `numbers` are counts by what is counted. `codes` are
-    those of the undecided rules; `facts` and `keys` have them by the facts and by the kinds of key that they lack.
+    `levels` are the numbers of findings by level, and `files` what they are about. `numbers` are counts by what is counted. `undecided` has
+    the codes of the undecided rules with what they lack.
     """
 
     levels: dict[Level, int]
     files: set[str]
     numbers: dict[str, int]
-    codes: set[str]
-    facts: dict[str, set[str]]
-    keys: dict[str, set[str]]
+    undecided: set[Lack]
 
     def add_finding(self, level: Level, file: str) -> None:
         """Counts a finding."""
@@ -33,15 +35,12 @@ class Counts(NamedTuple):
         self.files.update(other.files)
         for name, number in other.numbers.items():
             self.numbers[name] = self.numbers.get(name, 0) + number
-        self.codes.update(other.codes)
-        for own, added in ((self.facts, other.facts), (self.keys, other.keys)):
-            for name, codes in added.items():
-                own.setdefault(name, set()).update(codes)
+        self.undecided.update(other.undecided)
 
 
 def no_counts() -> Counts:
     """What a report without inputs counts."""
-    return Counts({}, set(), {}, set(), {}, {})
+    return Counts({}, set(), {}, set())
 
 
 class RenderedFinding(NamedTuple):

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Callable, Iterator
 from typing import Any, BinaryIO
 
@@ -40,10 +39,7 @@ def _bzip2() -> Any:
 
 
 def _zstd() -> Any:
-    if sys.version_info >= (3, 14):
-        from compression.zstd import ZstdDecompressor
-    else:
-        from backports.zstd import ZstdDecompressor
+    from msaa_lint.core.zstd import ZstdDecompressor
 
     return ZstdDecompressor()
 

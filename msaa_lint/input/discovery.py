@@ -14,7 +14,7 @@ from msaa_lint.core.quote import quoted
 from msaa_lint.core.urls import forget_listed, is_url, name_of
 
 from .file_types import DESCRIPTIONS, STDIN, missing_extra
-from .folder_search import FolderSearch, Scope, count, excluded_note
+from .folder_search import FolderSearch, KnownKind, Scope, count, excluded_note
 
 InputsAmong = Callable[[Mapping[str, str | None], Mapping[str, str]], Iterable[str]]
 """Of the inputs and the other source files of folders, with their projects: those of the latter that are inputs, too."""
@@ -41,6 +41,7 @@ def discover(
     log: Callable[[str], None] | None = None,
     inputs_among: InputsAmong | None = None,
     speaks: Callable[[str], bool] | None = None,
+    known_kind: KnownKind | None = None,
 ) -> Discovered:
     """The files to lint.
 
@@ -51,14 +52,15 @@ def discover(
     itself wrote are skipped. Links to folders are not followed; links to files are if they stay in the project. A missing path and a
     folder without inputs are findings (MSAA921).
 
-    `speaks` says whether a source file mentions multisampling. `inputs_among` says which of the other source files of folders are inputs
+    `speaks` says whether a source file mentions multisampling, and `known_kind` what a data file is.
+    `inputs_among` says which of the other source files of folders are inputs
     because of the programs that they belong to.
     `settings_for` gives the settings of a file or folder. `-` stays as it is. `log` is called with a line for each path that is skipped.
 
     A path may be a URL. In a folder there, globs are relative to it, and nothing is read from ignore files.
     """
     forget_listed()
-    walk = FolderSearch(settings_for, sources, log, speaks)
+    walk = FolderSearch(settings_for, sources, log, speaks, known_kind)
     for stated in paths:
         path = name_of(stated)
         if path == STDIN:

@@ -55,6 +55,9 @@ class Entry(Protocol):
     def is_symlink(self) -> bool: ...
 
 
+KnownKind = Callable[[str, Callable[[str], str]], str]
+"""Returns what a file is according to a function, which need not be called."""
+
 AnEntry = TypeVar("AnEntry", bound=Entry)
 
 
@@ -83,15 +86,21 @@ class Search:
 
 class FolderSearch:
     """The files found so far, with their projects (None for a named file). `related` has the other source code, `near` the files that are
-    nearly inputs, and `binary` the binary captures, in order."""
+    nearly inputs, and `binary` the binary captures, in order. `known_kind` may know what `content` says of a file from an earlier run."""
 
     def __init__(
-        self, settings_for: Callable[[str], Scope], sources: bool, log: Callable[[str], None] | None, speaks: Callable[[str], bool] | None
+        self,
+        settings_for: Callable[[str], Scope],
+        sources: bool,
+        log: Callable[[str], None] | None,
+        speaks: Callable[[str], bool] | None,
+        known_kind: KnownKind | None = None,
     ) -> None:
         self.settings_for = settings_for
         self.sources = sources
         self.log = log
         self.speaks = speaks or _file_speaks
+        self.known_kind = known_kind or _find_kind
         self.unreadable_sources = 0
         self.files: dict[str, str | None] = {}
         self.related: dict[str, Search] = {}
@@ -219,16 +228,12 @@ class FolderSearch:
         if include or name.endswith(DESCRIPTIONS):
             if not (is_regular and name.endswith(_OUTPUTS)):
                 return INPUT
-            from .content import is_own_output
-
-            return OTHER if is_own_output(path) else INPUT
+            return self.known_kind(path, _kind_of_description)
         if not is_regular:
             return OTHER
         if name.endswith(SOURCES):
             return INPUT if (_file_speaks if is_url(path) else self.speaks)(path) else OTHER
-        from .content import kind_of
-
-        return kind_of(path)
+        return self.known_kind(path, _kind_of_data)
 
     def _reason(self, search: Search, near: int) -> str:
         """Why a folder has no inputs."""
@@ -258,6 +263,22 @@ class FolderSearch:
 def _scan(folder: str) -> Sequence[os.DirEntry[str]]:
     with os.scandir(folder) as scan:
         return sorted(scan, key=lambda entry: entry.name)
+
+
+def _find_kind(path: str, find: Callable[[str], str]) -> str:
+    return find(path)
+
+
+def _kind_of_description(path: str) -> str:
+    from .content import is_own_output
+
+    return OTHER if is_own_output(path) else INPUT
+
+
+def _kind_of_data(path: str) -> str:
+    from .content import kind_of
+
+    return kind_of(path)
 
 
 def _file_speaks(path: str) -> bool:

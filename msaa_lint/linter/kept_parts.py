@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import os
 import time
-import zlib
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from functools import partial
@@ -34,7 +33,7 @@ from msaa_lint.core.finding import (
 )
 from msaa_lint.core.rendered import Counts, RenderedFinding, RenderedPart
 from msaa_lint.core.serialized import by_name, dumps, loads
-from msaa_lint.core.text.files import Opened, content, file_state, recording
+from msaa_lint.core.text.files import Opened, content, file_state, is_settled, recording
 from msaa_lint.core.text.source import Origin, Source, Unreadable, decode
 from msaa_lint.core.text.span import Edit, Label, Span
 from msaa_lint.input.file_types import STDIN
@@ -51,9 +50,6 @@ if TYPE_CHECKING:
 
 MAX_TEXT = 16 << 20
 """The number of bytes of an input up to which its text is read again, and not kept."""
-
-MIN_AGE = 10_000_000
-"""Nanoseconds: clocks of file systems are coarse. A file that may have been written while it was linted is not relied on."""
 
 MIN_PROGRAM = 4000
 """The number of bytes of a program from which on its part is kept; that of a shorter one takes as little time."""
@@ -103,14 +99,14 @@ class KeptParts:
     def part(self, unit: Unit) -> RunPart:
         """What an input or a program adds, which is then kept."""
         key = self._key(unit)
-        before = time.time_ns() - MIN_AGE
+        start = time.time_ns()
         with recording() as opened:
             part = self._linter.part(unit)
         if key is not None and _is_whole(part) and not part.problems and not part.spent.turned_off:
-            entry = self._program_entry(unit, part) if isinstance(unit, ProgramInput) else _entry(part, opened, before)
+            entry = self._program_entry(unit, part) if isinstance(unit, ProgramInput) else _entry(part, opened, start)
             if entry is not None:
                 with suppress(RecursionError):
-                    self._cache.write(_KIND, key, zlib.compress(dumps(entry), 1))
+                    self._cache.write(_KIND, key, dumps(entry))
         return part
 
     def known(self, units: Sequence[Unit]) -> Mapping[int, RunPart]:
@@ -120,8 +116,8 @@ class KeptParts:
         found: dict[int, RunPart] = {}
         for number, (unit, key) in enumerate(zip(units, keys, strict=True)):
             if key in kept:
-                with suppress(ValueError, RecursionError, zlib.error):
-                    entry = loads(zlib.decompress(kept[key]), _TYPES)
+                with suppress(ValueError, RecursionError):
+                    entry = loads(kept[key], _TYPES)
                     if isinstance(entry, _Entry) and (part := self._unchanged(unit, entry)) is not None:
                         found[number] = part
         return found
@@ -200,7 +196,7 @@ def keeping(linter: Callable[[Workspace], PartLinter], depends_on: str, workspac
     return KeptParts(linter(workspace), cache, depends_on) if cache is not None else linter(workspace)
 
 
-def _entry(part: RunPart, opened: Opened, before: int) -> _Entry | None:
+def _entry(part: RunPart, opened: Opened, start: int) -> _Entry | None:
     """What is kept of an input; None if a file that it depends on has just been written, or is where its version is unknown."""
     if any(not version or urls.version(url, is_fresh=True) != version for url, version in opened.urls.items()):
         return None
@@ -208,7 +204,7 @@ def _entry(part: RunPart, opened: Opened, before: int) -> _Entry | None:
     contents: dict[str, bytes] = {}
     for path in opened.files:
         state, data = _state(path), content(path)
-        if state and (data is None or max(state[2:4]) >= before):
+        if state and (data is None or not is_settled(state, start)):
             return None
         files[path] = [digest(data), *state] if data is not None else []
         if data is not None and len(data) <= MAX_TEXT:

@@ -140,7 +140,7 @@ class _Run:
         current, spool = self.workspace.current, self.workspace.spool
         rules = rule_infos(current.engine.registry, current.selection.for_file(os.curdir), self.with_pages)
         if self.report is not None:
-            rendered = self.report.finish(self.findings.in_order(), files)
+            rendered = self.report.finish(self.findings.in_order())
             result = Result((), (), (), files, {}, rules, self.savings.finished(), untried=self.untried, rendered=rendered)
             return Outcome(result, self.settings, notes, failing=self.failing.finished())
         findings = self.findings.by_price() if self.request.by_price else self.findings.by_file()
@@ -188,7 +188,7 @@ class _Run:
         """Adds what the inputs of these names add to the result of the run, after the baseline."""
         if self.report is not None and part.rendered is not None:
             self.findings.add(part.problems, part.rendered.findings)
-            self.report.add(part.rendered, names)
+            self.report.add(part.rendered, {name: self.findings.number(name) for name in names})
         else:
             findings, accepted = self.linter.apply_baseline(part.findings)
             self.findings.add(part.problems, [*part.diagnostics, *findings])

@@ -28,6 +28,10 @@ class RunFindings:
         """Sets the order of the files, which others come before."""
         self._numbers = {file: number for number, file in enumerate(files)}
 
+    def number(self, file: str) -> int:
+        """The number of a file in the order; -1 for others."""
+        return self._numbers.get(file, -1)
+
     def add(self, problems: Sequence[Finding], findings: Sequence[Found]) -> None:
         """Adds the findings of an input: about reading it, and others. Those of the run up to now come before the former."""
         of_run = self._workspace.findings
@@ -40,7 +44,7 @@ class RunFindings:
         for finding in findings:
             by_file.setdefault(finding.file, []).append(finding)
         for file, of_file in by_file.items():
-            self._rows.add((self._numbers.get(file, -1), file.encode("utf-8", "surrogatepass"), phase), of_file)
+            self._rows.add((self.number(file), file.encode("utf-8", "surrogatepass"), phase), of_file)
 
     def __iter__(self) -> Iterator[Finding]:
         """The findings as they were added."""

@@ -1,10 +1,10 @@
 """The report of a run that is rendered input by input, so that what is known of an input need not leave the process that reads it."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping
 
 from msaa_lint.core.finding import Finding, InputSummary, Result
 from msaa_lint.core.rendered import RenderedFinding, RenderedPart, RenderedReport, no_counts
-from msaa_lint.core.spool import SpooledDict, SpooledList
+from msaa_lint.core.spool import SpooledList, SpooledSort
 
 from .workspace import Workspace
 
@@ -21,26 +21,27 @@ class RunReport:
         self._render = render
         self._suppressed: SpooledList[str] = SpooledList(spool)
         self._undecided: SpooledList[str] = SpooledList(spool)
-        self._inputs: SpooledDict[str] = SpooledDict(spool)
+        self._inputs: SpooledSort[str] = SpooledSort(spool, 1)
         self._counts = no_counts()
 
-    def add(self, part: RenderedPart, names: Sequence[str]) -> None:
-        """Adds what the inputs of these names add to the report. Those that it does not know could not be read."""
-        unknown = [InputSummary(name, failed=True) for name in names if name not in part.inputs and name not in self._inputs]
+    def add(self, part: RenderedPart, numbers: Mapping[str, int]) -> None:
+        """Adds what inputs add to the report, whose numbers are stated by name. Those that it does not know could not be read."""
+        unknown = [InputSummary(name, failed=True) for name in numbers if name not in part.inputs]
         for each in (part, *([self._render(Result((), (), (), (), {}, (), inputs=unknown))] if unknown else [])):
             self._suppressed.extend(filter(None, [each.suppressed]))
             self._undecided.extend(filter(None, [each.undecided]))
-            self._inputs.update(each.inputs)
+            for name, text in each.inputs.items():
+                self._inputs.add((numbers[name],), [text])
             self._counts.add(each.counts)
 
-    def finish(self, findings: Iterator[Finding | RenderedFinding], files: Sequence[str]) -> RenderedReport:
-        """The report with these findings, and the inputs in the order of their names."""
+    def finish(self, findings: Iterator[Finding | RenderedFinding]) -> RenderedReport:
+        """The report with these findings, and the inputs in the order of their numbers."""
         texts: SpooledList[str] = SpooledList(self._workspace.spool)
         for finding in findings:
             rendered = self._finding(finding) if isinstance(finding, Finding) else finding
             texts.append(rendered.text)
             self._counts.add_finding(rendered.level, rendered.file)
-        inputs = (self._inputs[file] for file in files)
+        inputs = (text for _, texts in self._inputs for text in texts)
         return RenderedReport(texts, self._suppressed, self._undecided, inputs, self._counts)
 
     def _finding(self, finding: Finding) -> RenderedFinding:

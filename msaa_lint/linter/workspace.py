@@ -19,6 +19,7 @@ from msaa_lint.frame.profiles import Problem, profile_of
 from msaa_lint.input import opening
 from msaa_lint.input.discovery import Discovered, discover
 from msaa_lint.input.file_types import STDIN
+from msaa_lint.input.known_kinds import KnownKinds
 
 from .engine import Engine, LintOptions, load_rules
 from .input_file import InputFile, ResolvedSettings, configuration_name
@@ -154,7 +155,9 @@ class Workspace:
     def discover(self, sources: bool = False) -> Discovered:
         """The inputs that the request names; `sources` includes the source code in folders."""
         inputs_among = self._inputs_among if sources else None
-        found = discover(self.request.paths, self.settings, sources, self.request.log, inputs_among, self._speaks)
+        kinds = KnownKinds(lambda: self.cache)
+        found = discover(self.request.paths, self.settings, sources, self.request.log, inputs_among, self._speaks, kinds.of)
+        kinds.close()
         self.findings.extend(found.findings)
         self._projects = found.projects
         return found

@@ -14,8 +14,8 @@ from pathlib import Path
 import pytest
 
 from msaa_lint.core.cache import FILE
+from msaa_lint.core.text.files import FINE_CLOCK
 from msaa_lint.linter.engine import Engine
-from msaa_lint.linter.kept_parts import MIN_AGE
 from tests.command import environment_of, run, run_process
 from tests.descriptions import CLEAN, STORED
 from tests.paths import ROOT
@@ -158,7 +158,7 @@ def linted(corpus: Path, kept: Path, monkeypatch: pytest.MonkeyPatch, *options: 
     names: list[str] = []
     lint = Engine.lint
     # What was written just before a run is not relied on.
-    time.sleep(2 * MIN_AGE / 1e9)
+    time.sleep(2 * FINE_CLOCK / 1e9)
 
     def noted(self: Engine, data: object, file: str, options: object) -> object:
         names.append(file)

@@ -120,7 +120,7 @@ def test_entries_that_were_not_used_for_the_longest_time_are_removed(kept: Cache
     monkeypatch.setattr(cache.time, "time", lambda: now)
     for day in range(12):
         now = day * 86_400.0
-        kept.write("part", str(day), bytes(10_000))
+        kept.write("part", str(day), os.urandom(10_000))
         kept.flush()
     # Two are used again.
     assert len(kept.read_all("part", ["0", "3"])) == 2

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Set
+from collections import Counter
 
 from msaa_lint.core.finding import Result
 from msaa_lint.core.rendered import Counts, no_counts
@@ -19,11 +19,9 @@ def counts(result: Result) -> Counts:
     for finding in result.findings:
         total.add_finding(finding.level, finding.file)
     for entry in result.undecided:
-        total.codes.add(entry.code)
-        for fact in entry.missing:
-            total.facts.setdefault(fact, set()).add(entry.code)
-        for key in entry.keys:
-            total.keys.setdefault(pattern(key), set()).add(entry.code)
+        total.undecided.add((entry.code, "", ""))
+        total.undecided.update((entry.code, "fact", fact) for fact in entry.missing)
+        total.undecided.update((entry.code, "key", pattern(key)) for key in entry.keys)
     numbers = {"suppressed": len(result.suppressed), "undecided": len(result.undecided), "unread": 0, **dict.fromkeys(COUNTS, 0)}
     for each in result.inputs:
         numbers["unread"] += each.unread is not None
@@ -33,6 +31,12 @@ def counts(result: Result) -> Counts:
     return total
 
 
-def most_rules(codes: Mapping[str, Set[str]]) -> list[tuple[str, int]]:
-    """What rules lack with the number of rules that lack it, the largest number first."""
-    return sorted(((name, len(lacking)) for name, lacking in codes.items()), key=lambda item: (-item[1], item[0]))
+def undecided_rules(figures: Counts) -> int:
+    """The number of rules that are undecided anywhere."""
+    return len({code for code, _, _ in figures.undecided})
+
+
+def missing(figures: Counts, kind: str) -> list[tuple[str, int]]:
+    """The missing facts, or keys, with the number of rules that lack each, the largest number first."""
+    found = Counter(name for _, of_kind, name in figures.undecided if of_kind == kind)
+    return sorted(found.items(), key=lambda item: (-item[1], item[0]))

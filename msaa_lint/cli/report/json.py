@@ -8,13 +8,13 @@ from msaa_lint.core.text.span import Label, Span
 from msaa_lint.linter.rules.reference_links import rule_address
 
 from . import Options, Write
-from .counts import counts, most_rules
+from .counts import counts, missing
 from .data import SEPARATOR, Dumped, Json, dump, head, text, write_object
 from .escape import escape_surrogates
 from .inputs import COUNTS
 from .paths import relative
 from .place import Place, place
-from .summary import converted_saving, files_saving, tally, usable_price
+from .summary import converted_saving, tally, usable_price
 
 SCHEMA = "msaa-lint/json-v1"
 _COUNTS = (
@@ -147,11 +147,12 @@ def _place(result: Result, file: str, span: Span | None) -> Json:
 
 
 def _summary(result: Result) -> Json:
-    figures, count, files, converted = counts(result), tally(result), files_saving(result), converted_saving(result)
+    figures, count, converted = counts(result), tally(result), converted_saving(result)
+    files = count.savings
     return {
         **{name: getattr(count, name) for name in _COUNTS},
         "missing": {text(fact): rules for fact, rules in count.missing},
-        "missing_keys": {text(key): rules for key, rules in most_rules(figures.keys)},
+        "missing_keys": {text(key): rules for key, rules in missing(figures, "key")},
         "checked": {name: figures.numbers.get(name, 0) for name in COUNTS},
         "unread": figures.numbers.get("unread", 0),
         "price": files.all.price._asdict() if files.all.price else None,

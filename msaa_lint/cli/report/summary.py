@@ -9,38 +9,41 @@ from msaa_lint.core.finding import CONFIDENCES, Finding, Price, Result, Saving, 
 from msaa_lint.linter.settings.settings import COMMAND_LINE
 
 from . import Options
-from .counts import counts, most_rules
+from .counts import counts, missing, undecided_rules
 from .escape import display
 from .inputs import captured, checked, unread
 from .words import plural as plural
 
 
 class Tally(NamedTuple):
-    """Counts of a run. `missing` has each missing fact with the number of rules that need it, the largest number first.
-
-    `fixable` findings are removed by `--fix --unsafe-fixes`, and `safely_fixable` ones by `--fix`.
+    """Counts of a run. `missing` has each missing fact with the number of rules that need it, the largest number first. `savings` are what
+    fixes save of the inputs that they edit.
     """
 
     errors: int
     warnings: int
     notes: int
-    fixable: int
-    safely_fixable: int
     files: int
     files_with_findings: int
     suppressed: int
     undecided: int
     undecided_rules: int
     missing: tuple[tuple[str, int], ...]
+    savings: Savings
 
     @property
     def findings(self) -> int:
         return self.errors + self.warnings + self.notes
 
+    @property
+    def fixable(self) -> int:
+        """The number of findings that `--fix --unsafe-fixes` removes."""
+        return self.savings.all.findings
+
 
 def tally(result: Result) -> Tally:
     """The counts of a run."""
-    figures, savings = counts(result), files_saving(result)
+    figures = counts(result)
     severities: Counter[str] = Counter()
     for (severity, _, _), number in figures.levels.items():
         severities[severity] += number
@@ -48,14 +51,13 @@ def tally(result: Result) -> Tally:
         errors=severities["error"],
         warnings=severities["warning"],
         notes=severities["note"],
-        fixable=savings.all.findings,
-        safely_fixable=savings.safe.findings,
         files=len(figures.files.union(result.files) - {COMMAND_LINE}),
         files_with_findings=len(figures.files - {COMMAND_LINE}),
         suppressed=figures.numbers.get("suppressed", 0),
         undecided=figures.numbers.get("undecided", 0),
-        undecided_rules=len(figures.codes),
-        missing=tuple(most_rules(figures.facts)),
+        undecided_rules=undecided_rules(figures),
+        missing=tuple(missing(figures, "fact")),
+        savings=files_saving(result),
     )
 
 
@@ -93,13 +95,14 @@ def sentence(result: Result, options: Options) -> str:
 def summary_line(result: Result, options: Options) -> str:
     """`4 rules undecided, missing keys: images.*.usage (2), ...`; empty if none is."""
     figures = counts(result)
-    if not figures.codes:
+    rules = undecided_rules(figures)
+    if not rules:
         return ""
-    lacking = most_rules(figures.keys)
+    lacking = missing(figures, "key")
     keys = [f"{display(key)} ({count})" for key, count in lacking[: options.max_undecided]]
     if len(lacking) > options.max_undecided:
         keys.append(f"and {len(lacking) - options.max_undecided} more")
-    text = f"{plural(len(figures.codes), 'rule')} undecided" + (f", missing keys: {', '.join(keys)}" if keys else "")
+    text = f"{plural(rules, 'rule')} undecided" + (f", missing keys: {', '.join(keys)}" if keys else "")
     return text if options.explain_undecided else f"{text}; --explain-undecided lists what to add"
 
 

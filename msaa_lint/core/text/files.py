@@ -8,7 +8,7 @@ from __future__ import annotations
 import io
 import os
 import stat
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from typing import BinaryIO
@@ -17,6 +17,12 @@ from msaa_lint.core.project import Outside, real_path
 from msaa_lint.core.urls import ABSENT, inside, is_url, keep_version, normalized, open_listed, open_object, version_read
 
 from .source import Unreadable
+
+FINE_CLOCK = 10_000_000
+"""Nanoseconds that may be between two times of a file system that are different."""
+
+COARSE_CLOCK = 2_000_000_000
+"""As `FINE_CLOCK`, of one that does not know parts of seconds."""
 
 _KINDS = {
     stat.S_IFDIR: "a folder",
@@ -195,6 +201,13 @@ def content(path: str) -> bytes | None:
 def file_state(status: os.stat_result) -> list[int]:
     """What differs for a file if it has been written: nobody can set when its state changed last."""
     return [status.st_mode, status.st_size, status.st_mtime_ns, status.st_ctime_ns, status.st_ino]
+
+
+def is_settled(state: Sequence[int], start: int) -> bool:
+    """Whether a file that had a state at a time, in nanoseconds, has another one if it is written from then on. Clocks of file systems are
+    coarse: one that counts seconds is known by its times."""
+    times = state[2:4]
+    return max(times, default=0) < start - (COARSE_CLOCK if not any(time % 1_000_000_000 for time in times) else FINE_CLOCK)
 
 
 def _open_named(path: str) -> int:

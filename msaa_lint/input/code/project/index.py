@@ -13,7 +13,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from msaa_lint.core.project import shown
-from msaa_lint.core.text.files import file_state, open_entry, open_file
+from msaa_lint.core.text.files import file_state, is_settled, open_entry, open_file
 from msaa_lint.input.code import mentions
 from msaa_lint.input.code.languages import unread
 from msaa_lint.input.file_types import HEAD_BYTES
@@ -26,10 +26,6 @@ MAX_BYTES = (4 << 20) + 1
 
 MIN_KEPT = 50
 """The number of files of a run whose words are not kept in a cache."""
-
-MIN_AGE = 2_000_000_000
-"""The age of a file in nanoseconds from which on another time of its last change shows that it was written: that of some file systems has a
-resolution of two seconds."""
 
 HEADERS = (".h", ".hpp", ".hh", ".hxx", ".h++", ".inl", ".ipp", ".tpp", ".inc")
 """The endings of files that sources include."""
@@ -217,7 +213,7 @@ class Index:
             found = words(data)
             members = [found.length, list(found.includes), sorted(found.names), *found[3:]]
         self._used.words[key] = members
-        if status is not None and max(status.st_mtime_ns, status.st_ctime_ns) < self._start - MIN_AGE:
+        if status is not None and is_settled(file_state(status), self._start):
             self._used.files[path] = [key, *file_state(status)]
         return found
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import zlib
 from collections.abc import Callable
 from contextlib import suppress
 from typing import TYPE_CHECKING
@@ -18,9 +17,6 @@ if TYPE_CHECKING:
 MIN_LENGTH = 4000
 """The number of characters of a file from which on it is kept; a shorter one is read as fast."""
 
-COMPRESSION = 1
-"""The level of compression, which is the fastest."""
-
 
 def kept_syntax(cache: Cache | None, code: Code, macros: Macros, offset: int, read: Callable[[], FileSyntax]) -> FileSyntax:
     """Returns the syntax of a file, with an offset added to each place: as in an earlier run if its text and the macros that it sees are
@@ -32,8 +28,8 @@ def kept_syntax(cache: Cache | None, code: Code, macros: Macros, offset: int, re
     key = digest(code.language.encode(), code.text.encode(), repr(sorted(macros.items())).encode("utf-8", "surrogatepass"))
     data = cache.read("syntax", key)
     if data is not None:
-        with suppress(ValueError, RecursionError, zlib.error):
-            return loads(zlib.decompress(data), offset)
+        with suppress(ValueError, RecursionError):
+            return loads(data, offset)
     syntax = dumps(read())
-    cache.write("syntax", key, zlib.compress(syntax, COMPRESSION))
+    cache.write("syntax", key, syntax)
     return loads(syntax, offset)

@@ -100,7 +100,7 @@ def many(tmp_path: Path) -> Path:
 
 
 def test_files_that_have_not_been_written_are_not_opened(many: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("msaa_lint.input.code.project.index.MIN_AGE", -(10**12))
+    monkeypatch.setattr("msaa_lint.core.text.files.FINE_CLOCK", -(10**12))
     first = check(many, tmp_path / "kept")
     opened = []
     monkeypatch.setattr("msaa_lint.input.code.project.index.open_entry", lambda path: opened.append(path) or open_entry(path))
