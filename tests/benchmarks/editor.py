@@ -102,6 +102,11 @@ async def benchmark(edits: int) -> None:
             complete, hover = types.CompletionParams(document, at), types.HoverParams(document, at)
             await measured("completion", count=edits, ask=lambda _: client.text_document_completion_async(complete))
             await measured("hover", count=edits, ask=lambda _: client.text_document_hover_async(hover))
+            narrow = types.DocumentFormattingParams(document, types.FormattingOptions(tab_size=2, insert_spaces=True))
+            await measured("formatting, no change", count=edits, ask=lambda _: client.text_document_formatting_async(narrow))
+            await opened.open("wide.msaa.yaml", text.replace("\n  ", "\n    "))
+            wide = types.DocumentFormattingParams(types.TextDocumentIdentifier(opened.uri("wide.msaa.yaml")), narrow.options)
+            await measured("formatting, all lines", count=edits, ask=lambda _: client.text_document_formatting_async(wide))
             print(memory(pid))
 
 

@@ -33,7 +33,12 @@ class Editor:
         self.queue = queue
         self.server = server
         self.registrations = registrations
+        self.messages: list[types.LogMessageParams] = []
         self.versions: dict[str, int] = {}
+
+        @client.feature(types.WINDOW_LOG_MESSAGE)
+        def log(params: types.LogMessageParams) -> None:
+            self.messages.append(params)
 
     def uri(self, name: str) -> str:
         return (self.folder / name).as_uri()

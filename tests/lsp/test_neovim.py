@@ -18,7 +18,7 @@ SESSION = Path(__file__).with_name("session.lua")
 
 
 @pytest.mark.skipif(shutil.which("nvim") is None, reason="needs Neovim (Debian's neovim)")
-def test_neovim_shows_the_diagnostics_and_applies_the_fixes(tmp_path: Path) -> None:
+def test_neovim_shows_the_diagnostics_applies_the_fixes_and_formats(tmp_path: Path) -> None:
     file, report = tmp_path / "frame.msaa.yaml", tmp_path / "report.json"
     file.write_text(STORED, encoding="utf-8")
     folders = {name: str(tmp_path / name.lower()) for name in ("XDG_CONFIG_HOME", "XDG_DATA_HOME", "XDG_STATE_HOME")}
@@ -34,4 +34,5 @@ def test_neovim_shows_the_diagnostics_and_applies_the_fixes(tmp_path: Path) -> N
     assert {(each["line"], each["column"]) for each in seen["before"]} >= {(place.count("\n"), len(place.rpartition("\n")[2]))}
     assert seen["after"] == [] and seen["errors"] == []
     assert seen["text"] == run(tmp_path, "check", "--fix", "-", stdin=STORED.encode()).stdout
+    assert seen["formatted"] == seen["text"] and seen["word"] == "storeOp"
     assert file.read_text(encoding="utf-8") == STORED

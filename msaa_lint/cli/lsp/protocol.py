@@ -11,6 +11,7 @@ from lsprotocol import types
 from .code_actions import KINDS, code_actions, with_edit
 from .diagnostics import diagnostics
 from .features import add_features
+from .format_requests import add_formatting, register_formatting
 from .server import Server
 
 
@@ -21,6 +22,7 @@ def create() -> Server:
     _add_diagnostics(server)
     _add_code_actions(server)
     add_features(server)
+    add_formatting(server)
     return server
 
 
@@ -44,6 +46,7 @@ def _add_documents(server: Server) -> None:
     @server.feature(types.INITIALIZED)
     def initialized(_: types.InitializedParams) -> None:
         server.watch_files()
+        register_formatting(server)
 
     @server.feature(types.TEXT_DOCUMENT_DID_OPEN)
     def did_open(params: types.DidOpenTextDocumentParams) -> None:
