@@ -156,7 +156,7 @@ def _study(arguments: Arguments, options: StudyOptions) -> int:
     size, studied, errors, notes = subjects(arguments, options.size)
     for text in notes:
         note(text)
-    if arguments.get("record") and not any(subject.file for subject in studied) and not errors:
+    if arguments.get("record") and not any(os.path.isfile(subject.file) for subject in studied) and not errors:
         raise UsageError("--record needs a description in a file, to write the record next to it")
     with _progress(len(studied), arguments) as progress:
         costs = subject_costs(studied, errors, arguments, options.techniques, size, checkpoint, progress)

@@ -5,6 +5,7 @@ from contextlib import contextmanager
 from os.path import abspath, isfile, lexists
 from typing import Any, NamedTuple
 
+from msaa_lint.core import urls
 from msaa_lint.core.diagnostics import diagnostic, internal_error
 from msaa_lint.core.extras import needs_extra
 from msaa_lint.core.finding import Finding
@@ -56,10 +57,13 @@ def subjects(arguments: Arguments, size: tuple[int, int] | None) -> Subjects:
     for path in dict.fromkeys(arguments["paths"]):
         if path in NAMES:
             named.append(StudyInput("scene", path))
+        elif path.lower().endswith(MESHES) and urls.is_url(path) and urls.problem(path) is None:
+            name = urls.name_of(path)
+            named.append(StudyInput("mesh", name, name))
         elif path.lower().endswith(MESHES) and isfile(path):
             # Workers may have another working folder.
             named.append(StudyInput("mesh", path, abspath(path)))
-        elif path == "-" or lexists(path):
+        elif path == "-" or lexists(path) or urls.is_url(path):
             paths.append(path)
         else:
             raise UsageError(_unknown(path, NAMES))

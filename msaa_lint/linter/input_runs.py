@@ -5,10 +5,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
 from itertools import accumulate
+from operator import add
 from typing import Generic, NamedTuple, Protocol, TypeVar
 
 from msaa_lint.core.execution.backend import Backend, Failure
 from msaa_lint.core.spool import SpooledDict
+from msaa_lint.core.urls import is_url
 from msaa_lint.input.file_types import STDIN
 
 from .source_programs import ProgramInput
@@ -19,6 +21,12 @@ Part = TypeVar("Part")
 MIN_DIVIDED = 300_000
 """The number of bytes of inputs from which on they are divided among processes, unless a number of processes is asked for: starting these
 takes as long as reading less."""
+
+MIN_DIVIDED_ANEW = 1_000_000
+"""The same where processes cannot be copies of this one, but start anew: this takes a quarter of a second."""
+
+URL_BYTES = 10_000
+"""The number of bytes that take as long to lint as a storage takes to answer."""
 
 MIN_KEPT = 20_000
 """The number of bytes of inputs from which on their parts are kept: linting fewer takes as little time as looking them up."""
@@ -197,8 +205,9 @@ def is_worth_keeping(workspace: Workspace, units: Sequence[Unit]) -> bool:
 
 
 def _reach(workspace: Workspace, units: Sequence[Unit], length: int) -> bool:
-    """Whether units have as many bytes."""
-    return any(total >= length for total in accumulate(map(workspace.length, units)))
+    """Whether units take as long as linting so many bytes."""
+    waits = (URL_BYTES if isinstance(unit, str) and is_url(unit) else 0 for unit in units)
+    return any(total >= length for total in accumulate(map(add, map(workspace.length, units), waits)))
 
 
 def processes(workspace: Workspace, units: Sequence[Unit], jobs: int | None) -> int:
@@ -210,6 +219,4 @@ def processes(workspace: Workspace, units: Sequence[Unit], jobs: int | None) -> 
     from msaa_lint.core.execution.processes import can_copy, cores
 
     count = min(cores(), MAX_PROCESSES)
-    if count == 1 or not can_copy():
-        return 1
-    return count if _reach(workspace, units, MIN_DIVIDED) else 1
+    return count if count > 1 and _reach(workspace, units, MIN_DIVIDED if can_copy() else MIN_DIVIDED_ANEW) else 1

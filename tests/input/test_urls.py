@@ -13,7 +13,9 @@ from typing import Any
 import pytest
 
 from msaa_lint.core import urls
+from msaa_lint.core.execution import processes
 from msaa_lint.core.text import files
+from msaa_lint.linter import input_runs
 from tests.command import Done, run
 from tests.descriptions import CLEAN, STORED
 from tests.frame.spirv.generate import SHADERS
@@ -138,6 +140,53 @@ def test_processes_of_their_own_read_buckets(bucket: Any, server: dict[str, str]
     one, two = (check(tmp_path, "--jobs", jobs, "s3://frames/many", **server) for jobs in "12")
     assert (one.stdout, one.stderr, one.returncode) == (two.stdout, two.stderr, two.returncode)
     assert one.stdout.count("MSAA201") == 10 and "outside the project" not in one.stdout
+
+
+def test_many_objects_are_divided_without_being_asked(
+    bucket: Any, server: dict[str, str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The connections have threads, so that the processes cannot be copies of this one."""
+    started: list[int] = []
+    create = processes.Processes.__init__
+
+    def counted(self: processes.Processes, workers: int) -> None:
+        started.append(workers)
+        create(self, workers)
+
+    monkeypatch.setattr(processes.Processes, "__init__", counted)
+    monkeypatch.setattr(processes, "cores", lambda: 2)
+    monkeypatch.setattr(input_runs, "MIN_DIVIDED_ANEW", 4 * input_runs.URL_BYTES)
+    bucket.pipe({f"frames/many/{name}.msaa.yaml": STORED.encode() for name in "abcd"})
+    done = check(tmp_path, "s3://frames/many", **server)
+    assert started == [2] and not processes.can_copy() and done.stdout.count("MSAA201") == 4
+    assert check(tmp_path, "s3://frames/many/a.msaa.yaml", "s3://frames/many/b.msaa.yaml", **server).stdout.count("MSAA201") == 2
+    assert started == [2]
+
+
+@pytest.mark.parametrize("jobs", ["1", "2"])
+def test_study_reads_meshes_and_descriptions(bucket: Any, server: dict[str, str], tmp_path: Path, jobs: str) -> None:
+    pytest.importorskip("trimesh")
+    for name, text in {"a.obj": "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "b.msaa.yaml": STORED}.items():
+        (tmp_path / name).write_text(text)
+        bucket.pipe_file(f"frames/{name}", text.encode())
+    options = ("--size", "32x32", "--samples", "1,4", "--jobs", jobs, "--output", "json")
+    here = run(tmp_path, "study", "a.obj", "b.msaa.yaml", *options)
+    there = run(tmp_path, "study", "s3://frames/a.obj", "s3://frames/b.msaa.yaml", *options, **server)
+    assert there.stdout.replace("s3://frames/", "") == here.stdout
+    assert (there.returncode, there.stderr) == (here.returncode, here.stderr) == (0, "")
+
+
+def test_study_says_what_is_wrong_with_a_url(put: Put, tmp_path: Path) -> None:
+    put("/frames/a.msaa.yaml", STORED)
+    for arguments, message in {
+        ("memory://none.obj",): "memory://none.obj: no such file or folder",
+        ("memory://none",): "memory://none: no such file or folder `memory://none`",
+        ("s3://key:secret@bucket/a.obj",): "s3://bucket/a.obj: a URL with credentials is not read because others can see it: ",
+        ("memory://frames", "--record"): "--record needs a description in a file, to write the record next to it",
+    }.items():
+        done = run(tmp_path, "study", *arguments, "--samples", "1", "--size", "32x32")
+        assert done.returncode == 2 and done.stderr.startswith(f"msaa-lint: {message}"), done
+        assert done.stderr.count("\n") == 1
 
 
 def test_pages_of_a_listing(bucket: Any, server: dict[str, str], monkeypatch: pytest.MonkeyPatch) -> None:
