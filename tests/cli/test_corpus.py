@@ -267,6 +267,45 @@ def test_hostile_rows_are_escaped(tmp_path: Path) -> None:
             assert not any(line.lstrip().startswith("::") for line in done.stdout.splitlines())
 
 
+@pytest.mark.parametrize("format", SUFFIXES)
+def test_every_value_may_be_null(folder: Path, tmp_path: Path, format: str) -> None:
+    shutil.copy(folder / "new.sqlite", tmp_path / "a.sqlite")
+    for table in TABLES:
+        for column in (column.name for column in table.columns if column.name != "schema"):
+            statement(tmp_path / "a.sqlite", f'UPDATE {table.name} SET "{column}" = NULL')
+    for words in (["--by", "rule"], ["--by", "device"], ["--since", str(folder / "old.sqlite")]):
+        done = run(tmp_path, "corpus", "a.sqlite", *words, "--output", format)
+        assert (done.returncode, done.stderr) == (0, "")
+        if format == "json":
+            validator().validate(json.loads(done.stdout))
+
+
+@pytest.mark.parametrize(
+    ("sql", "message"),
+    [
+        ("select rul from findings", 'Binder Error: Referenced column "rul" not found in FROM clause! Candidate bindings: "rule"'),
+        ("select *\nfrom finding", "Catalog Error: Table with name finding does not exist! Did you mean "),
+        ("select error('two' || chr(10) || 'lines' || chr(27))", "Invalid Input Error: two lines\\x1b\n"),
+        ("select sum(message) from findings", "Binder Error: No function matches the given name and argument types"),
+    ],
+)
+def test_a_wrong_query_is_one_line(folder: Path, sql: str, message: str) -> None:
+    done = run(folder, "corpus", "new.parquet", "--sql", sql)
+    assert (done.returncode, done.stdout, done.stderr.count("\n")) == (2, "", 1)
+    assert done.stderr.startswith(f"msaa-lint: --sql: {message}") and len(done.stderr) < 500
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows has no such names")
+@pytest.mark.parametrize("format", ["full", "markdown", "html"])
+def test_names_of_files_are_escaped(folder: Path, tmp_path: Path, format: str) -> None:
+    name = "x\n::error::\x1b[31m|<script>alert(1).sqlite"
+    shutil.copy(folder / "new.sqlite", tmp_path / name)
+    done = run(tmp_path, "corpus", name, "--since", name, "--output", format)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "\x1b" not in done.stdout and not any(line.startswith("::") for line in done.stdout.splitlines())
+    assert format == "full" or "<script>alert" not in done.stdout
+
+
 def with_metadata(path: Path, **stated: str) -> None:
     import pyarrow.parquet as pq
 

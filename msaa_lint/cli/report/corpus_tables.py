@@ -96,7 +96,11 @@ def _prices(groups: Iterable[tuple[str, Group]], title: str) -> Table:
 
 def _name(group: Group) -> str:
     """The last of the names of a group."""
-    return NOT_STATED if group.names[-1] is None else display(group.names[-1])
+    return _stated(group.names[-1])
+
+
+def _stated(name: str | None) -> str:
+    return NOT_STATED if name is None else display(name)
 
 
 def since_line(since: Since) -> str:
@@ -108,13 +112,13 @@ def since_line(since: Since) -> str:
 
 def _since(since: Since) -> list[Captioned]:
     changes = [
-        Row(LINE, (display(each.rule),), (str(each.new), str(each.gone), figure(each.new_mb_per_s, 1), figure(each.gone_mb_per_s, 1)))
+        Row(LINE, (_stated(each.rule),), (str(each.new), str(each.gone), figure(each.new_mb_per_s, 1), figure(each.gone_mb_per_s, 1)))
         for each in since.changes
     ]
     places = [
         Row(
             LINE,
-            (display(each.rule), display(each.input) + (f":{each.line}" if each.line is not None else "")),
+            (_stated(each.rule), _stated(each.input) + (f":{each.line}" if each.line is not None else "")),
             ("" if each.traffic_mb_per_s is None else figure(each.traffic_mb_per_s, 1),),
         )
         for each in since.new_findings

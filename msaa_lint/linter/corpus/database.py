@@ -6,6 +6,7 @@ import os
 import re
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from itertools import takewhile
 from typing import Any, NamedTuple
 
 import duckdb
@@ -21,6 +22,9 @@ SINCE = "since"
 """The schema of the tables of an earlier run."""
 
 _TABLE_OF_FILE = re.compile(rf"'_(main|{SINCE})_([0-9]+)_\w+'")
+
+MAX_MESSAGE = 400
+"""Characters of a message of DuckDB, which may list all columns."""
 
 _BATCH = 1 << 16
 """Rows that are copied at once."""
@@ -124,12 +128,14 @@ class Database:
 
 @contextmanager
 def _errors(subject: str) -> Iterator[None]:
-    """CorpusError for what DuckDB and Arrow raise, with its first line."""
+    """CorpusError for what DuckDB and Arrow raise, on one line."""
     try:
         yield
     except (duckdb.Error, pa.ArrowException, OSError, OverflowError) as error:
-        lines = str(error).splitlines() or [type(error).__name__]
-        raise CorpusError(f"{subject}: {lines[0]}" if subject else lines[0]) from None
+        # The lines before the quoted query say what is wrong, and what may have been meant.
+        lines = takewhile(lambda line: not line.startswith("LINE "), str(error).splitlines())
+        message = " ".join(" ".join(lines).split())[:MAX_MESSAGE] or type(error).__name__
+        raise CorpusError(f"{subject}: {message}" if subject else message) from None
 
 
 def _fetch(result: duckdb.DuckDBPyConnection) -> Iterator[tuple[Any, ...]]:

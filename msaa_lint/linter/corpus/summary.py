@@ -69,7 +69,7 @@ class Group(NamedTuple):
 class Change(NamedTuple):
     """The findings of a rule that are new since an earlier run, and those that are gone, with the sums of their prices."""
 
-    rule: str
+    rule: str | None
     new: int
     gone: int
     new_mb_per_s: float
@@ -79,8 +79,8 @@ class Change(NamedTuple):
 class NewFinding(NamedTuple):
     """A finding that an earlier run does not have, and its price."""
 
-    rule: str
-    input: str
+    rule: str | None
+    input: str | None
     line: int | None
     traffic_mb_per_s: float | None
 
@@ -216,7 +216,9 @@ def _since(database: Database, runs: Sequence[Run], top: int | None) -> Since:
 
 def _runs(database: Database, schema: str, files: Sequence[CorpusFile]) -> list[Run]:
     """The runs that wrote files, in their order."""
-    rows = database.rows(f"SELECT corpus, version, edition, configuration, inputs, findings, passes FROM {schema}.run")
+    texts = (f"coalesce({name}, '')" for name in ("version", "edition", "configuration"))
+    counts = (f"coalesce({name}, 0)" for name in ("inputs", "findings", "passes"))
+    rows = database.rows(f"SELECT corpus, {', '.join((*texts, *counts))} FROM {schema}.run")
     order = {file.name: number for number, file in enumerate(files)}
     return sorted((Run(*row) for row in rows), key=lambda run: order[run.file])
 
