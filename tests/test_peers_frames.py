@@ -8,7 +8,8 @@ from __future__ import annotations
 import pytest
 
 from msaa_lint.core.finding import Finding
-from msaa_lint.linter.engine import Engine, LintOptions
+from msaa_lint.linter.engine import Engine
+from msaa_lint.linter.lint_options import LintOptions
 from msaa_lint.linter.rules.registry import load
 from msaa_lint.linter.rules.rule import Rule
 

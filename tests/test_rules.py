@@ -8,8 +8,9 @@ from collections.abc import Callable
 import pytest
 
 from msaa_lint.input.source_file import read_source_file
-from msaa_lint.linter.engine import Engine, LintOptions
+from msaa_lint.linter.engine import Engine
 from msaa_lint.linter.fixes.fix_checks import problems
+from msaa_lint.linter.lint_options import LintOptions
 from msaa_lint.linter.results import FileResult
 from msaa_lint.linter.rules.condition import Condition
 from msaa_lint.linter.rules.page_checks import check_rule

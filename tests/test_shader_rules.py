@@ -13,7 +13,8 @@ from msaa_lint.core.text.source import Source
 from msaa_lint.core.text.tree import Limits, parse
 from msaa_lint.input import readers
 from msaa_lint.input.shader_modules import ANALYSIS, Modules
-from msaa_lint.linter.engine import Engine, LintOptions
+from msaa_lint.linter.engine import Engine
+from msaa_lint.linter.lint_options import LintOptions
 from msaa_lint.linter.rules.registry import load
 from tests.paths import ROOT
 

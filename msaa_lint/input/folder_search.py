@@ -20,6 +20,8 @@ from .ignore_files import IgnoreFiles, above
 
 MAX_DEPTH = 64
 SKIPPED_FOLDERS = frozenset({"node_modules", "bower_components", "__pycache__", "__pypackages__", "site-packages", "venv", "CVS"})
+MIN_ENTRIES = 20
+"""The number of entries of folders from which on it may be known what files are: opening a few takes less time than looking them up."""
 _OUTPUTS = (".json", ".sarif", ".xml", ".md")
 """Endings of files that msaa-lint may have written and that are not inputs; other files are not opened to see."""
 
@@ -100,7 +102,8 @@ class FolderSearch:
         self.sources = sources
         self.log = log
         self.speaks = speaks or _file_speaks
-        self.known_kind = known_kind or _find_kind
+        self.known_kind = known_kind or _call
+        self.entries = 0
         self.unreadable_sources = 0
         self.files: dict[str, str | None] = {}
         self.related: dict[str, Search] = {}
@@ -152,6 +155,7 @@ class FolderSearch:
 
     def _add_entries(self, folder: Folder, entries: Sequence[os.DirEntry[str]], search: Search, waiting: list[Folder]) -> None:
         """Adds the inputs among the entries of a folder, and its folders to `waiting`."""
+        self.entries += len(entries)
         settings = self.settings_for(folder.path)
         ignore_files = folder.above.below(folder.path, {entry.name for entry in entries if entry.name.startswith(".")})
         in_force = ignore_files if settings.respect_gitignore else IgnoreFiles()
@@ -228,12 +232,15 @@ class FolderSearch:
         if include or name.endswith(DESCRIPTIONS):
             if not (is_regular and name.endswith(_OUTPUTS)):
                 return INPUT
-            return self.known_kind(path, _kind_of_description)
+            return self._data_kind(path, _kind_of_description)
         if not is_regular:
             return OTHER
         if name.endswith(SOURCES):
             return INPUT if (_file_speaks if is_url(path) else self.speaks)(path) else OTHER
-        return self.known_kind(path, _kind_of_data)
+        return self._data_kind(path, _kind_of_data)
+
+    def _data_kind(self, path: str, find: Callable[[str], str]) -> str:
+        return self.known_kind(path, find) if self.entries >= MIN_ENTRIES else find(path)
 
     def _reason(self, search: Search, near: int) -> str:
         """Why a folder has no inputs."""
@@ -265,7 +272,7 @@ def _scan(folder: str) -> Sequence[os.DirEntry[str]]:
         return sorted(scan, key=lambda entry: entry.name)
 
 
-def _find_kind(path: str, find: Callable[[str], str]) -> str:
+def _call(path: str, find: Callable[[str], str]) -> str:
     return find(path)
 
 

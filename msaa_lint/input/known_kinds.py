@@ -15,9 +15,6 @@ from msaa_lint.core.text.files import file_state, is_settled
 if TYPE_CHECKING:
     from msaa_lint.core.cache import Cache
 
-MIN_FILES = 20
-"""The number of files that are opened in any case: a few take less time than looking up what is kept."""
-
 
 class KnownKinds:
     """What the files of a search are, folder by folder. `cache` opens the cache when it is needed."""
@@ -25,15 +22,13 @@ class KnownKinds:
     def __init__(self, cache: Callable[[], Cache | None]) -> None:
         self._open = cache
         self._start = time.time_ns()
-        self._opened = 0
         self._folder = ""
         self._known: dict[str, Any] = {}
         self._used: dict[str, Any] = {}
 
     def of(self, path: str, find: Callable[[str], str]) -> str:
         """What a file is according to `find`, which was asked in an earlier run if the file has not been written since. Raises OSError."""
-        if self._opened < MIN_FILES or os.name != "posix":
-            self._opened += 1
+        if os.name != "posix":
             return find(path)
         folder, name = os.path.split(os.path.abspath(path))
         if folder != self._folder:

@@ -5,12 +5,12 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from msaa_lint.core.finding import Finding, rank
 from msaa_lint.core.project import shown
+from msaa_lint.core.text.node import Limits
 from msaa_lint.core.text.source import Source, encode
-from msaa_lint.core.text.tree import Limits
 from msaa_lint.frame.devices import DeviceProfile
 
-from .engine import Engine, LintOptions
-from .fixes.fixer import Lint
+from .engine import Engine
+from .lint_options import LintOptions
 from .results import FileResult, finding_kind, unmerged
 from .settings.selection import Selection
 from .settings.settings import Settings
@@ -18,6 +18,8 @@ from .settings.settings import Settings
 if TYPE_CHECKING:
     from msaa_lint.input.capture_input import CaptureInput
     from msaa_lint.input.source_file import SourceFile
+
+    from .fixes.fixer import Lint
 
 
 class ResolvedSettings(NamedTuple):
@@ -65,7 +67,7 @@ class InputFile(NamedTuple):
         reported = {finding_kind(finding) for finding in result.findings}
         return lambda finding: finding_kind(finding) in reported and is_shown(finding)
 
-    def description(self, result: FileResult) -> tuple[FileResult, Lint]:
+    def description(self, result: FileResult) -> tuple[FileResult, "Lint"]:
         """The result of linting the text that fixes edit, and a function that lints other contents of that text, to try fixes.
 
         The text is the input itself or, if `result` is that of a capture or source code, the description that `convert` writes of it.

@@ -112,7 +112,7 @@ class InputRuns(Generic[Part]):
             self._configuration(unit)
         known = _Known(self.linter, self._units)
         waiting = known.parts
-        results = backend.results(job, self._tasks(known), list_of_each)
+        results = backend.results(job, self._with_rules(self._tasks(known)), list_of_each)
         try:
             for number, unit in enumerate(self._units):
                 if unit == STDIN:
@@ -146,6 +146,12 @@ class InputRuns(Generic[Part]):
 
     def _configuration(self, unit: Unit) -> str | None:
         return self._workspace.resolve(unit if isinstance(unit, str) else unit.inputs[0]).configuration
+
+    def _with_rules(self, tasks: Iterator[Task]) -> Iterator[Task]:
+        """Loads the rules before the first task: copies of this process then have them."""
+        for task in tasks:
+            _ = self._workspace.current.engine.linter
+            yield task
 
     def _tasks(self, known: _Known[Part]) -> Iterator[Task]:
         """The units of which nothing is known, in groups: long programs first, so that all processes end together, then inputs in their

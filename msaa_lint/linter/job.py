@@ -14,7 +14,7 @@ from msaa_lint.core.text.files import content, recording, with_buffers
 
 from .input_runs import InputRuns, Linter, Part, Task
 from .request import Request
-from .rules.registry import pages
+from .rules.page_files import pages
 from .settings.config import KnownConfigurations, Loaded
 from .workspace import Workspace
 

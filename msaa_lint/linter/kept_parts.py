@@ -184,7 +184,7 @@ class KeptParts:
         resolved = self.workspace.resolve(path)
         if resolved.configuration not in self._settings:
             settings = resolved.settings._replace(origin={}, baseline=None, output=())
-            pages = {name: text_digest(source.text) for name, source in resolved.engine.registry.sources.items()}
+            pages = {name: text_digest(source.text) for name, source in resolved.engine.custom_pages.items()}
             values = (os.getcwd(), self._depends_on, settings, resolved.device, resolved.limits, pages)
             self._settings[resolved.configuration] = text_digest(repr(values))
         return text_digest(f"{self._settings[resolved.configuration]} {stated}")

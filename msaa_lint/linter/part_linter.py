@@ -12,7 +12,6 @@ from msaa_lint.core.urls import is_url
 from msaa_lint.input.file_types import STDIN
 
 from .input_file import InputFile
-from .input_summary import input_summaries
 from .results import FileResult, can_try_fixes, finding_kind
 from .run_part import RunPart
 from .source_programs import ProgramInput
@@ -89,7 +88,10 @@ class PartLinter:
             return part
         least = rank(self.settings.min_severity)
         findings = [found for found in (*part.diagnostics, *part.findings) if found.fatal or rank(found.severity) >= least]
-        result = Result(findings, part.undecided, part.suppressed, (), part.sources, (), inputs=part.summaries)
+        # A finding may be about a rule page.
+        pages = {found.file for found in findings} - part.sources.keys() & self.workspace.sources.keys()
+        sources = {**part.sources, **{page: self.workspace.sources[page] for page in pages}}
+        result = Result(findings, part.undecided, part.suppressed, (), sources, (), inputs=part.summaries)
         return part._replace(
             diagnostics=(), findings=(), undecided=(), suppressed=(), summaries=(), sources={}, rendered=self.render(result)
         )
@@ -161,6 +163,8 @@ class PartLinter:
 
     def _part(self, file: InputFile, result: FileResult, part: RunPart) -> RunPart:
         """What an input adds to the result of the run, after settings and before the baseline."""
+        from .input_summary import input_summaries
+
         summaries = input_summaries(file.data, result)
         sources = _sources_shown(result)
         diagnostics: list[Finding] = [*part.diagnostics]

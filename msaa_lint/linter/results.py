@@ -2,14 +2,16 @@
 
 import re
 from collections.abc import Mapping, Sequence
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from msaa_lint.core.finding import Finding, Suppressed, Undecided
 from msaa_lint.core.text.source import Source
-from msaa_lint.frame.description.document import Document
 from msaa_lint.frame.devices import DeviceProfile
 
-from .rules.rule_runner import FixSpecs
+if TYPE_CHECKING:
+    from msaa_lint.frame.description.document import Document
+
+    from .rules.rule_runner import FixSpecs
 
 _INDEX = re.compile(r"\[[0-9]+\]")
 
@@ -29,8 +31,8 @@ class DocumentResult(NamedTuple):
     document kept rules from running.
     """
 
-    document: Document
-    fix_specs: FixSpecs
+    document: "Document"
+    fix_specs: "FixSpecs"
     number: int = 0
     device: DeviceProfile | None = None
     checked: bool = True

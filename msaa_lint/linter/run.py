@@ -138,11 +138,11 @@ class _Run:
             collect_garbage()
         notes = [*discovered.notes, *self.notes, *self._stale_entries(files), *self.workspace.close()]
         current, spool = self.workspace.current, self.workspace.spool
-        rules = rule_infos(current.engine.registry, current.selection.for_file(os.curdir), self.with_pages)
         if self.report is not None:
             rendered = self.report.finish(self.findings.in_order())
-            result = Result((), (), (), files, {}, rules, self.savings.finished(), untried=self.untried, rendered=rendered)
+            result = Result((), (), (), files, {}, (), self.savings.finished(), untried=self.untried, rendered=rendered)
             return Outcome(result, self.settings, notes, failing=self.failing.finished())
+        rules = rule_infos(current.engine.registry, current.selection.for_file(os.curdir), self.with_pages)
         findings = self.findings.by_price() if self.request.by_price else self.findings.by_file()
         suppressed = SpooledList(spool, chain(self.suppressed, self.accepted))
         result = Result(

@@ -13,19 +13,18 @@ from msaa_lint.core.finding import Finding
 from msaa_lint.core.garbage import collect_garbage
 from msaa_lint.core.spool import Spool, SpooledDict
 from msaa_lint.core.text.files import is_there
+from msaa_lint.core.text.node import Limits
 from msaa_lint.core.text.source import Source, Unreadable
-from msaa_lint.core.text.tree import Limits
-from msaa_lint.frame.profiles import Problem, profile_of
-from msaa_lint.input import opening
 from msaa_lint.input.discovery import Discovered, discover
 from msaa_lint.input.file_types import STDIN
 from msaa_lint.input.known_kinds import KnownKinds
 
-from .engine import Engine, LintOptions, load_rules
+from .engine import Engine, load_rules
 from .input_file import InputFile, ResolvedSettings, configuration_name
+from .lint_options import LintOptions
 from .request import Request
 from .rules.budget import Spent
-from .rules.registry import folder as pages_folder
+from .rules.page_files import folder as pages_folder
 from .rules.rule import EDITIONS
 from .run_limits import RunLimits
 from .settings.config import Configurations, KnownConfigurations, Loaded
@@ -37,6 +36,7 @@ from .source_programs import ProgramInput, is_read_together, programs, related_t
 
 if TYPE_CHECKING:
     from msaa_lint.core.cache import Cache
+    from msaa_lint.frame.devices import DeviceProfile
     from msaa_lint.input.capture_input import CaptureInput
     from msaa_lint.input.code.project.index import Index
     from msaa_lint.input.source_file import SourceFile, SourceText
@@ -113,9 +113,8 @@ class Workspace:
             self.loaded[loaded.path] = loaded
             settings = self._override(loaded)
             engine = self._engine(settings)
-            self.findings.extend(unknown_selectors(settings, engine.registry.names))
-            device = profile_of(settings.profile, settings.project("profile")) if settings.profile is not None else None
-            selection = Selection(settings, engine.registry.rules)
+            self.findings.extend(unknown_selectors(settings, lambda: engine.registry.names))
+            selection = Selection(settings, lambda: engine.registry.rules)
             if self.request.log is not None:
                 enabled = sum(map(selection.enabled, engine.registry.rules))
                 profile = f", profile {settings.profile}" if settings.profile is not None else ""
@@ -126,7 +125,7 @@ class Workspace:
                 settings,
                 selection,
                 engine,
-                None if isinstance(device, Problem) else device,
+                _device(settings),
                 Limits()._replace(**settings.limits),
                 loaded.path,
             )
@@ -142,15 +141,16 @@ class Workspace:
         key = settings.rules, tuple(sorted(projects.items()))
         if key not in self._engines:
             paths = [path for path in settings.rules if is_there(path)]
-            registry = load_rules(paths, projects, self._limits.rules, self.request.traceback)
-            self.findings.extend(registry.problems)
-            self.sources.update(registry.sources)
+            registry = load_rules(paths, projects, self._limits.rules, self.request.traceback) if paths else None
+            if registry is not None:
+                self.findings.extend(registry.problems)
+                self.sources.update(registry.sources)
             self._engines[key] = Engine(registry, self._limits)
         return self._engines[key]
 
     def broken_pages(self) -> list[str]:
         """The files of the custom rules that cannot be used."""
-        return [page.page for engine in self._engines.values() for page in engine.registry.broken]
+        return [page for engine in self._engines.values() for page in engine.broken_pages]
 
     def discover(self, sources: bool = False) -> Discovered:
         """The inputs that the request names; `sources` includes the source code in folders."""
@@ -174,6 +174,8 @@ class Workspace:
 
     def open(self, path: str) -> InputFile | None:
         """Reads an input; None, after adding a finding, if it cannot be read."""
+        from msaa_lint.input import opening
+
         request, name = self.request, self.request.input_name(path)
         resolved = self.resolve(request.stdin_filename or os.curdir if path == STDIN else path)
         try:
@@ -358,6 +360,7 @@ class Workspace:
     def _text(self, path: str, is_input: bool, project: str | None) -> "SourceText | None":
         """The text of a source file; None, after adding a finding if it is an input, if it cannot be read. An input with other content than
         its name states is left to `open`."""
+        from msaa_lint.input import opening
         from msaa_lint.input.code import check_length
         from msaa_lint.input.source_file import SourceText
 
@@ -374,3 +377,13 @@ class Workspace:
             self.failed.add(path)
             return None
         return content
+
+
+def _device(settings: Settings) -> "DeviceProfile | None":
+    """The profile that settings name; None if it cannot be used."""
+    if settings.profile is None:
+        return None
+    from msaa_lint.frame.profiles import Problem, profile_of
+
+    device = profile_of(settings.profile, settings.project("profile"))
+    return None if isinstance(device, Problem) else device

@@ -5,13 +5,17 @@ from __future__ import annotations
 import os
 import sys
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
 from msaa_lint.core.cache import Cache
 from msaa_lint.core.text.files import COARSE_CLOCK, FINE_CLOCK, is_settled
-from msaa_lint.input.known_kinds import MIN_FILES, KnownKinds
+from msaa_lint.input.discovery import discover
+from msaa_lint.input.folder_search import MIN_ENTRIES
+from msaa_lint.input.known_kinds import KnownKinds
+from msaa_lint.linter.settings.settings import Settings
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="states of files say less")
 
@@ -21,7 +25,7 @@ def folder(tmp_path: Path) -> Path:
     """Two folders of files whose kind is their content."""
     for name in ("one", "two"):
         (tmp_path / name).mkdir()
-        for number in range(MIN_FILES):
+        for number in range(10):
             (tmp_path / name / f"{number:02}\udc80.json").write_text(f"kind {number}")
     return tmp_path
 
@@ -46,11 +50,10 @@ def kinds(folder: Path, is_old: bool = True) -> tuple[dict[str, str], list[str]]
 
 
 def test_files_are_opened_once(folder: Path) -> None:
-    """The first ones in any case: a run of a few files opens no database."""
     first, opened = kinds(folder)
     assert list(first) == opened
     second, opened = kinds(folder)
-    assert second == first and opened == list(first)[:MIN_FILES]
+    assert second == first and opened == []
 
 
 def test_a_file_that_changes_is_opened_again(folder: Path) -> None:
@@ -63,7 +66,7 @@ def test_a_file_that_changes_is_opened_again(folder: Path) -> None:
     other.write_text("kind Y")
     other.replace(renamed)
     _, opened = kinds(folder)
-    assert opened[MIN_FILES:] == [str(changed), str(renamed)]
+    assert opened == [str(changed), str(renamed)]
 
 
 def test_a_file_that_may_just_have_been_written_is_opened_again(folder: Path) -> None:
@@ -95,10 +98,24 @@ def test_what_a_function_says_is_not_what_another_one_says(tmp_path: Path) -> No
     def two(path: str) -> str:
         return "two"
 
-    for number in range(MIN_FILES + 1):
+    for number in range(3):
         (tmp_path / f"{number:02}.json").touch()
     time.sleep(2 * FINE_CLOCK / 1e9)
     for find in (one, two, one):
         known = KnownKinds(lambda: cache)
         assert {known.of(str(path), find) for path in sorted(tmp_path.glob("*.json"))} == {find.__name__}
         known.close()
+
+
+def test_a_run_of_a_few_files_opens_no_database(tmp_path: Path) -> None:
+    known: list[str] = []
+
+    def known_kind(path: str, find: Callable[[str], str]) -> str:
+        known.append(path)
+        return find(path)
+
+    for number in range(MIN_ENTRIES):
+        assert known == []
+        (tmp_path / f"{number:02}.json").write_text("{}")
+        discover([str(tmp_path)], lambda _: Settings(), known_kind=known_kind)
+    assert len(known) == MIN_ENTRIES

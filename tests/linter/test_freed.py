@@ -9,7 +9,8 @@ import pytest
 
 from msaa_lint.frame.facts.frame import Frame
 from msaa_lint.frame.facts.subjects import subjects
-from msaa_lint.linter.engine import Engine, LintOptions
+from msaa_lint.linter.engine import Engine
+from msaa_lint.linter.lint_options import LintOptions
 from msaa_lint.linter.rules.registry import load
 from tests.frame.cost.frames import document
 from tests.pages import all_examples

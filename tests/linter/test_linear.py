@@ -11,8 +11,8 @@ import pytest
 
 from msaa_lint.frame.facts.missing_keys import MissingKeys
 from msaa_lint.linter import prices
-from msaa_lint.linter.engine import LintOptions
 from msaa_lint.linter.fixes.fixer import fix_text
+from msaa_lint.linter.lint_options import LintOptions
 from tests.benchmarks.shapes.description_texts import SHAPES as TEXTS
 from tests.benchmarks.shapes.description_texts import STORED
 from tests.benchmarks.shapes.descriptions import BEGINS, IMAGES, PASSES, many

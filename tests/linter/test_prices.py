@@ -8,7 +8,8 @@ import pytest
 
 from msaa_lint.core.finding import Price
 from msaa_lint.linter import prices as price
-from msaa_lint.linter.engine import Engine, LintOptions
+from msaa_lint.linter.engine import Engine
+from msaa_lint.linter.lint_options import LintOptions
 from msaa_lint.linter.results import FileResult
 from msaa_lint.linter.rules.registry import load
 from msaa_lint.linter.rules.rule import Rule

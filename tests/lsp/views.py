@@ -9,7 +9,8 @@ from pathlib import Path
 from msaa_lint.cli.lsp.view import View
 from msaa_lint.core.text.edits import apply
 from msaa_lint.core.text.span import Edit
-from msaa_lint.linter.engine import Engine, LintOptions, load_rules
+from msaa_lint.linter.engine import Engine, load_rules
+from msaa_lint.linter.lint_options import LintOptions
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 

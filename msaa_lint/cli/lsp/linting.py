@@ -21,7 +21,7 @@ from msaa_lint.linter.input_file import InputFile, ResolvedSettings
 from msaa_lint.linter.request import Request
 from msaa_lint.linter.results import FileResult, location_order
 from msaa_lint.linter.rules.front_matter import split
-from msaa_lint.linter.rules.registry import folder, pages
+from msaa_lint.linter.rules.page_files import folder, pages
 from msaa_lint.linter.run import run
 from msaa_lint.linter.workspace import Workspace
 

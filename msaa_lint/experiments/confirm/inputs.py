@@ -18,9 +18,9 @@ from msaa_lint.frame.facts.program import subjects_of
 from msaa_lint.frame.facts.subjects import FrameAnalysis
 from msaa_lint.input.capture_input import limit_findings
 from msaa_lint.input.source_file import SourceFile
-from msaa_lint.linter.engine import UNLIMITED
 from msaa_lint.linter.fixes.file_fixes import FixedText, fix_input
 from msaa_lint.linter.input_file import InputFile
+from msaa_lint.linter.input_linter import UNLIMITED
 from msaa_lint.linter.request import Request
 from msaa_lint.linter.results import DocumentResult, FileResult, unmerged
 from msaa_lint.linter.workspace import Workspace
@@ -142,7 +142,7 @@ def _input(
         return input
     # The validation layer that the rules are compared with is Vulkan's.
     vulkan = document.document._replace(metal=document.document.metal._replace(api="VULKAN"))
-    verdicts, _ = file.resolved.engine.lint_document(vulkan, file.name, file.options._replace(device=input.device))
+    verdicts, _ = file.resolved.engine.linter.lint_document(vulkan, file.name, file.options._replace(device=input.device))
     return input._replace(by_vulkan=(verdicts.findings, verdicts.undecided))
 
 

@@ -7,7 +7,6 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from functools import cache
 from typing import NamedTuple
 
-from msaa_lint.core import package
 from msaa_lint.core.diagnostics import diagnostic, internal_error
 from msaa_lint.core.finding import Finding, RuleInfo
 from msaa_lint.core.hidden_characters import hidden_characters
@@ -17,6 +16,7 @@ from msaa_lint.core.text.span import Span
 
 from .budget import COMPILE, MISTAKE, READ, Budget, OverBudget
 from .front_matter import split
+from .page_files import folder, pages
 from .rule import Rule, page_problem
 from .rule_file import Page, read_page
 
@@ -41,22 +41,6 @@ class Registry(NamedTuple):
     def names(self) -> tuple[Rule | BrokenPage, ...]:
         """What a selector or a suppression may name: a rule whose page is broken is not unknown. A usable one of that name is last."""
         return (*self.broken, *self.rules)
-
-
-def folder() -> str:
-    """The folder of the built-in pages: in the installed package, or at the top of a checkout."""
-    installed = os.path.join(package.FOLDER, "rules")
-    return installed if os.path.isdir(installed) else os.path.join(os.path.dirname(package.FOLDER), "rules")
-
-
-def pages(path: str) -> list[str]:
-    """The rule pages at a path: the file itself, or the pages of the folder except its README, sorted."""
-    try:
-        names = sorted(os.listdir(path))
-    except OSError:
-        # Either a file, or a folder that cannot be read, which is then reported as an unreadable page.
-        return [path]
-    return [os.path.join(path, name) for name in names if name.endswith(".md") and name != "README.md"]
 
 
 def _name(path: str) -> str:

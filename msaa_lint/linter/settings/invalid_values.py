@@ -6,7 +6,6 @@ from msaa_lint.core.diagnostics import diagnostic
 from msaa_lint.core.finding import Finding
 from msaa_lint.core.quote import quoted
 from msaa_lint.core.text.files import is_there
-from msaa_lint.frame.profiles import Problem, profile_of
 from msaa_lint.linter.rules.rule import EDITIONS
 
 from .settings import COMMAND_LINE, Settings
@@ -25,9 +24,12 @@ def invalid_values(settings: Settings) -> list[Finding]:
     if settings.edition is not None and settings.edition not in EDITIONS:
         message = f"unknown edition {quoted(settings.edition)}: expected one of {', '.join(EDITIONS)}"
         findings.append(settings.problem("edition", message))
-    profile = profile_of(settings.profile, settings.project("profile")) if settings.profile is not None else None
-    if isinstance(profile, Problem):
-        findings.append(settings.problem("profile", profile.message, profile.help))
+    if settings.profile is not None:
+        from msaa_lint.frame.profiles import Problem, profile_of
+
+        profile = profile_of(settings.profile, settings.project("profile"))
+        if isinstance(profile, Problem):
+            findings.append(settings.problem("profile", profile.message, profile.help))
     # Those of a configuration are checked where it is read.
     missing = [quoted(os.path.relpath(path), 200) for path in settings.rules if not is_there(path)]
     return findings + [diagnostic("MSAA921", f"no such file or folder {path} in `--rules`", COMMAND_LINE) for path in missing]

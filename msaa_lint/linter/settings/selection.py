@@ -7,7 +7,8 @@ between equals, `ignore` wins. The command line takes precedence over a file, an
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import cached_property
 
 from msaa_lint.core.diagnostics import DIAGNOSTICS, HIDDEN_CHARACTER
 from msaa_lint.core.finding import SEVERITIES, Finding
@@ -30,34 +31,38 @@ class Selection:
     the defaults of every edition. 9xx errors are always enabled.
     """
 
-    def __init__(self, settings: Settings, rules: Iterable[Weighed]) -> None:
+    def __init__(self, settings: Settings, rules: Callable[[], Iterable[Weighed]]) -> None:
         self._settings = settings
-        self._rules: list[Named] = []
-        self._enabled: dict[str, str | None] = {}
-        """The configured severities of the enabled rules by code, None for the rule's own."""
+        self._load = rules
         self._ignored: dict[str, frozenset[str]] = {}
         self._for_all: dict[str | None, Severity] = {}
-        pinned = None if settings.edition is None else _edition(settings.edition)
-        for rule in rules:
-            self._add(rule, later=pinned is not None and bool(rule.edition) and _edition(rule.edition) > pinned)
-        for code in ABOUT_TEXT:
-            self._add(DIAGNOSTICS[code], always=True)
 
-    def _add(self, rule: Named, later: bool = False, always: bool = False) -> None:
-        self._rules.append(rule)
-        is_on, severity = _enabled(self._settings, rule, later, always)
-        if is_on:
-            self._enabled[rule.code] = severity
+    @cached_property
+    def _rules(self) -> Sequence[Named]:
+        return [*self._load(), *(DIAGNOSTICS[code] for code in ABOUT_TEXT)]
+
+    @cached_property
+    def _severities(self) -> Mapping[str, str | None]:
+        """The configured severities of the enabled rules by code, None for the rule's own."""
+        pinned = None if self._settings.edition is None else _edition(self._settings.edition)
+        found: dict[str, str | None] = {}
+        for rule in self._rules:
+            edition = getattr(rule, "edition", "")
+            is_later = pinned is not None and bool(edition) and _edition(edition) > pinned
+            is_on, severity = _enabled(self._settings, rule, is_later, rule.code in ABOUT_TEXT)
+            if is_on:
+                found[rule.code] = severity
+        return found
 
     def enabled(self, rule: Named, file: str | None = None) -> bool:
         """Whether a rule is enabled for a file (None: for any file)."""
-        if rule.code in self._enabled:
+        if rule.code in self._severities:
             return file is None or rule.code not in self._ignored_in(file)
         return rule.code in DIAGNOSTICS and DIAGNOSTICS[rule.code].severity == "error"
 
     def severity(self, rule: Weighed, file: str | None = None, suggested: str | None = None) -> str | None:
         """The severity of a rule's finding in a file; None if the rule is off. `suggested` is the rule's own severity in this case."""
-        return (self._enabled.get(rule.code) or suggested or rule.severity) if self.enabled(rule, file) else None
+        return (self._severities.get(rule.code) or suggested or rule.severity) if self.enabled(rule, file) else None
 
     def names(self, file: str | None = None) -> frozenset[str]:
         """The names of the rules that are enabled for a file (None: for any file)."""
@@ -89,7 +94,7 @@ class Selection:
             return finding
         if not self.enabled(DIAGNOSTICS[finding.code], finding.file):
             return None
-        return finding._replace(severity=self._enabled[finding.code] or finding.severity)
+        return finding._replace(severity=self._severities[finding.code] or finding.severity)
 
     def _ignored_in(self, file: str) -> frozenset[str]:
         """The codes of the rules that `per-file-ignores` disables for a file."""

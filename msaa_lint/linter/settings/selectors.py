@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Protocol
 
 from msaa_lint.core.diagnostics import DIAGNOSTICS, diagnostic
@@ -77,11 +77,14 @@ class RuleNames:
         return selector in self.by_word or self.may_be_missing(selector) or any(specificity(selector, rule) for rule in self.rules)
 
 
-def unknown_selectors(settings: Settings, rules: Iterable[Named]) -> list[Finding]:
+def unknown_selectors(settings: Settings, rules: Callable[[], Iterable[Named]]) -> list[Finding]:
     """A finding for each selector that names no rule, at its place in the configuration file if it has one."""
-    names = RuleNames(rules)
+    uses = list(_uses(settings))
+    if not uses:
+        return []
+    names = RuleNames(rules())
     findings: list[Finding] = []
-    for selector, key, path, origin in _uses(settings):
+    for selector, key, path, origin in uses:
         if names.selects_any(selector):
             continue
         close = names.suggestions.nearest(selector)

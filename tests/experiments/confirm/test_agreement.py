@@ -21,7 +21,8 @@ from msaa_lint.experiments.confirm.layer_scope import LayerScope, layer_scope, p
 from msaa_lint.experiments.confirm.messages import Message, bare, classify, sentence
 from msaa_lint.experiments.confirm.outcome import AgreementRow
 from msaa_lint.frame.facts.frame import Frame
-from msaa_lint.linter.engine import Engine, LintOptions
+from msaa_lint.linter.engine import Engine
+from msaa_lint.linter.lint_options import LintOptions
 from msaa_lint.linter.results import FileResult
 from msaa_lint.linter.rules.condition import check
 from msaa_lint.linter.rules.registry import load

@@ -17,7 +17,8 @@ from msaa_lint.frame.facts.words import WORDS, Fact
 from msaa_lint.frame.vulkan.enums import VALUES
 from msaa_lint.input import readers
 from msaa_lint.input.shader_modules import Modules
-from msaa_lint.linter.engine import Engine, LintOptions
+from msaa_lint.linter.engine import Engine
+from msaa_lint.linter.lint_options import LintOptions
 from msaa_lint.linter.rules.condition import named
 from msaa_lint.linter.rules.registry import load
 from tests.frame.description.shapes import Json

@@ -16,7 +16,8 @@ from msaa_lint.frame.description.models import Description
 from msaa_lint.frame.description.shapes import Shape
 from msaa_lint.frame.facts.table import FACTS
 from msaa_lint.frame.facts.table_keys import KEYS, WITHOUT_KEY
-from msaa_lint.linter.engine import Engine, LintOptions, load_rules
+from msaa_lint.linter.engine import Engine, load_rules
+from msaa_lint.linter.lint_options import LintOptions
 from tests.pages import Example, all_examples
 
 ENGINE = Engine(load_rules())

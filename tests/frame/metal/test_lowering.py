@@ -15,7 +15,8 @@ from msaa_lint.frame.description.record import Record
 from msaa_lint.frame.facts.frame import Frame
 from msaa_lint.frame.facts.global_facts import profile
 from msaa_lint.frame.facts.subjects import subjects
-from msaa_lint.linter.engine import Engine, LintOptions
+from msaa_lint.linter.engine import Engine
+from msaa_lint.linter.lint_options import LintOptions
 from msaa_lint.linter.rules.registry import load
 from tests.frame.description.shapes import Json
 from tests.frame.metal.frames import ARTICLE, BEST, document
@@ -135,7 +136,7 @@ def found(document: Document) -> list[tuple[str, str, str]]:
     """What Vulkan's rules say of a frame."""
     if document.metal is not None:
         document = document._replace(metal=document.metal._replace(api="VULKAN"))
-    verdicts, _ = ENGINE.lint_document(document, "given.yaml", LintOptions(lambda rule, suggested, vendor: suggested))
+    verdicts, _ = ENGINE.linter.lint_document(document, "given.yaml", LintOptions(lambda rule, suggested, vendor: suggested))
     return sorted((finding.rule, finding.severity, finding.message) for finding in verdicts.findings)
 
 

@@ -18,7 +18,7 @@ from msaa_lint.input.code.glsl.shader import shader
 from msaa_lint.input.code.glsl.text import UnsupportedShader, preprocess
 from msaa_lint.input.code.parsing import Code
 from msaa_lint.input.source_file import read_source_file
-from msaa_lint.linter.engine import LintOptions
+from msaa_lint.linter.lint_options import LintOptions
 from msaa_lint.linter.results import FileResult
 from tests.command import run
 from tests.frame.spirv.generate import RULES, SHADERS, compiled, sources

@@ -15,7 +15,7 @@ from msaa_lint.input.code.rust import description_trees as rust_trees
 from msaa_lint.input.code.sample_counts.masks import LIMITS
 from msaa_lint.input.code.sample_counts.program_formats import with_formats
 from msaa_lint.input.source_file import read_source_file
-from msaa_lint.linter.engine import LintOptions
+from msaa_lint.linter.lint_options import LintOptions
 from tests.test_rules import ENGINE, as_written, lint
 
 COLOR, DEPTH, STENCIL = (f"framebuffer{aspect}SampleCounts" for aspect in ("Color", "Depth", "Stencil"))

@@ -17,7 +17,8 @@ from msaa_lint.core.text.tree import Limits, parse
 from msaa_lint.frame.description.document import Document
 from msaa_lint.frame.description.models import Pipeline, RenderPass, Subpass
 from msaa_lint.input.readers import read
-from msaa_lint.linter.engine import Engine, LintOptions
+from msaa_lint.linter.engine import Engine
+from msaa_lint.linter.lint_options import LintOptions
 from msaa_lint.linter.rules.registry import load
 from tests.frame.description.shapes import JUNK, paths, replaced
 from tests.frame.description.test_schema import value_of

@@ -11,8 +11,9 @@ from msaa_lint.core.text.source import Source
 from msaa_lint.core.text.tree import Limits, parse
 from msaa_lint.frame.description.models import Command
 from msaa_lint.frame.description.record import Record
-from msaa_lint.linter.engine import Engine, LintOptions
+from msaa_lint.linter.engine import Engine
 from msaa_lint.linter.fixes.fixer import FixResult, fix_text
+from msaa_lint.linter.lint_options import LintOptions
 from msaa_lint.linter.results import FileResult
 from msaa_lint.linter.rules.registry import load
 from msaa_lint.linter.rules.rule import Rule

@@ -9,11 +9,12 @@ import pytest
 
 from msaa_lint.core.text.span import Edit
 from msaa_lint.frame.facts.table import FACTS, SUBJECTS
-from msaa_lint.linter.engine import Engine, LintOptions
+from msaa_lint.linter.engine import Engine
 from msaa_lint.linter.fixes.actions import ACTIONS
 from msaa_lint.linter.fixes.fact_sources import FACT_SOURCES, ONLY_VALUES
 from msaa_lint.linter.fixes.fix_checks import problems
 from msaa_lint.linter.fixes.metal import METAL_ACTIONS, METAL_FACT_SOURCES
+from msaa_lint.linter.lint_options import LintOptions
 from msaa_lint.linter.rules.registry import load
 from msaa_lint.linter.rules.rule_runner import finding_key
 from tests.linter.fixes.linting import fix_findings, lint

@@ -12,7 +12,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from msaa_lint.linter.engine import LintOptions
+from msaa_lint.linter.lint_options import LintOptions
 from msaa_lint.linter.results import FileResult
 from tests.linter.lifetimes import watched as given_frames
 from tests.linter.lifetimes.watched import ENGINE, as_written

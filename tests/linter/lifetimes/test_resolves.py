@@ -13,8 +13,8 @@ from hypothesis import strategies as st
 
 from msaa_lint.core.finding import Finding
 from msaa_lint.frame.facts.event_search import MIN_STEPS, STEPS_PER_STRUCTURE
-from msaa_lint.linter.engine import LintOptions
 from msaa_lint.linter.fixes.fixer import fix_text
+from msaa_lint.linter.lint_options import LintOptions
 from msaa_lint.linter.results import FileResult
 from tests.linter.lifetimes import watched as given_frames
 from tests.linter.lifetimes.watched import ENGINE, as_written, given_text, lint

@@ -9,7 +9,7 @@ from collections import Counter
 
 import pytest
 
-from msaa_lint.linter.engine import LintOptions
+from msaa_lint.linter.lint_options import LintOptions
 from msaa_lint.linter.results import FileResult
 from tests.linter.lifetimes import watched as given_frames
 

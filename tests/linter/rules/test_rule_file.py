@@ -10,7 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from msaa_lint.core.finding import Finding
-from msaa_lint.linter.engine import Engine, LintOptions
+from msaa_lint.linter.engine import Engine
+from msaa_lint.linter.lint_options import LintOptions
 from msaa_lint.linter.results import FileResult
 from msaa_lint.linter.rules.registry import Registry, load, markdown
 from msaa_lint.linter.rules.rule import Rule

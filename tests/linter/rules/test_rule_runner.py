@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from msaa_lint.linter.engine import Engine, LintOptions
+from msaa_lint.linter.engine import Engine
+from msaa_lint.linter.lint_options import LintOptions
 from msaa_lint.linter.results import FileResult
 from msaa_lint.linter.rules import rule_runner as judge
 from msaa_lint.linter.rules.condition import Condition

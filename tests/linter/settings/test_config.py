@@ -374,7 +374,7 @@ def test_findings_are_bounded() -> None:
     write("msaa-lint.toml", f"ignore = {list(range(900))}\nselect = {list(range(900))}\n")
     assert len(load("x.yaml").findings) == 50
     write("msaa-lint.toml", "ignore = [" + ", ".join(f'"no-{i}"' for i in range(1000)) + "]")
-    assert len(unknown_selectors(load("x.yaml").settings, RULES)) == 50
+    assert len(unknown_selectors(load("x.yaml").settings, lambda: RULES)) == 50
 
 
 # --- extends --------------------------------------------------------------------------------------------------------------------
@@ -509,7 +509,7 @@ def test_unknown_selectors_are_at_their_places() -> None:
     )
     loaded = load("x.yaml")
     assert loaded.findings == ()
-    found = unknown_selectors(loaded.settings, RULES)
+    found = unknown_selectors(loaded.settings, lambda: RULES)
     assert [(place(loaded, each)[1:], each.message) for each in found] == [
         ((3, 29, 3, 36, '"MSAA8"'), "unknown rule `MSAA8` in `extend-select` of pyproject.toml: `msaa-lint rule --all` lists the rules"),
         (
@@ -532,13 +532,13 @@ def test_an_unknown_selector_in_an_extended_file_is_reported_there() -> None:
     write("base.toml", 'severity = {nope = "off"}\n')
     write("msaa-lint.toml", 'extends = "base.toml"\nseverity = {MSAA2 = "off"}\n')
     loaded = load("x.yaml")
-    (found,) = unknown_selectors(loaded.settings, RULES)
+    (found,) = unknown_selectors(loaded.settings, lambda: RULES)
     assert place(loaded, found) == ("base.toml", 1, 13, 1, 17, "nope")
 
 
 def test_unknown_selectors_of_the_command_line_say_so() -> None:
     settings = override(Settings(), select=["MSAA201", "MSAA77"], severity={"nope": "off"})
-    found = unknown_selectors(settings, RULES)
+    found = unknown_selectors(settings, lambda: RULES)
     assert [(each.file, each.span, each.message) for each in found] == [
         ("<command line>", None, "unknown rule `MSAA77` in `--select`: `msaa-lint rule --all` lists the rules"),
         ("<command line>", None, "unknown rule `nope` in `--severity`: `msaa-lint rule --all` lists the rules"),

@@ -32,13 +32,18 @@ NOT_OF_FRAMES = {"unused-suppression", "unknown-rule-in-suppression", "blanket-s
 """What can be turned off that is no rule about a frame."""
 
 
+def selected(settings: Settings, *rules: Rule) -> Selection:
+    """The selection among rules, by default RULES."""
+    return Selection(settings, lambda: rules or RULES)
+
+
 def names(settings: Settings, file: str | None = None) -> set[str]:
     """Those of the frame's rules that are on."""
-    return set(Selection(settings, RULES).names(file)) - NOT_OF_FRAMES
+    return set(selected(settings).names(file)) - NOT_OF_FRAMES
 
 
 def codes(settings: Settings) -> str:
-    return " ".join(rule.code for rule in RULES if Selection(settings, RULES).enabled(rule))
+    return " ".join(rule.code for rule in RULES if selected(settings).enabled(rule))
 
 
 @pytest.mark.parametrize(
@@ -107,7 +112,7 @@ def test_the_command_line_has_the_last_word() -> None:
     assert codes(override(file, ignore=["ALL"], extend_select=["MSAA3"])) == "MSAA301"
     assert codes(override(file, select=["MSAA2"], ignore=["MSAA201"])) == "MSAA202 MSAA218"
     assert codes(override(file, severity={"MSAA218": "off"})) == ""
-    assert Selection(override(Settings(severity={"MSAA201": "note"}), severity={"MSAA2": "error"}), RULES).severity(STORED) == "error"
+    assert selected(override(Settings(severity={"MSAA201": "note"}), severity={"MSAA2": "error"})).severity(STORED) == "error"
 
 
 @pytest.mark.parametrize(
@@ -124,12 +129,12 @@ def test_the_command_line_has_the_last_word() -> None:
     ],
 )
 def test_what_a_finding_weighs(severity: Mapping[str, str], suggested: str | None, weight: str | None) -> None:
-    assert Selection(Settings(severity=severity), RULES).severity(STORED, None, suggested) == weight
+    assert selected(Settings(severity=severity)).severity(STORED, None, suggested) == weight
 
 
 def test_a_rule_that_is_selected_more_closely_than_turned_off_keeps_another_severity() -> None:
     settings = Settings(severity={"MSAA2": "off", "ALL": "note"}, select=("MSAA201",))
-    assert Selection(settings, RULES).severity(STORED) == "note"
+    assert selected(settings).severity(STORED) == "note"
 
 
 def test_per_file_ignores_count_from_their_root() -> None:
@@ -144,17 +149,17 @@ def test_per_file_ignores_count_from_their_root() -> None:
 
 
 def test_what_is_not_about_frames_stays_on_unless_ignored() -> None:
-    assert Selection(Settings(select=("MSAA201",)), RULES).names() == {STORED.name, *NOT_OF_FRAMES}
-    assert Selection(override(Settings(), select=["MSAA201"]), RULES).names() == {STORED.name, *NOT_OF_FRAMES}
-    assert Selection(Settings(select=(), ignore=("MSAA91",)), RULES).names() == set()
-    assert Selection(Settings(select=(), severity={"unused-suppression": "off"}), RULES).names() == NOT_OF_FRAMES - {"unused-suppression"}
+    assert selected(Settings(select=("MSAA201",))).names() == {STORED.name, *NOT_OF_FRAMES}
+    assert selected(override(Settings(), select=["MSAA201"])).names() == {STORED.name, *NOT_OF_FRAMES}
+    assert selected(Settings(select=(), ignore=("MSAA91",))).names() == set()
+    assert selected(Settings(select=(), severity={"unused-suppression": "off"})).names() == NOT_OF_FRAMES - {"unused-suppression"}
 
 
 def test_settle_gives_9xx_warnings_the_configured_severity_and_leaves_the_errors() -> None:
     settings = Settings(
         ignore=("MSAA9",), extend_select=("MSAA911",), severity={"MSAA9": "note"}, per_file_ignores=((Glob("x", os.getcwd()), ("ALL",)),)
     )
-    selection = Selection(settings, RULES)
+    selection = selected(settings)
     unused, blanket, syntax = (diagnostic(code, "", "a") for code in ("MSAA911", "MSAA913", "MSAA901"))
     assert selection.settle(unused) == unused._replace(severity="note")
     assert selection.settle(unused._replace(file="x")) is None
@@ -166,12 +171,12 @@ def test_settle_gives_9xx_warnings_the_configured_severity_and_leaves_the_errors
 
 def test_for_file_makes_a_vendors_rule_a_note_elsewhere() -> None:
     arm = Rule("MSAA201", "multisampled-attachment-stored", "warning", "2026.1", ("arm",))
-    severity = Selection(Settings(), [arm]).for_file("a.yaml")
+    severity = selected(Settings(), arm).for_file("a.yaml")
     assert [severity(arm, "warning", vendor) for vendor in ("arm", "img", None)] == ["warning", "note", "note"]
-    assert Selection(Settings(), [arm]).for_file("a.yaml", "arm")(arm, "error", None) == "error"
-    assert Selection(Settings(severity={"MSAA2": "error"}), [arm]).for_file("a.yaml")(arm, "warning", None) == "error"
+    assert selected(Settings(), arm).for_file("a.yaml", "arm")(arm, "error", None) == "error"
+    assert selected(Settings(severity={"MSAA2": "error"}), arm).for_file("a.yaml")(arm, "warning", None) == "error"
     ignored = Settings(per_file_ignores=((Glob("a.yaml", os.getcwd()), ("ALL",)),))
-    assert Selection(ignored, [arm]).for_file("a.yaml")(arm, "warning", "arm") is None
+    assert selected(ignored, arm).for_file("a.yaml")(arm, "warning", "arm") is None
 
 
 selectors = st.lists(
@@ -203,7 +208,7 @@ def test_the_order_of_selectors_does_not_matter(
             ignore=order(ignore),
             severity={key: severity[key] for key in order(list(severity))},
         )
-        return [Selection(settings, RULES).severity(rule) for rule in RULES]
+        return [selected(settings).severity(rule) for rule in RULES]
 
     assert verdicts(True) == verdicts(False)
 

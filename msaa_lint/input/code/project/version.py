@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterator
 from importlib.util import find_spec
 
 from msaa_lint.core.package import FOLDER, VERSION
@@ -16,16 +17,25 @@ def version(*folders: str) -> str:
         spec = find_spec(name)
         parts.append(f"{name} {_changed(spec.origin) if spec is not None and spec.origin is not None else ''}")
     for folder in (FOLDER, *folders):
-        for path, inner, names in os.walk(folder):
-            inner[:] = sorted(name for name in inner if name != "__pycache__")
-            parts += [f"{name} {_changed(os.path.join(path, name))}" for name in sorted(names)]
+        parts += _files(folder)
     return "\n".join(parts)
 
 
-def _changed(path: str) -> str:
+def _files(folder: str) -> Iterator[str]:
+    """Yields the files in a folder, when each was changed, and its size."""
+    with os.scandir(folder) as scan:
+        entries = sorted(scan, key=lambda entry: entry.name)
+    for entry in entries:
+        if not entry.is_dir(follow_symlinks=False):
+            yield f"{entry.name} {_changed(entry)}"
+        elif entry.name != "__pycache__":
+            yield from _files(entry.path)
+
+
+def _changed(file: str | os.DirEntry[str]) -> str:
     """Returns when a file changed, and its size."""
     try:
-        status = os.stat(path)
+        status = os.stat(file) if isinstance(file, str) else file.stat()
     except OSError:
         return ""
     return f"{status.st_mtime_ns} {status.st_size}"
