@@ -22,13 +22,14 @@ MAX_BYTES = 1 << 20
 
 _LIMITS = Limits(nodes=200_000)
 
-_FIRST = 2048
+_FIRST = 512
 """The number of characters that nearly always show that a file is a Vulkan SC pipeline: the rest of its head need not be parsed."""
 
 _SECTIONS = tuple(name for name in Description.SHAPE if name not in ("frame", "device", "enabled", "scene"))
 """The sections that state the frame itself. Other tools' files often have the other keys as well."""
 
 _NAMES = "|".join((*_SECTIONS, *STATES))
+_STATE = re.compile(rf'\s*\{{\s*"(?:{"|".join(STATES)})"\s*:'.encode())
 _KEY = re.compile(rf"""(?:^|[\s{{,"'])(?:{_NAMES})["']?\s*:""")
 _JSON_KEY = re.compile(rf'(?<!\\)"(?:{_NAMES})"\s*:')
 _LINE_KEY = re.compile(rf"""^( *)["']?(?:{_NAMES})["']?[ \t]*:""", re.MULTILINE)
@@ -86,6 +87,8 @@ def kind_of(path: str) -> str:
     """
     with open_entry(path) as file:
         data = file.read(HEAD_BYTES)
+        if _STATE.match(data) and _begins_like_pipeline(data[:_FIRST].decode("utf-8", "replace")):
+            return INPUT
         if binary_capture(data) is not None:
             return BINARY
         compression = compression_of(data)
@@ -110,12 +113,16 @@ def kind_of_text(data: bytes) -> str:
     text = data.decode(encoding, "replace")
     if not _has_key(text):
         return OTHER
-    if any(name in text[:_FIRST] for name in STATES):
-        roots = [root for root in beginning(text[:_FIRST], _LIMITS) if root.kind == "mapping" and not root.value.keys().isdisjoint(STATES)]
-        if any(_kind_of_document(root) == INPUT for root in roots):
-            return INPUT
+    if any(name in text[:_FIRST] for name in STATES) and _begins_like_pipeline(text[:_FIRST]):
+        return INPUT
     kinds = {_kind_of_document(root) for root in beginning(text, _LIMITS) if root.kind == "mapping"}
     return next((kind for kind in (INPUT, NEAR) if kind in kinds), OTHER)
+
+
+def _begins_like_pipeline(start: str) -> bool:
+    """Whether the beginning of a text shows that it is a Vulkan SC pipeline."""
+    roots = [root for root in beginning(start, _LIMITS) if root.kind == "mapping" and not root.value.keys().isdisjoint(STATES)]
+    return any(_kind_of_document(root) == INPUT for root in roots)
 
 
 def _has_key(text: str) -> bool:

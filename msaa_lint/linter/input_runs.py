@@ -31,11 +31,14 @@ URL_BYTES = 10_000
 MIN_KEPT = 20_000
 """The number of bytes of inputs from which on their parts are kept: linting fewer takes as little time as looking them up."""
 
-MAX_UNITS = 32
+MAX_UNITS = 64
 """The number of inputs of a task: a process takes longer to begin a task than to lint some small inputs."""
 
-MAX_BYTES = 64 << 10
-"""The number of bytes of the inputs of a task, unless it has only one."""
+MAX_BYTES = 512 << 10
+"""The number of bytes of the inputs of a task, unless it has only one: they take some tenths of a second."""
+
+MIN_TASKS = 8
+"""The number of tasks for each worker, if there are enough inputs, so that all workers end together."""
 
 MAX_WAITING = 100
 """The number of parts in memory that wait for those of inputs before theirs."""
@@ -112,7 +115,7 @@ class InputRuns(Generic[Part]):
             self._configuration(unit)
         known = _Known(self.linter, self._units)
         waiting = known.parts
-        results = backend.results(job, self._with_rules(self._tasks(known)), list_of_each)
+        results = backend.results(job, self._with_rules(self._tasks(known, backend.workers)), list_of_each)
         try:
             for number, unit in enumerate(self._units):
                 if unit == STDIN:
@@ -153,20 +156,21 @@ class InputRuns(Generic[Part]):
             _ = self._workspace.current.engine.linter
             yield task
 
-    def _tasks(self, known: _Known[Part]) -> Iterator[Task]:
+    def _tasks(self, known: _Known[Part], workers: int) -> Iterator[Task]:
         """The units of which nothing is known, in groups: long programs first, so that all processes end together, then inputs in their
         order."""
         programs = [Numbered(number, unit) for number, unit in enumerate(self._units) if isinstance(unit, ProgramInput)]
         unknown = (each for each in programs if not known.is_known(each.number))
         for each in sorted(unknown, key=lambda each: -self._workspace.length(each.unit)):
             yield Task((each,), self._configuration(each.unit))
+        per_task = max(min(self._per_task, len(self._units) // (MIN_TASKS * max(workers, 1))), 1)
         group: list[Numbered] = []
         length, common = 0, None
         for number, unit in enumerate(self._units):
             if isinstance(unit, ProgramInput) or unit == STDIN or known.is_known(number):
                 continue
             size, configuration = self._workspace.length(unit), self._configuration(unit)
-            if group and (len(group) == self._per_task or length + size > MAX_BYTES or configuration != common):
+            if group and (len(group) == per_task or length + size > MAX_BYTES or configuration != common):
                 yield Task(group, common)
                 group, length = [], 0
             group.append(Numbered(number, unit, self._workspace.project(unit)))

@@ -5,8 +5,8 @@ from __future__ import annotations
 import os
 import pickle
 import threading
-from collections.abc import Callable, Mapping, Sequence
-from contextlib import chdir
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import chdir, contextmanager
 from typing import Any, Generic, NamedTuple
 
 from msaa_lint.core.execution.backend import Unusable
@@ -69,17 +69,29 @@ class TravelledJob:
     def __call__(self, task: Task) -> list[Any]:
         """What the units of a task add to the result. Raises Unusable if this machine lacks the folder that their paths are relative to."""
         with self._lock:
-            known = TravelledJob._prepared
-            snapshot = known[1] if known is not None and known[0] == self._data else pickle.loads(self._data)
-            if not os.path.isdir(snapshot.folder):
-                import socket
+            snapshot, runs = self._prepare()
+            with _as_stated(snapshot):
+                return runs.parts_of(task)
 
-                where = f"the worker on {socket.gethostname()} has no folder {snapshot.folder}"
-                raise Unusable(f"{where}: inputs must have the same paths on all machines, or be URLs")
-            with chdir(snapshot.folder), with_buffers(snapshot.files):
-                if known is None or known[0] != self._data:
-                    known = TravelledJob._prepared = (self._data, snapshot, _runs(snapshot))
-                return known[2].parts_of(task)
+    def _prepare(self) -> tuple[Snapshot, InputRuns[Any]]:
+        known = TravelledJob._prepared
+        if known is None or known[0] != self._data:
+            snapshot: Snapshot = pickle.loads(self._data)
+            with _as_stated(snapshot):
+                known = TravelledJob._prepared = (self._data, snapshot, _runs(snapshot))
+        return known[1], known[2]
+
+
+@contextmanager
+def _as_stated(snapshot: Snapshot) -> Iterator[None]:
+    """The folder and the files of a run. Raises Unusable if this machine lacks the folder."""
+    if not os.path.isdir(snapshot.folder):
+        import socket
+
+        where = f"the worker on {socket.gethostname()} has no folder {snapshot.folder}"
+        raise Unusable(f"{where}: inputs must have the same paths on all machines, or be URLs")
+    with chdir(snapshot.folder), with_buffers(snapshot.files):
+        yield
 
 
 def _snapshot(runs: InputRuns[Part]) -> Snapshot:

@@ -12,6 +12,10 @@ Render = Callable[[Result], RenderedPart]
 """What renders what an input adds to a report."""
 
 
+MAX_TEXTS = 100
+"""The number of texts of inputs that stay in memory: those of undecided rules may be longer than the input."""
+
+
 class RunReport:
     """The texts of the inputs of a run, except their findings."""
 
@@ -19,8 +23,8 @@ class RunReport:
         spool = workspace.spool
         self._workspace = workspace
         self._render = render
-        self._suppressed: SpooledList[str] = SpooledList(spool)
-        self._undecided: SpooledList[str] = SpooledList(spool)
+        self._suppressed: SpooledList[str] = SpooledList(spool, limit=MAX_TEXTS)
+        self._undecided: SpooledList[str] = SpooledList(spool, limit=MAX_TEXTS)
         self._inputs: SpooledSort[str] = SpooledSort(spool, 1)
         self._counts = no_counts()
 

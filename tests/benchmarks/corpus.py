@@ -50,16 +50,18 @@ try:
 finally:
     if os.getpid() == own:
         with open(os.environ["MEASURED"], "w") as file:
-            print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss, file=file)
+            usage = resource.getrusage(resource.RUSAGE_SELF)
+            print(usage.ru_maxrss, usage.ru_utime + usage.ru_stime, file=file)
 """
 
 
 class Sample(NamedTuple):
-    """Seconds of wall and processor time, the latter of all processes that ended, the memory of the first process in bytes, and how many
-    processes were killed."""
+    """Seconds of wall and processor time, the latter of all processes that ended and of the first one alone, the memory of the first
+    process in bytes, and how many processes were killed."""
 
     wall: float
     cpu: float
+    own_cpu: float
     memory: int
     killed: int
 
@@ -147,8 +149,8 @@ def lint(folder: Path, kept: Path, output: Path, *options: str, killing: float =
     wall = time.perf_counter() - start
     if os.waitstatus_to_exitcode(status) not in (0, 1):
         raise SystemExit(f"exit code {os.waitstatus_to_exitcode(status)}: {' '.join(command[3:])}")
-    memory = 1024 * int(measured.read_text(encoding="utf-8"))
-    return Sample(wall, usage.ru_utime + usage.ru_stime, memory, len(killed))
+    memory, own_cpu = measured.read_text(encoding="utf-8").split()
+    return Sample(wall, usage.ru_utime + usage.ru_stime, float(own_cpu), 1024 * int(memory), len(killed))
 
 
 def rows(folder: Path, kind: str, share: float, backends: list[str], killing: float) -> Iterator[str]:
@@ -167,8 +169,8 @@ def rows(folder: Path, kind: str, share: float, backends: list[str], killing: fl
         first = first or sample.wall
         speed = f"{first / sample.wall:.2f}" if "cache" not in way else f"{100 * sample.wall / first:.1f} % of its time"
         yield (
-            f"| {count} {kind} | {way} | {sample.wall:.1f} | {sample.cpu:.1f} | {1000 * sample.wall / count:.2f} | {speed} "
-            f"| {sample.memory / 1e6:.0f} | {'yes' if same else 'NO'} |"
+            f"| {count} {kind} | {way} | {sample.wall:.1f} | {sample.cpu:.1f} | {sample.own_cpu:.1f} "
+            f"| {1000 * sample.wall / count:.2f} | {speed} | {sample.memory / 1e6:.0f} | {'yes' if same else 'NO'} |"
         )
 
 
@@ -180,8 +182,9 @@ def main() -> int:
     parser.add_argument("--kill", type=float, default=0.0, metavar="SECONDS")
     parser.add_argument("--folder", type=Path, help="where to keep the corpus")
     arguments = parser.parse_args()
-    print("| inputs | linted by | wall, s | processor, s | ms an input | times as fast as one process | MB | same bytes |")
-    print("|---|---|---|---|---|---|---|---|")
+    columns = ("inputs", "linted by", "wall, s", "processor, s", "of the first process", "ms an input", "times as fast as one process")
+    print(f"| {' | '.join(columns)} | MB | same bytes |")
+    print("|---|---|---|---|---|---|---|---|---|")
     with tempfile.TemporaryDirectory() as temporary:
         folder = (arguments.folder or Path(temporary)).absolute()
         for kind in arguments.kinds:
