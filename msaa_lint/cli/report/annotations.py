@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from bisect import insort
+from collections.abc import Iterable, Iterator
 
 from msaa_lint.core.diagnostics import diagnostic
-from msaa_lint.core.finding import Finding, Result, rank
+from msaa_lint.core.finding import SEVERITIES, Finding, Result, rank
+from msaa_lint.core.spool import Spool, SpooledSort
 from msaa_lint.linter.rules.reference_links import rule_address
 
 from . import Options
@@ -14,14 +16,29 @@ from .inputs import unread_inputs
 from .summary import is_choice, price_text, usable_price
 
 
-def by_importance(findings: Iterable[Finding]) -> list[Finding]:
+def by_importance(findings: Iterable[Finding]) -> Iterator[Finding]:
     """The most important first: by severity, then inputs that cannot be used, then power and memory."""
-    return sorted(findings, key=_importance, reverse=True)
+    rows: SpooledSort[Finding] = SpooledSort(Spool(), 4)
+    for finding in findings:
+        rows.add(_importance(finding), [finding])
+    for _, (finding,) in rows:
+        yield finding
 
 
-def _importance(finding: Finding) -> tuple[int, bool, float, float]:
+def most_important(findings: Iterable[Finding], most: int) -> list[Finding]:
+    """The first ones of each severity `by_importance`, at most so many."""
+    kept: dict[str, list[tuple[tuple[int, int, float, float], int, Finding]]] = {severity: [] for severity in reversed(SEVERITIES)}
+    for number, finding in enumerate(findings):
+        of_severity = kept[finding.severity]
+        insort(of_severity, (_importance(finding), number, finding))
+        del of_severity[most:]
+    return [finding for of_severity in kept.values() for _, _, finding in of_severity]
+
+
+def _importance(finding: Finding) -> tuple[int, int, float, float]:
+    """A key to sort by."""
     price = usable_price(finding)
-    return (rank(finding.severity), finding.fatal, *((price.milliwatts, price.memory_mib) if price else (0.0, 0.0)))
+    return (-rank(finding.severity), -finding.fatal, *((-price.milliwatts, -price.memory_mib) if price else (0.0, 0.0)))
 
 
 def unread_notes(result: Result) -> list[Finding]:

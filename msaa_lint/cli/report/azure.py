@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import chain
+
 from msaa_lint.core.finding import Finding, Result
 
 from . import Options, Write
@@ -14,7 +16,7 @@ from .place import place
 def render(result: Result, out: Write, options: Options) -> None:
     """Prints a command per finding and per input that shows no pass to check, the most important first: the agent keeps ten errors and ten
     warnings of a step as issues, and the others only in its log."""
-    for finding in [*by_importance(result.findings), *unread_notes(result)]:
+    for finding in chain(by_importance(result.findings), unread_notes(result)):
         out(_command(finding, result, options) + "\n")
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from hashlib import sha256
 
 from msaa_lint.core.finding import Finding
@@ -21,16 +21,20 @@ def fingerprint(finding: Finding, n: int, root: str = "") -> str:
     return sha256(text.encode("utf-8", "surrogatepass")).hexdigest()[:32]
 
 
-def fingerprints(findings: Iterable[Finding], root: str = "") -> list[str]:
+def fingerprints(findings: Iterable[Finding], root: str = "") -> Iterator[str]:
     """A distinct fingerprint for each finding, in order."""
-    counts: dict[tuple[str, str, str], int] = {}
-    names = []
+    # Most findings are the first of their kind, of which a number is kept: a run may have millions.
+    firsts: set[int] = set()
+    counts: dict[int, int] = {}
     for finding in findings:
-        key = _key(finding, root)
-        n = counts.get(key, 0)
-        counts[key] = n + 1
-        names.append(fingerprint(finding, n, root))
-    return names
+        first = fingerprint(finding, 0, root)
+        number = int(first[:16], 16)
+        if number not in firsts:
+            firsts.add(number)
+            yield first
+        else:
+            counts[number] = counts.get(number, 0) + 1
+            yield fingerprint(finding, counts[number], root)
 
 
 def _key(finding: Finding, root: str) -> tuple[str, str, str]:

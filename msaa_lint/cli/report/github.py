@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import os
+from collections import Counter
 
 from msaa_lint.core.finding import Finding, Result
 from msaa_lint.core.text.source import Source
 
 from . import Options, Write
-from .annotations import annotation_lines, by_importance, unread_notes
+from .annotations import annotation_lines, most_important, unread_notes
 from .escape import display, escape
 from .markdown import escape_markdown, table
 from .paths import relative
@@ -27,16 +28,14 @@ _LEVEL = {"error": "error", "warning": "warning", "note": "notice"}
 def render(result: Result, out: Write, options: Options) -> None:
     """Prints at most ten commands per level, the most important first, and appends the summary to the file `options.step_summary`."""
     room = dict.fromkeys(_LEVEL, MAX_ANNOTATIONS)
-    severities = [finding.severity for finding in result.findings]
-    if any(severities.count(severity) > MAX_ANNOTATIONS for severity in room):
+    if max(Counter(finding.severity for finding in result.findings).values(), default=0) > MAX_ANNOTATIONS:
         room["note"] -= 1  # for the last one, which counts the others
-    left_out = 0
-    for finding in by_importance(result.findings):
+    left_out = len(result.findings)
+    for finding in most_important(result.findings, MAX_ANNOTATIONS):
         if room[finding.severity] > 0:
             room[finding.severity] -= 1
+            left_out -= 1
             out(_command(finding, result, options) + "\n")
-        else:
-            left_out += 1
     for finding in unread_notes(result)[: max(room["note"] - bool(left_out), 0)]:
         out(_command(finding, result, options) + "\n")
     path = os.environ.get("GITHUB_STEP_SUMMARY", "") if options.step_summary is None else options.step_summary

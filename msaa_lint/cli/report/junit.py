@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections import Counter
+from collections.abc import Iterable, Iterator
+from itertools import chain, groupby
+from operator import attrgetter, itemgetter
 
 from msaa_lint.core.finding import Finding, Result, is_confident
+from msaa_lint.core.spool import Spool, SpooledSort
 
 from . import Options, Write
 from .escape import display, escape
@@ -18,15 +22,15 @@ _ESCAPES = str.maketrans({"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;",
 def render(result: Result, out: Write, options: Options) -> None:
     """Prints the document. An unusable input is an error; a note, or a finding below `fail_confidence`, is a passing case that prints it;
     other findings are failures. An input without findings that shows no pass to check is a skipped case."""
-    suites: dict[str, list[Finding]] = {file: [] for file in result.files}
-    for finding in result.findings:
-        suites.setdefault(finding.file, []).append(finding)
     unread = {each.file: each.unread.message for each in result.inputs if each.unread is not None}
-    suites = suites or {"msaa-lint": []}  # Jenkins and GitLab consider an empty report broken
-    tests = sum(max(1, len(findings)) for findings in suites.values())
+    suites = dict.fromkeys(chain(result.files, (finding.file for finding in result.findings)), 0)
+    for finding in result.findings:
+        suites[finding.file] += 1
+    suites = suites or {"msaa-lint": 0}  # Jenkins and GitLab consider an empty report broken
+    tests = sum(max(1, count) for count in suites.values())
     out('<?xml version="1.0" encoding="UTF-8"?>\n')
     out(f"<testsuites{_attributes(name='msaa-lint', tests=tests, **_counts(result.findings, options))}>\n")
-    for file, findings in suites.items():
+    for file, findings in _by_file(result.findings, suites):
         path = escape(relative(file, options.root))
         counts = _counts(findings, options)
         reason = unread.get(file) if not findings else None
@@ -41,6 +45,22 @@ def render(result: Result, out: Write, options: Options) -> None:
             out(f"    <testcase{case}{body}")
         out("  </testsuite>\n")
     out("</testsuites>\n")
+
+
+def _by_file(findings: Iterable[Finding], files: Iterable[str]) -> Iterator[tuple[str, list[Finding]]]:
+    """The files, each with its findings."""
+    rows: SpooledSort[Finding] = SpooledSort(Spool(), 1)
+    numbers = {file: number for number, file in enumerate(files)}
+    for file, of_file in groupby(findings, attrgetter("file")):
+        rows.add((numbers[file],), list(of_file))
+    groups = groupby(rows, itemgetter(0))
+    following = next(groups, None)
+    for file, number in numbers.items():
+        found: list[Finding] = []
+        if following is not None and following[0] == (number,):
+            found = [finding for _, some in following[1] for finding in some]
+            following = next(groups, None)
+        yield file, found
 
 
 def _case(finding: Finding, path: str, result: Result, options: Options) -> str:
@@ -64,9 +84,9 @@ def _case(finding: Finding, path: str, result: Result, options: Options) -> str:
     return f"    <testcase{_attributes(**attributes)}>\n      {severity}\n      {body}\n    </testcase>\n"
 
 
-def _counts(findings: Sequence[Finding], options: Options) -> dict[str, str | int]:
-    errors = sum(finding.fatal for finding in findings)
-    return {"failures": sum(_fails(finding, options) for finding in findings) - errors, "errors": errors}
+def _counts(findings: Iterable[Finding], options: Options) -> dict[str, str | int]:
+    levels = Counter((finding.fatal, _fails(finding, options)) for finding in findings)
+    return {"failures": levels[False, True], "errors": levels.total() - levels[False, True] - levels[False, False]}
 
 
 def _fails(finding: Finding, options: Options) -> bool:

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections import Counter
+from collections.abc import Iterable, Iterator
+from itertools import islice
 
 from msaa_lint.core.diagnostics import DIAGNOSTICS
 from msaa_lint.core.finding import Finding, Fix, InputSummary, Result, RuleInfo, Suppressed, rank
@@ -44,16 +46,14 @@ _FAMILY = {
 _SEMANTIC_VERSION = re.compile(r"\d+\.\d+\.\d+(-[0-9A-Za-z.-]+)?(\+[0-9A-Za-z.-]+)?")
 
 
+_Pair = tuple[Finding, Suppressed | None]
+
+
 def render(result: Result, out: Write, options: Options) -> None:
     """Prints one run, with suppressed findings only if `show_suppressed` is true."""
-    pairs: list[tuple[Finding, Suppressed | None]] = [(finding, None) for finding in result.findings]
-    if options.show_suppressed:
-        pairs += [(entry.finding, entry) for entry in result.suppressed]
-    names = fingerprints((finding for finding, _ in pairs), options.root)
-    rules = _rules(result, [finding for finding, _ in pairs])
+    rules = _rules(result, (finding for finding, _ in _pairs(result, options)))
     index = {rule.code: n for n, rule in enumerate(rules)}
-    numbered = list(zip(pairs, names, strict=True))
-    results = _most_severe(numbered)
+    levels = Counter(map(_level, _pairs(result, options)))
     driver: dict[str, object] = {"name": "msaa-lint"}
     if options.version:
         key = "semanticVersion" if _SEMANTIC_VERSION.fullmatch(options.version) else "version"
@@ -63,25 +63,42 @@ def render(result: Result, out: Write, options: Options) -> None:
     write_list((_descriptor(rule, options) for rule in rules), out)
     out("}},\n")
     out('"columnKind": "unicodeCodePoints",\n')
-    out(f'"invocations": [{dump(_invocation(result, options, len(numbered) - len(results)))}],\n"results": ')
-    write_list((_result(finding, entry, name, index, result, options) for (finding, entry), name in results), out)
+    out(f'"invocations": [{dump(_invocation(result, options, max(levels.total() - MAX_RESULTS, 0)))}],\n"results": ')
+    write_list((_result(*pair, name, index, result, options) for pair, name in _most_severe(result, options, levels)), out)
     price = files_saving(result).all.price
     if price:
         out(f',\n"properties": {dump({"price": price._asdict()})}')
     out("\n}]\n}\n")
 
 
-def _most_severe(
-    numbered: list[tuple[tuple[Finding, Suppressed | None], str]],
-) -> list[tuple[tuple[Finding, Suppressed | None], str]]:
-    """As many as one run can hold, leaving out the least severe, in the given order."""
-    if len(numbered) <= MAX_RESULTS:
-        return numbered
-    order = sorted(range(len(numbered)), key=lambda n: (numbered[n][0][1] is not None, -rank(numbered[n][0][0].severity), n))
-    return [numbered[n] for n in sorted(order[:MAX_RESULTS])]
+def _pairs(result: Result, options: Options) -> Iterator[_Pair]:
+    """The findings to print, with how they are suppressed."""
+    yield from ((finding, None) for finding in result.findings)
+    if options.show_suppressed:
+        yield from ((entry.finding, entry) for entry in result.suppressed)
 
 
-def _rules(result: Result, findings: Sequence[Finding]) -> list[RuleInfo]:
+def _level(pair: _Pair) -> tuple[bool, int]:
+    """A key that sorts findings from the most severe one."""
+    finding, entry = pair
+    return (entry is not None, -rank(finding.severity))
+
+
+def _most_severe(result: Result, options: Options, levels: Counter[tuple[bool, int]]) -> Iterator[tuple[_Pair, str]]:
+    """As many as one run can hold, leaving out the least severe, in their order, with their fingerprints. `levels` counts them."""
+    room, left = {}, MAX_RESULTS
+    for level, count in sorted(levels.items()):
+        room[level] = min(count, left)
+        left -= room[level]
+    names = fingerprints((finding for finding, _ in _pairs(result, options)), options.root)
+    for pair, name in zip(_pairs(result, options), names, strict=True):
+        level = _level(pair)
+        if room[level]:
+            room[level] -= 1
+            yield pair, name
+
+
+def _rules(result: Result, findings: Iterable[Finding]) -> list[RuleInfo]:
     """The enabled rules and the diagnostics (9xx) among the findings, by code."""
     rules = {rule.code: rule for rule in result.rules}
     for finding in findings:
@@ -150,8 +167,8 @@ def _invocation(result: Result, options: Options, left_out: int) -> dict[str, ob
         notifications.append({"level": "note", "message": {"text": _linkless(f"{reasons}.")}})
     if any(each.format for each in result.inputs):
         notifications.append({"level": "note", "message": {"text": f"Checked {checked(result.inputs)}."}})
-    unread = [each for each in result.inputs if each.unread is not None]
-    notifications += [_unread(entry, result, options) for entry in unread[:MAX_UNREAD]]
+    unread = (each for each in result.inputs if each.unread is not None)
+    notifications += [_unread(entry, result, options) for entry in islice(unread, MAX_UNREAD)]
     invocation: dict[str, object] = {"executionSuccessful": not any(finding.fatal for finding in result.findings)}
     if notifications:
         invocation["toolExecutionNotifications"] = notifications

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from operator import add
 
 from rich.text import Text
 
@@ -23,20 +23,19 @@ def render(result: Result, out: Write, options: Options) -> None:
     If findings have prices, more columns have their sums, without those of choices and of fixes that cannot be made. The last lines have
     what `--fix` and `--fix --unsafe-fixes` save, which is less than the sums if findings are about the same bytes.
     """
-    groups: dict[tuple[str, str, str], list[Finding]] = {}
+    groups: dict[tuple[str, str, str], _Group] = {}
     for finding in result.findings:
-        groups.setdefault((display(finding.code), display(finding.rule), finding.severity), []).append(finding)
+        groups.setdefault((display(finding.code), display(finding.rule), finding.severity), _Group()).add(finding)
     if not groups:
         return
-    rows = sorted(groups.items(), key=lambda item: (-len(item[1]), -rank(item[0][2]), item[0]))
+    rows = sorted(groups.items(), key=lambda item: (-item[1].findings, -rank(item[0][2]), item[0]))
     cells = [["count", "code", "rule", "severity", *UNITS]]
-    for (code, rule, severity), findings in rows:
-        prices = [price for price in (usable_price(found) for found in findings if is_summed(found)) if price is not None]
-        cells.append([str(len(findings)), code, rule, severity, *(_figures(prices) if prices else [""] * len(UNITS))])
+    for (code, rule, severity), group in rows:
+        cells.append([str(group.findings), code, rule, severity, *(_figures(group.price) if group.price else [""] * len(UNITS))])
     for savings, words in ((files_saving(result), "saved by "), (converted_saving(result), "converted, by ")):
         for saving, option in ((savings.safe, "--fix"), (savings.all, "--unsafe-fixes")):
             if saving.price is not None:
-                cells.append([str(saving.findings), "", words + option, "", *_figures([saving.price])])
+                cells.append([str(saving.findings), "", words + option, "", *_figures(saving.price)])
     if all(cell == "" for row in cells[1:] for cell in row[4:]):
         cells = [row[:4] for row in cells]
     # The count comes first, so that no line begins with text from an input.
@@ -45,7 +44,21 @@ def render(result: Result, out: Write, options: Options) -> None:
     print_tables(out, options, [Table(columns, lines)], [Table(columns, lines, 1)])
 
 
-def _figures(prices: Sequence[Price]) -> list[str]:
-    """Sums of prices: total traffic, memory, power."""
-    traffic = sum(price.read_mb_per_s + price.write_mb_per_s for price in prices)
-    return [f"{value:.1f}" for value in (traffic, sum(p.memory_mib for p in prices), sum(p.milliwatts for p in prices))]
+class _Group:
+    """The number of findings of a rule, and the sum of their prices, if there are any."""
+
+    def __init__(self) -> None:
+        self.findings = 0
+        self.price: Price | None = None
+
+    def add(self, finding: Finding) -> None:
+        """Counts a finding."""
+        self.findings += 1
+        price = usable_price(finding) if is_summed(finding) else None
+        if price is not None:
+            self.price = Price(*map(add, self.price, price)) if self.price is not None else price
+
+
+def _figures(price: Price) -> list[str]:
+    """Traffic, memory, and power."""
+    return [f"{value:.1f}" for value in (price.read_mb_per_s + price.write_mb_per_s, price.memory_mib, price.milliwatts)]

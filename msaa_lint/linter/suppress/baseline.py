@@ -99,9 +99,8 @@ def stale(
     `files` are the linted files and `rules` the names of the enabled rules (None: all): only their entries can be stale, and those of
     files that no longer exist. Entries of a file with a 9xx error cannot, since no rule ran on it.
     """
-    findings = list(findings)
-    counts = _counts(findings, baseline.root)
-    broken = {_key(found.file, baseline.root) for found in findings if found.fatal}
+    broken: set[str] = set()
+    counts = _counts(findings, baseline.root, broken)
     linted = None if files is None else {_key(file, baseline.root) for file in files}
 
     looked_up = _Existing(baseline.root)
@@ -181,10 +180,14 @@ def _key(file: str, root: str) -> str:
         return file
 
 
-def _counts(findings: Iterable[Finding], root: str) -> dict[str, dict[str, int]]:
+def _counts(findings: Iterable[Finding], root: str, broken: set[str] | None = None) -> dict[str, dict[str, int]]:
+    """The number of findings by file and rule; adds the files with a 9xx error to `broken`."""
     counts: dict[str, dict[str, int]] = {}
     for found in findings:
+        key = _key(found.file, root)
         if not found.fatal:
-            rules = counts.setdefault(_key(found.file, root), {})
+            rules = counts.setdefault(key, {})
             rules[found.rule] = rules.get(found.rule, 0) + 1
+        elif broken is not None:
+            broken.add(key)
     return counts

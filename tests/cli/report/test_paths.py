@@ -89,7 +89,7 @@ def test_fingerprint_is_of_rule_file_subject_and_count() -> None:
 
 def test_fingerprints_count_what_agrees() -> None:
     one, other = finding(subject="a"), finding(subject="b")
-    assert fingerprints([one, other, one]) == [fingerprint(one, 0), fingerprint(other, 0), fingerprint(one, 1)]
+    assert list(fingerprints([one, other, one])) == [fingerprint(one, 0), fingerprint(other, 0), fingerprint(one, 1)]
 
 
 def test_fingerprint_of_a_lone_surrogate() -> None:
