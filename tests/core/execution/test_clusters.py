@@ -2,140 +2,49 @@
 
 from __future__ import annotations
 
-import contextlib
 import functools
-import os
-import signal
 import socket
 import sys
 import threading
 from collections import Counter
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from msaa_lint.core.execution import dask_cluster, ray_cluster
-from msaa_lint.core.execution.backend import ENDED_WORKERS, Backend, Failure, Unusable
+from msaa_lint.core.execution.backend import Backend, Failure, Unusable
 from msaa_lint.core.execution.engines import open_backend
 from msaa_lint.core.execution.processes import Processes
-from tests.paths import ROOT
 
 from . import work
+from .conftest import PACKAGES, Backends
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="workers are killed by signals")
 
 MODULES: dict[str, Any] = {"dask": dask_cluster, "ray": ray_cluster}
-PACKAGES = {"dask": "distributed", "ray": "ray"}
-
-
-@pytest.fixture(scope="module")
-def clusters() -> Iterator[dict[str, Backend]]:
-    """What was started of the clusters; they end with the tests of this module."""
-    with pytest.MonkeyPatch.context() as patch, contextlib.ExitStack() as stack:
-        for name in ("DASK_SCHEDULER_ADDRESS", "RAY_ADDRESS"):
-            patch.delenv(name, raising=False)
-        patch.setenv("PYTHONPATH", str(ROOT))
-        started: dict[str, Backend] = {}
-        yield started
-        for each in started.values():
-            stack.callback(each.close)
-
-
-@pytest.fixture(params=MODULES)
-def name(request: pytest.FixtureRequest) -> str:
-    pytest.importorskip(PACKAGES[request.param], reason="the group of test dependencies has it; not every Python has a wheel")
-    return str(request.param)
-
-
-def opened(clusters: dict[str, Backend], name: str) -> Backend:
-    """The cluster of an engine, with two workers."""
-    pytest.importorskip(PACKAGES[name], reason="the group of test dependencies has it; not every Python has a wheel")
-    if name not in clusters:
-        clusters[name] = open_backend(name, None, 2)
-    return clusters[name]
-
-
-@pytest.fixture
-def cluster(name: str, clusters: dict[str, Backend]) -> Backend:
-    return opened(clusters, name)
-
-
-def numbers(count: int) -> list[work.Chunk]:
-    return [(number,) for number in range(count)]
-
-
-def test_each_task_is_done_once_by_another_process(cluster: Backend) -> None:
-    found = list(cluster.results(work.with_process, numbers(40), work.split))
-    assert sorted(task for task, _ in found) == numbers(40)
-    ids = {result[0] for _, result in found if not isinstance(result, Failure)}
-    assert cluster.workers == 2 and len(ids) == 2 and os.getpid() not in ids
-
-
-def test_tasks_are_taken_when_there_is_room(cluster: Backend) -> None:
-    taken = 0
-
-    def tasks() -> Iterator[work.Chunk]:
-        nonlocal taken
-        while True:
-            taken += 1
-            yield (taken,)
-
-    results = cluster.results(work.squares, tasks(), work.split)
-    assert [len(next(results)) for _ in range(50)] == [2] * 50
-    assert taken <= 50 + 2 * (dask_cluster.MAX_AHEAD + 1)
-    results.close()  # type: ignore[attr-defined]
-    assert len(list(cluster.results(work.squares, numbers(5), work.split))) == 5
-
-
-def test_a_task_that_ends_processes_fails_alone(cluster: Backend) -> None:
-    """The others of its group are done, and those that its worker had; an exception fails the whole task."""
-    tasks = [(10, 11), (12, 13, 14), (7, 8), (13,), *((number,) for number in range(15, 25))]
-    found = dict(cluster.results(work.poisonous, tasks, work.split))
-    assert found.pop((13,)) == Failure(ENDED_WORKERS)
-    squares = {(number,): [number * number] for number in (12, 14, *range(15, 25))}
-    assert found == {(10, 11): [100, 121], (7, 8): Failure("ValueError: it is 7"), **squares}
-
-
-def test_killed_workers_lose_no_result(cluster: Backend, tmp_path: Path) -> None:
-    """What a worker had is repeated, and nothing else; no result comes twice."""
-    found: dict[work.Chunk, int] = {}
-    kills = 0
-    for task, result in cluster.results(functools.partial(work.recorded, str(tmp_path)), numbers(120), work.split):
-        assert task not in found and not isinstance(result, Failure)
-        found[task] = result
-        if len(found) % 30 == 0:
-            # The process that has just done a task, and may have begun the next one.
-            with contextlib.suppress(ProcessLookupError):
-                os.kill(result, signal.SIGKILL)
-                kills += 1
-    assert len(found) == 120 and kills > 2
-    done = Counter((tmp_path / "done").read_text().split())
-    assert len(done) == 120 and max(done.values()) <= 2
-    assert done.total() <= 120 + kills * (dask_cluster.MAX_AHEAD + 1)
 
 
 def test_work_travels_once_to_each_worker(cluster: Backend, tmp_path: Path) -> None:
-    found = [result for _, result in cluster.results(work.Heavy(str(tmp_path)), numbers(30), work.split)]
+    found = [result for _, result in cluster.results(work.Heavy(str(tmp_path)), work.numbers(30), work.split)]
     assert Counter((tmp_path / "loaded").read_text().split()) == {str(process): 1 for process in set(found)}
 
 
 def test_what_cannot_travel_is_said(cluster: Backend) -> None:
-    found = dict(cluster.results(work.unpicklable, numbers(9), work.split))
+    found = dict(cluster.results(work.unpicklable, work.numbers(9), work.split))
     assert found.pop((7,)) == Failure("ValueError: it stays here")
     assert found == {(number,): [number * number] for number in range(9) if number != 7}
     with pytest.raises(Unusable, match=r"^the worker at \S+ cannot load what it should do: TypeError: "):
-        list(cluster.results(work.Broken(), numbers(9), work.split))
+        list(cluster.results(work.Broken(), work.numbers(9), work.split))
 
 
 def test_closing_the_results_cancels_tasks(cluster: Backend, tmp_path: Path) -> None:
     """Those that workers have begun go on with Dask; the others are not begun."""
-    results = cluster.results(functools.partial(work.brief_then_long, str(tmp_path)), numbers(200), work.split)
+    results = cluster.results(functools.partial(work.brief_then_long, str(tmp_path)), work.numbers(200), work.split)
     for _ in range(work.BRIEF):
         next(results)
     results.close()  # type: ignore[attr-defined]
-    assert len(list(cluster.results(functools.partial(work.process, 200), numbers(10), work.split))) == 10
+    assert len(list(cluster.results(functools.partial(work.process, 200), work.numbers(10), work.split))) == 10
     begun = [int(number) for number in (tmp_path / "begun").read_text().split()]
     assert work.BRIEF <= len(begun) == len(set(begun)) <= work.BRIEF + 4
 
@@ -143,7 +52,7 @@ def test_closing_the_results_cancels_tasks(cluster: Backend, tmp_path: Path) -> 
 def test_workers_of_another_version_are_refused(name: str, cluster: Backend, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(MODULES[name], "VERSION", "9.9.9")
     with pytest.raises(Unusable, match=r"^the worker at \S+ has msaa-lint \d+\.\d+\.\d+, and this process 9\.9\.9; "):
-        list(cluster.results(work.squares, numbers(3), work.split))
+        list(cluster.results(work.squares, work.numbers(3), work.split))
 
 
 def test_a_package_that_is_not_installed_is_said(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -169,24 +78,24 @@ def test_without_a_name_there_are_processes() -> None:
         open_backend(None, "127.0.0.1:8786", None)
 
 
-def test_a_cluster_that_exists_goes_on(clusters: dict[str, Backend]) -> None:
+def test_a_cluster_that_exists_goes_on(backends: Backends) -> None:
     """Some of its workers may be asked for."""
-    own = opened(clusters, "dask")
+    own = backends.cluster("dask")
     assert isinstance(own, dask_cluster.DaskCluster)
     address = own._cluster.scheduler_address.removeprefix("tcp://")
     for workers in (None, 1):
         other = open_backend("dask", address, workers)
-        found = {result for _, result in other.results(functools.partial(work.process, 1), numbers(20), work.split)}
+        found = {result for _, result in other.results(functools.partial(work.process, 1), work.numbers(20), work.split)}
         assert other.workers == len(found) == (workers or 2)
         other.close()
-    assert len(list(own.results(work.squares, numbers(5), work.split))) == 5
+    assert len(list(own.results(work.squares, work.numbers(5), work.split))) == 5
 
 
 def test_threads_of_a_worker_take_turns(tmp_path: Path) -> None:
     distributed = pytest.importorskip("distributed")
     with distributed.LocalCluster(n_workers=1, threads_per_worker=4, dashboard_address="127.0.0.1:0") as cluster:
         backend = dask_cluster.DaskCluster(cluster.scheduler_address)
-        found = [result for _, result in backend.results(functools.partial(work.overlaps, str(tmp_path)), numbers(20), work.split)]
+        found = [result for _, result in backend.results(functools.partial(work.overlaps, str(tmp_path)), work.numbers(20), work.split)]
         assert found == [False] * 20
         backend.close()
 
@@ -199,12 +108,12 @@ def test_workers_that_join_are_waited_for(monkeypatch: pytest.MonkeyPatch) -> No
         assert backend.workers == 0
         joining = threading.Timer(0.5, cluster.scale, [1])
         joining.start()
-        assert len(list(backend.results(work.squares, numbers(20), work.split))) == 20
+        assert len(list(backend.results(work.squares, work.numbers(20), work.split))) == 20
         joining.join()
         cluster.scale(0)
         monkeypatch.setattr(dask_cluster, "JOIN_SECONDS", 0.5)
         with pytest.raises(Unusable, match=r"^the cluster has had no worker for 0\.5 s$"):
-            list(backend.results(work.sleep, numbers(1), work.split))
+            list(backend.results(work.sleep, work.numbers(1), work.split))
         backend.close()
 
 
@@ -213,7 +122,7 @@ def test_an_adaptive_cluster_starts_workers_for_tasks() -> None:
     with distributed.LocalCluster(n_workers=0, threads_per_worker=1, dashboard_address="127.0.0.1:0") as cluster:
         cluster.adapt(minimum=0, maximum=1, interval="100 ms")
         backend = dask_cluster.DaskCluster(cluster.scheduler_address)
-        assert len(list(backend.results(work.squares, numbers(20), work.split))) == 20
+        assert len(list(backend.results(work.squares, work.numbers(20), work.split))) == 20
         backend.close()
 
 
@@ -222,7 +131,7 @@ def test_a_scheduler_that_ends_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(dask_cluster, "CONNECT_SECONDS", 1.0)
     cluster = distributed.LocalCluster(n_workers=1, threads_per_worker=1, dashboard_address="127.0.0.1:0")
     backend = dask_cluster.DaskCluster(cluster.scheduler_address)
-    results = backend.results(functools.partial(work.process, 50), numbers(1000), work.split)
+    results = backend.results(functools.partial(work.process, 50), work.numbers(1000), work.split)
     next(results)
     cluster.close()
     with pytest.raises(Unusable, match="scheduler"):
@@ -230,10 +139,10 @@ def test_a_scheduler_that_ends_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
     backend.close()
 
 
-def test_a_cluster_without_processors_is_said(clusters: dict[str, Backend], monkeypatch: pytest.MonkeyPatch) -> None:
-    cluster = opened(clusters, "ray")
+def test_a_cluster_without_processors_is_said(backends: Backends, monkeypatch: pytest.MonkeyPatch) -> None:
+    cluster = backends.cluster("ray")
     monkeypatch.setattr(ray_cluster, "POLL_SECONDS", 0.1)
     monkeypatch.setattr(ray_cluster, "JOIN_SECONDS", 0.5)
     monkeypatch.setattr(cluster, "_processors", lambda: 0)
     with pytest.raises(Unusable, match=r"^the cluster has had no processors for 0\.5 s$"):
-        list(cluster.results(work.sleep, numbers(2), work.split))
+        list(cluster.results(work.sleep, work.numbers(2), work.split))

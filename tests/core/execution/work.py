@@ -10,6 +10,11 @@ from collections.abc import Sequence
 Chunk = tuple[int, ...]
 
 
+def numbers(count: int) -> list[Chunk]:
+    """Tasks of one number each."""
+    return [(number,) for number in range(count)]
+
+
 def split(chunk: Chunk) -> Sequence[Chunk]:
     """The parts of a task: its numbers, one by one."""
     return [(number,) for number in chunk]
