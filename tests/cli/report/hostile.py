@@ -131,5 +131,6 @@ def results(draw: st.DrawFn) -> Result:
     formats = st.sampled_from(["description", "fossilize", "cpp", ""])
     passes = st.dictionaries(n, n, max_size=3)
     captures = st.one_of(st.none(), st.builds(CaptureSummary, texts, texts, texts, n, n, passes, n, n, texts, n))
-    inputs = [draw(st.builds(InputSummary, st.just(file), formats, n, n, n, n, n, st.booleans(), unread, captures)) for file in files]
+    terms = (formats, n, n, n, n, n, st.booleans(), unread, captures, st.one_of(st.none(), n), texts)
+    inputs = [draw(st.builds(InputSummary, st.just(file), *terms)) for file in files]
     return Result(found, undecided, silenced, files, sources, RULES, inputs=inputs)
