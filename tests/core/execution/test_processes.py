@@ -17,14 +17,15 @@ pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="processes are e
 
 
 def test_processes_end_with_the_results(processes: Backend) -> None:
-    others = multiprocessing.active_children()
+    # Those of a cluster that other tests have started may end meanwhile.
+    others = set(multiprocessing.active_children())
     assert len(list(processes.results(work.squares, work.numbers(20), work.split))) == 20
-    assert multiprocessing.active_children() == others
+    assert others.issuperset(multiprocessing.active_children())
     results = processes.results(work.squares, work.numbers(20), work.split)
     next(results)
-    assert len(multiprocessing.active_children()) == len(others) + 2
+    assert len(set(multiprocessing.active_children()) - others) == 2
     results.close()  # type: ignore[attr-defined]
-    assert multiprocessing.active_children() == others
+    assert others.issuperset(multiprocessing.active_children())
 
 
 def test_a_task_that_fills_the_pipe_waits_for_its_turn(processes: Backend) -> None:
