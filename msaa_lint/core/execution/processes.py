@@ -16,6 +16,7 @@ from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING, Any, Generic
 
+from msaa_lint.core.garbage import collect_garbage, not_collecting
 from msaa_lint.core.parent_process import end_with_parent
 
 from .backend import Failure, Result, Split, Task, Waiting, Work, attempt
@@ -195,4 +196,6 @@ def _serve(connection: Connection[Any, Any], work: Work[Any, Any], parent: int) 
             task = pickle.loads(connection.recv_bytes())
         except EOFError:
             return
-        connection.send(attempt(work, task))
+        with not_collecting():
+            connection.send(attempt(work, task))
+            collect_garbage()

@@ -8,6 +8,8 @@ import time
 from collections.abc import Callable
 from typing import Any
 
+from msaa_lint.core.garbage import collect_garbage, not_collecting
+
 from .backend import Failure, Work, attempt
 
 _LOCK = threading.Lock()
@@ -31,7 +33,9 @@ def perform(run: str, load: Callable[[], bytes], task: bytes) -> bytes | str:
                 return f"cannot load what it should do: {type(error).__name__}: {error}"
         work = _loaded[1]
         began = time.perf_counter()
-        result = attempt(lambda data: work(pickle.loads(data)), task)
+        with not_collecting():
+            result = attempt(lambda data: work(pickle.loads(data)), task)
+            collect_garbage()
         seconds = time.perf_counter() - began
     pickled = attempt(pickle.dumps, (result, seconds))
     return pickle.dumps((pickled, seconds)) if isinstance(pickled, Failure) else pickled

@@ -6,7 +6,6 @@ real tools write, takes the same path.
 
 from __future__ import annotations
 
-import gc
 import re
 from contextlib import suppress
 from typing import Any
@@ -21,6 +20,7 @@ from yaml.events import (
     SequenceStartEvent,
 )
 
+from msaa_lint.core.garbage import not_collecting
 from msaa_lint.core.quote import quoted
 
 from .events import ERRORS, events, problem_of
@@ -92,13 +92,8 @@ class _Reading:
 
     def read(self) -> None:
         """Reads all events. A tree only grows meanwhile; collecting garbage would take as long as reading."""
-        collecting = gc.isenabled()
-        gc.disable()
-        try:
+        with not_collecting():
             self._run()
-        finally:
-            if collecting:
-                gc.enable()
 
     def _run(self) -> None:
         """Reads all events. Most of the time is spent in this loop, so its variables are local.
