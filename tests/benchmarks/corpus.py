@@ -1,9 +1,10 @@
 """Many inputs: `python tests/benchmarks/corpus.py [--share 0.1] [--backend dask] [--folder FOLDER] [KIND...]`. Prints a table in Markdown.
 
 The corpus is made by variation: 10,000 descriptions, 10,000 pipelines as the Vulkan SC tools write them, 200 captures of 5 MB, and 1,000
-Fossilize databases; `--share` makes a part of it. Each kind is linted by one process, by two, by two workers of each `--backend`, and again
-from the cache; the JSON must be the same bytes each time. Memory is that of the process that divides the work. With `--kill`, one of the
-processes of this machine is killed every so many seconds, at random.
+Fossilize databases; `--share` makes a part of it. Each kind is linted by one process, by two, by two workers of each `--backend` (of a
+cluster that runs, and of one that starts and ends with the run), and again from the cache; the JSON must be the same bytes each time.
+Memory is that of the process that divides the work. With `--kill`, one of the processes of this machine is killed every so many seconds, at
+random.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ import itertools
 import os
 import random
 import signal
+import subprocess
 import sys
 import tempfile
 import threading
@@ -53,6 +55,23 @@ finally:
             usage = resource.getrusage(resource.RUSAGE_SELF)
             print(usage.ru_maxrss, usage.ru_utime + usage.ru_stime, file=file)
 """
+
+CLUSTERS = {
+    "dask": """if __name__ == "__main__":
+        import sys
+        from distributed import LocalCluster
+        cluster = LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address="127.0.0.1:0", memory_limit=0)
+        print(cluster.scheduler_address, flush=True)
+        sys.stdin.read()
+    """,
+    "ray": """if True:
+        import sys, ray
+        ray.init(address="local", num_cpus=2, include_dashboard=False, logging_level="ERROR")
+        print(ray.get_runtime_context().gcs_address, flush=True)
+        sys.stdin.read()
+    """,
+}
+"""Programs that start a cluster, print its address, and end it with their input."""
 
 
 class Sample(NamedTuple):
@@ -153,13 +172,31 @@ def lint(folder: Path, kept: Path, output: Path, *options: str, killing: float =
     return Sample(wall, usage.ru_utime + usage.ru_stime, float(own_cpu), 1024 * int(memory), len(killed))
 
 
-def rows(folder: Path, kind: str, share: float, backends: list[str], killing: float) -> Iterator[str]:
+@contextlib.contextmanager
+def running(backends: list[str]) -> Iterator[dict[str, str]]:
+    """Clusters that run in the `with` statement: their addresses by name."""
+    with contextlib.ExitStack() as ends:
+        addresses = {}
+        environment = {**os.environ, "PYTHONPATH": ROOT}
+        for name in backends:
+            command = [sys.executable, "-c", CLUSTERS[name]]
+            cluster = subprocess.Popen(command, env=environment, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+            ends.enter_context(cluster)
+            assert cluster.stdin is not None and cluster.stdout is not None
+            ends.callback(cluster.stdin.close)
+            addresses[name] = cluster.stdout.readline().strip()
+        yield addresses
+
+
+def rows(folder: Path, kind: str, share: float, clusters: dict[str, str], killing: float) -> Iterator[str]:
     """The lines of the table for a kind."""
     count = make(folder, kind, share)
     kept, one, other = folder / "kept", folder / "one.json", folder / "other.json"
     ways = {"1 process": ("--jobs", "1", "--no-cache"), "2 processes": ("--jobs", "2", "--no-cache")}
     ways |= {KILLED: ways["2 processes"]} if killing else {}
-    ways |= {f"2 workers of {name}": ("--backend", name, "--jobs", "2", "--no-cache") for name in backends}
+    for name, address in clusters.items():
+        ways[f"2 workers of {name}"] = ("--backend", name, "--cluster", address, "--no-cache")
+        ways[f"2 workers of {name}, started"] = ("--backend", name, "--jobs", "2", "--no-cache")
     ways |= {"1 process, which keeps": ("--jobs", "1"), "1 process, from the cache": ("--jobs", "1")}
     first = 0.0
     for way, options in ways.items():
@@ -182,14 +219,16 @@ def main() -> int:
     parser.add_argument("--kill", type=float, default=0.0, metavar="SECONDS")
     parser.add_argument("--folder", type=Path, help="where to keep the corpus")
     arguments = parser.parse_args()
+    os.environ |= {"RAY_AUTH_MODE": "disabled", "RAY_USAGE_STATS_ENABLED": "0"}
     columns = ("inputs", "linted by", "wall, s", "processor, s", "of the first process", "ms an input", "times as fast as one process")
     print(f"| {' | '.join(columns)} | MB | same bytes |")
     print("|---|---|---|---|---|---|---|---|---|")
     with tempfile.TemporaryDirectory() as temporary:
         folder = (arguments.folder or Path(temporary)).absolute()
         for kind in arguments.kinds:
-            for line in rows(folder, kind, arguments.share, arguments.backend, arguments.kill):
-                print(line, flush=True)
+            with running(arguments.backend) as clusters:
+                for line in rows(folder, kind, arguments.share, clusters, arguments.kill):
+                    print(line, flush=True)
     return 0
 
 
