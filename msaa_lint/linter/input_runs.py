@@ -34,7 +34,7 @@ MIN_KEPT = 20_000
 MAX_UNITS = 64
 """The number of inputs of a task: a process takes longer to begin a task than to lint some small inputs."""
 
-MAX_BYTES = 512 << 10
+MAX_BYTES = 2 << 20
 """The number of bytes of the inputs of a task, unless it has only one: they take some tenths of a second."""
 
 MIN_TASKS = 8
