@@ -52,10 +52,9 @@ def discover(
     itself wrote are skipped. Links to folders are not followed; links to files are if they stay in the project. A missing path and a
     folder without inputs are findings (MSAA921).
 
-    `speaks` says whether a source file mentions multisampling, and `known_kind` what a data file is.
-    `inputs_among` says which of the other source files of folders are inputs
-    because of the programs that they belong to.
-    `settings_for` gives the settings of a file or folder. `-` stays as it is. `log` is called with a line for each path that is skipped.
+    `speaks` says whether a source file mentions multisampling, and `known_kind` what a data file is. `inputs_among` says which of the other
+    source files of folders are inputs because of the programs that they belong to. `settings_for` gives the settings of a file or folder.
+    `-` stays as it is. `log` is called with a line for each path that is skipped.
 
     A path may be a URL. In a folder there, globs are relative to it, and nothing is read from ignore files.
     """

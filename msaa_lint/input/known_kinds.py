@@ -1,5 +1,5 @@
-"""What files of folders are, kept between runs: to see it, a file has to be opened, which takes longer than anything else that is done for
-an input of which everything is known."""
+"""What the files of folders are, kept between runs: to find out, each file has to be opened, which takes longer than everything else in a
+run from the cache."""
 
 from __future__ import annotations
 

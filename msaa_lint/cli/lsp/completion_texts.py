@@ -22,6 +22,7 @@ from msaa_lint.linter.suppress.comments import WORDS
 
 from .file_paths import paths
 from .places import Place
+from .setting_words import TABLE
 
 if TYPE_CHECKING:
     from .view import View
@@ -37,7 +38,6 @@ _WORD = re.compile(r"[\w-]*")
 _PATH = re.compile(r"[\w./-]*")
 _FACT = re.compile(r"[\w.]*\Z")
 
-_TABLE = re.compile(r"^[ \t]*\[([^\[\]\n]+)\]", re.MULTILINE)
 _KEY = re.compile(r"^[ \t]*([\w-]+)[ \t]*=", re.MULTILINE)
 _PAGE_KEY = re.compile(r"^([\w-]+):", re.MULTILINE)
 _BARE_KEY = re.compile(r"^[ \t]*([\w-]*)\Z", re.MULTILINE)
@@ -102,7 +102,7 @@ def _rules(view: View) -> Iterator[Item]:
 def _configuration(view: View, offset: int) -> tuple[int, int, list[Item]]:
     """The keys of a table, or the values of a key."""
     text = view.text[:offset]
-    header = _last(_TABLE, text)
+    header = _last(TABLE, text)
     table = re.sub(r"^tool\.msaa-lint(\.|$)", "", header[1].strip()) if header is not None else ""
     if table not in _TABLES:
         return offset, offset, []

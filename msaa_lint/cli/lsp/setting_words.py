@@ -12,7 +12,9 @@ _PYPROJECT = ("tool", "msaa-lint")
 _UNFINISHED = re.compile(r"^[ \t]*([\w-]+)[ \t]*=?[ \t]*$", re.MULTILINE)
 """A key that has no value yet, with which the text is not TOML."""
 
-_TABLE = re.compile(r"^[ \t]*\[([^\[\]\n]+)\]", re.MULTILINE)
+TABLE = re.compile(r"^[ \t]*\[([^\[\]\n]+)\]", re.MULTILINE)
+"""The header of a table."""
+
 _LINK = re.compile(r"\[([^\]]+)\]\((?!https?://)[^)\s]*\)")
 
 
@@ -27,7 +29,7 @@ def setting_at(text: str, offset: int) -> tuple[str, Span] | None:
                 found = without_links(words), span
     unfinished = next((match for match in _UNFINISHED.finditer(text) if match.start(1) <= offset <= match.end(1)), None)
     if found is None and unfinished is not None:
-        table = ["", *_TABLE.findall(text, 0, unfinished.start())][-1].strip()
+        table = ["", *TABLE.findall(text, 0, unfinished.start())][-1].strip()
         own = not table.startswith("tool.") or table.startswith(".".join(_PYPROJECT))
         words = setting_text(unfinished[1]) if own else ""
         return (words, Span(*unfinished.span(1))) if words else None

@@ -19,10 +19,10 @@ from msaa_lint.core.urls import ABSENT, inside, is_url, keep_version, normalized
 from .source import Unreadable
 
 FINE_CLOCK = 10_000_000
-"""Nanoseconds that may be between two times of a file system that are different."""
+"""The resolution of the times of most file systems, in nanoseconds, with a margin."""
 
 COARSE_CLOCK = 2_000_000_000
-"""As `FINE_CLOCK`, of one that does not know parts of seconds."""
+"""The same for a file system whose times are whole seconds."""
 
 _KINDS = {
     stat.S_IFDIR: "a folder",
@@ -204,8 +204,8 @@ def file_state(status: os.stat_result) -> list[int]:
 
 
 def is_settled(state: Sequence[int], start: int) -> bool:
-    """Whether a file that had a state at a time, in nanoseconds, has another one if it is written from then on. Clocks of file systems are
-    coarse: one that counts seconds is known by its times."""
+    """Whether any write to a file after `start`, in nanoseconds, gives it a state other than this one. Clocks of file systems are coarse;
+    one that counts whole seconds is known by the times that it states."""
     times = state[2:4]
     return max(times, default=0) < start - (COARSE_CLOCK if not any(time % 1_000_000_000 for time in times) else FINE_CLOCK)
 
