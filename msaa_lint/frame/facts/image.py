@@ -12,7 +12,7 @@ from msaa_lint.frame.vulkan.formats import Format
 from .facts import Facts
 from .frame import Frame
 from .parts import RENDER_PASS, Attachment, Target
-from .readers import READING_USAGES, READS, Readers
+from .readers import READS, Readers, usage_reads
 
 BESIDE_TRANSIENT = frozenset({"TRANSIENT_ATTACHMENT", "COLOR_ATTACHMENT", "DEPTH_STENCIL_ATTACHMENT", "INPUT_ATTACHMENT"})
 """VUID-VkImageCreateInfo-usage-00963."""
@@ -138,6 +138,7 @@ def image_facts(target: Target, bindings: Bindings, frame: Frame, readers: Reade
     if blockers or None not in (image.usage, image.sharingMode, image.tiling):
         _put_first(facts, "image.compression_blockers", blockers)
     facts.put("image.read", _read(target, bindings, frame, readers))
+    facts.put("image.read_on_tile", any(attachment.input for attachment in bound))
     reads = bindings.reads.get(target.name, [])
     averages = next((body.place("resolves") for body in reads if body.resolves == "AVERAGE"), None)
     facts.put("image.averaged_by_reader", _averaged(reads, frame), averages)
@@ -225,21 +226,20 @@ def _loaded(bound: list[Attachment], frame: Frame) -> bool | None:
 
 
 def _read(target: Target, bindings: Bindings, frame: Frame, readers: Readers) -> bool | None:
-    """Whether its samples are read: by commands where the description records them, else as its usage allows.
+    """Whether its samples are read from memory: by commands where the description records them, else as its usage allows.
 
-    Commands say nothing of an image that none of them touches.
+    An input attachment is read within its pass: what is read from memory is what the pass loads. Commands say nothing of an image that none
+    of them touches.
     """
     image = target.image
     assert image is not None
-    if any(attachment.input for attachment in bindings.used_by(image)):
-        return True
     if not readers.timeline.followed:
         return None
     uses = readers.uses(target.name)
     if frame.has_commands and (uses or id(image) in bindings.begun):
         read = any(effect == READS and event.aspect is None for event, effect in uses)
         return None if not read and image.mayBeRead else read
-    return None if image.usage is None else not READING_USAGES.isdisjoint(image.usage)
+    return usage_reads(image, input_attachment=any(attachment.input for attachment in bindings.used_by(image)))
 
 
 def _averaged(reads: list[ReadImage], frame: Frame) -> bool | None:

@@ -12,6 +12,7 @@ from functools import cached_property
 from typing import NamedTuple
 
 from msaa_lint.core.text.span import Span
+from msaa_lint.frame.description.models import Image, ReadImage
 
 from .commands import CLEAR, COMMAND_READS, COMMAND_WRITES, RESOLVE_WRITE
 from .frame import Frame
@@ -44,13 +45,18 @@ class Readers:
         self._others: dict[tuple[str, str | None], list[int]] = {}
         self._read_later: dict[tuple[int, Aspect], bool | None] = {}
         self._stores_of: dict[tuple[str, str | None], list[Event]] = {}
-        self._stated: dict[tuple[str, str | None], bool | None] = {}
+        self._stated: dict[tuple[str, str | None, bool], bool | None] = {}
 
     def uses(self, image: str, aspect: str | None = None) -> list[tuple[Event, str]]:
         """The events that read an aspect of an image, end what was there, or may do either, in order; None: of any aspect."""
         key = (image, aspect)
         if key not in self._uses_of:
-            events = (event for event in self.timeline.of.get(image, ()) if same_aspect(event.aspect, aspect))
+            target = self.frame.targets.get(image)
+            events = (
+                event
+                for event in self.timeline.of.get(image, ())
+                if same_aspect(event.aspect, aspect) and not _reads_input_attachment(event, target)
+            )
             self._uses_of[key] = [(event, effect) for event in events if (effect := _effect(event)) is not None]
         return self._uses_of[key]
 
@@ -67,7 +73,7 @@ class Readers:
 
     def _reads_later(self, render_pass: Pass, attachment: Attachment, aspect: Aspect) -> bool | None:
         runs = self.timeline.walk.runs_of(render_pass)
-        if attachment.input or render_pass.suspends:
+        if render_pass.suspends:
             # What a suspended rendering draws is stored by the one that resumes and ends it.
             return True
         if not self.timeline.followed:
@@ -80,7 +86,7 @@ class Readers:
     def _answers(self, render_pass: Pass, runs: list[PassRun], attachment: Attachment, aspect: Aspect) -> Iterator[bool | None]:
         if self.frame.has_commands and not render_pass.begun:
             for target in attachment.targets:
-                yield True if aspect.load == "LOAD" else self._read_as_stated(target, aspect)
+                yield True if aspect.load == "LOAD" else self._read_as_stated(target, attachment, aspect)
             return
         for run in runs:
             for target in targets_at(self.frame, attachment, run.position):
@@ -96,7 +102,7 @@ class Readers:
                 elif run.position is not None:
                     yield None if target.image.mayBeRead else False
                 else:
-                    yield True if target.image.presentable else _usage_reads(target)
+                    yield True if target.image.presentable else _usage_reads(target, attachment)
 
     def _next_use(self, image: str, aspect: str | None, run: PassRun) -> str | None:
         """What first happens to what a run stored, round the loop; None where nothing does.
@@ -141,15 +147,15 @@ class Readers:
         ]
         return {aspect.name for attachment in strangers for aspect in attachment.aspects if aspect.load == "LOAD"}
 
-    def _read_as_stated(self, target: Target, aspect: Aspect) -> bool | None:
+    def _read_as_stated(self, target: Target, attachment: Attachment, aspect: Aspect) -> bool | None:
         """Whether what a pass that is never begun stores has a reader: its usage allows one, or something that is described reads."""
         if target.image is None:
             return None
-        key = (target.name, aspect.name)
+        key = (target.name, aspect.name, bool(attachment.input))
         if key not in self._stated:
             idle = (_effect(event) for event in self.timeline.idle.get(target.name, ()) if same_aspect(event.aspect, aspect.name))
             read = READS in idle or any(effect == READS for _, effect in self.uses(target.name, aspect.name))
-            self._stated[key] = True if read else None if target.image.mayBeRead else _usage_reads(target)
+            self._stated[key] = True if read else None if target.image.mayBeRead else _usage_reads(target, attachment)
         return self._stated[key]
 
     @cached_property
@@ -191,6 +197,17 @@ def _effect(event: Event) -> str | None:
     return READS if event.kind in COMMAND_READS and event.command is not None else None
 
 
+def _reads_input_attachment(event: Event, target: Target | None) -> bool:
+    """Whether a shader reads an attachment of the pass around it, which the load operation of that pass filled: by the access, or since the
+    usage allows no other read."""
+    if event.command is None or not isinstance(event.command.body, ReadImage):
+        return False
+    access = event.command.body.access
+    usage = target.image.usage if target is not None and target.image is not None else None
+    only = usage is not None and "INPUT_ATTACHMENT" in usage and {"SAMPLED", "STORAGE"}.isdisjoint(usage)
+    return access == "INPUT_ATTACHMENT_READ" or (access is None and only)
+
+
 def _load_effect(event: Event) -> str | None:
     attachment = event.source
     assert isinstance(attachment, Attachment)
@@ -213,8 +230,14 @@ def _leaves_contents(event: Event) -> bool:
     return event.kind in (STORE, DISCARD, ELSEWHERE)
 
 
-def _usage_reads(target: Target) -> bool | None:
-    """What the usage alone says of readers."""
-    if target.image is None or target.image.usage is None:
+def _usage_reads(target: Target, attachment: Attachment) -> bool | None:
+    """What the usage alone says of readers after a pass; what is an input attachment of the pass has INPUT_ATTACHMENT for that."""
+    return None if target.image is None else usage_reads(target.image, input_attachment=bool(attachment.input))
+
+
+def usage_reads(image: Image, input_attachment: bool) -> bool | None:
+    """Whether a usage allows reads from memory; that of an input attachment is read within its pass."""
+    if image.usage is None:
         return None
-    return not READING_USAGES.isdisjoint(target.image.usage)
+    reading = READING_USAGES - {"INPUT_ATTACHMENT"} if input_attachment else READING_USAGES
+    return not reading.isdisjoint(image.usage)

@@ -38,7 +38,8 @@ IMAGE = (
     Fact("image.encoding", "STRING", "what its values mean", "encoding"),
     Fact("image.is_render_target", "BOOL", "a pass draws or resolves to it, or its usage allows that"),
     Fact("image.resolved", "BOOL", "a resolve, in a pass or as a command, reads or writes it; never unknown"),
-    Fact("image.read", "BOOL", "something other than a resolve inside a pass reads it"),
+    Fact("image.read", "BOOL", "something outside of the passes that draw it reads it; see image.read_on_tile for input attachments"),
+    Fact("image.read_on_tile", "BOOL", "a pass reads it as input attachment; absent for an attachment without an image"),
     Fact(
         "image.read_in_vain",
         "BOOL",

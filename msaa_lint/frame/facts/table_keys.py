@@ -179,6 +179,7 @@ WITHOUT_KEY = frozenset(
         "image.stated",
         "image.is_data",
         "image.read_in_vain",
+        "image.read_on_tile",
         "image.resolved",
         "image.taking_turns",
         "image.turns_stated",
