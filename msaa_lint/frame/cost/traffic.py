@@ -112,7 +112,7 @@ def _attachment(lines: Lines, render_pass: Pass, attachment: Attachment, area: A
             causes.append(("load", "read", record.place(aspect.load_member)))
         elif aspect.load is None:
             lines.missing(f"whether `{attachment.title}` is loaded: {aspect.load_member} is not stated")
-        if aspect.store == "STORE" and not render_pass.suspends:
+        if aspect.store == "STORE":
             causes.append(("resolve" if name in over else "store", "write", record.place(aspect.store_member)))
         elif aspect.store is None:
             lines.missing(f"whether `{attachment.title}` is stored: {aspect.store_member} is not stated")

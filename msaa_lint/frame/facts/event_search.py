@@ -8,7 +8,7 @@ from functools import cached_property
 from .commands import CLEAR, COPY_READ, PRESENT, READ, RESOLVE_READ, RESOLVE_WRITE
 from .frame import Frame
 from .parts import Attachment, Resolve
-from .timeline import BEGIN, DISCARD, DRAW, ELSEWHERE, INPUT, LOAD, RESUME, STORE, Event, EventRef, Timeline
+from .timeline import BEGIN, DISCARD, DRAW, ELSEWHERE, INPUT, LOAD, STORE, Event, EventRef, Timeline
 from .walk import PassRun
 
 _READS = frozenset({LOAD, DRAW, INPUT, RESOLVE_READ, READ, COPY_READ, PRESENT})
@@ -56,7 +56,7 @@ class EventSearch:
         if not self.timeline.ordered:
             return {}
         return {
-            name: [event for event in events if event.kind not in (ELSEWHERE, RESUME)]
+            name: [event for event in events if event.kind != ELSEWHERE]
             for name, events in self.timeline.of.items()
             if name in self.frame.targets
         }

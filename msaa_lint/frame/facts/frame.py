@@ -21,7 +21,7 @@ from msaa_lint.frame.description.models import (
 from msaa_lint.frame.description.record import Record
 from msaa_lint.frame.vulkan.formats import format_of
 
-from .parts import RENDER_PASS, RENDERING, Aspect, Attachment, Pass, PassSubpass, Resolve, Target
+from .parts import RENDER_PASS, RENDERING, RESUMED, SUSPENDED, Aspect, Attachment, Pass, PassSubpass, Resolve, Target
 
 RecordType = TypeVar("RecordType", bound=Record)
 
@@ -302,16 +302,11 @@ class Frame:
         made.resolves.append(resolve)
 
     def _renderings(self) -> None:
-        # One that is written as an alias of another is the same pass, begun again.
-        by_anchor: dict[int, Pass] = {}
-        for position, body in self.recorded(BeginRendering):
-            anchor = id(body.node.anchor if body.node.anchor is not None else body.node)
-            if anchor not in by_anchor:
-                name = body.label if isinstance(body.label, str) else f"rendering{len(by_anchor)}"
-                by_anchor[anchor] = Pass(RENDERING, name, body)
-                self._rendering(by_anchor[anchor], body)
-            by_anchor[anchor].begun.append(position)
-        self.passes.extend(by_anchor.values())
+        for number, (position, body) in enumerate(self.recorded(BeginRendering)):
+            made = Pass(RENDERING, body.label if isinstance(body.label, str) else f"rendering{number}", body)
+            made.begun.append(position)
+            self._rendering(made, body)
+            self.passes.append(made)
 
     def _rendering(self, made: Pass, record: BeginRendering) -> None:
         subpass = PassSubpass(made, record, 0)
@@ -328,7 +323,11 @@ class Frame:
             attachment = Attachment(info, info.image, len(made.attachments), [target] if target is not None else [])
             if target is not None:
                 attachment.format, attachment.samples = target.format, target.samples
-            attachment.aspects = [Aspect(aspect, info.loadOp, info.storeOp, "loadOp", "storeOp")]
+            # "Load operations are only performed at the beginning of a render pass instance that does not specify the
+            # VK_RENDERING_RESUMING_BIT_KHR flag", stores at the end of one without SUSPENDING (VkRenderingAttachmentInfo).
+            load = RESUMED if made.resumes else info.loadOp
+            store = SUSPENDED if made.suspends else info.storeOp
+            attachment.aspects = [Aspect(aspect, load, store, "loadOp", "storeOp")]
             made.attachments.append(attachment)
             (attachment.color if aspect == "color" else attachment.depth_stencil).add(0)
             if info.imageLayout == "RENDERING_LOCAL_READ":

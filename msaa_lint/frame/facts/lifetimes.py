@@ -10,7 +10,7 @@ from msaa_lint.frame.description.models import Command, ReadImage
 from .commands import CLEAR, COMMAND_READS, COPY_WRITE, RESOLVE_WRITE, WRITE
 from .contents import READS, AspectEvents, Contents, is_known
 from .facts import Facts
-from .parts import Aspect, Attachment, Pass, Target
+from .parts import SUSPENDED, Aspect, Attachment, Target
 from .readers import READING_USAGES
 from .timeline import BEGIN, DISCARD, LOAD, STORE, Event, plain
 
@@ -20,12 +20,12 @@ Bound = list[tuple[Target, AspectEvents]]
 """The images of an attachment, each with what happens to the aspect."""
 
 
-def lifetime_facts(facts: Facts, render_pass: Pass, attachment: Attachment, aspect: Aspect, contents: Contents) -> None:
+def lifetime_facts(facts: Facts, attachment: Attachment, aspect: Aspect, contents: Contents) -> None:
     """Adds what the frame says of an aspect's contents before and after the pass."""
     bound: Bound = []
     if attachment.used and aspect.name is not None:
         bound = [(target, contents.of(target.name, aspect.name)) for target in attachment.targets if target.image is not None]
-        _put_store(facts, render_pass, attachment, aspect, bound, contents)
+        _put_store(facts, attachment, aspect, bound, contents)
         _put_undefined(facts, attachment, aspect, bound, contents)
     if contents.timeline.writes and bound:
         _put_commands_before(facts, attachment, bound)
@@ -33,9 +33,9 @@ def lifetime_facts(facts: Facts, render_pass: Pass, attachment: Attachment, aspe
         facts.put("aspect.copied_before", False)
 
 
-def _put_store(facts: Facts, render_pass: Pass, attachment: Attachment, aspect: Aspect, bound: Bound, contents: Contents) -> None:
+def _put_store(facts: Facts, attachment: Attachment, aspect: Aspect, bound: Bound, contents: Contents) -> None:
     """Whether anything reads what the pass stores, before it is overwritten or the frame comes round."""
-    if aspect.store in ("DONT_CARE", "NONE") or render_pass.suspends:
+    if aspect.store in ("DONT_CARE", "NONE", SUSPENDED):
         facts.put("aspect.store_wasted", False)
         return
     wasted: list[bool | None] = []

@@ -20,6 +20,9 @@ from msaa_lint.frame.vulkan.formats import Format, format_of
 RENDER_PASS = "renderPass"
 RENDERING = "rendering"
 
+RESUMED, SUSPENDED = "RESUMED", "SUSPENDED"
+"""In place of operations that are stated but not performed: a resumed rendering does not load, a suspended one does not store."""
+
 PartType = TypeVar("PartType")
 
 
@@ -52,7 +55,7 @@ class Target:
 
 
 class Aspect(NamedTuple):
-    """One aspect of an attachment, with its own load and store operation, and the members that state them.
+    """One aspect of an attachment, with the load and store operation that the pass performs, and the members that state them.
 
     `name` is None where the format, and with it what `loadOp` means, is unknown.
     """

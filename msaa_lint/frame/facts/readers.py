@@ -18,7 +18,7 @@ from .commands import CLEAR, COMMAND_READS, COMMAND_WRITES, RESOLVE_WRITE
 from .frame import Frame
 from .parts import RENDERING, Aspect, Attachment, Pass, Resolve, Target
 from .pass_begin import targets_at
-from .timeline import BEGIN, DISCARD, ELSEWHERE, LOAD, RESUME, STORE, Event, Timeline, key_of
+from .timeline import BEGIN, DISCARD, ELSEWHERE, LOAD, STORE, Event, Timeline, key_of
 from .walk import PassRun
 
 READS = "reads"
@@ -165,7 +165,7 @@ class Readers:
     def stored_before(self, render_pass: Pass, attachment: Attachment, aspect: Aspect) -> Store | None:
         """Which pass stored what an attachment loads, round the loop; None where none did, or where that differs from time to time."""
         runs = self.timeline.walk.runs_of(render_pass)
-        if aspect.load != "LOAD" or len(runs) != 1 or attachment.target is None or render_pass.resumes:
+        if aspect.load != "LOAD" or len(runs) != 1 or attachment.target is None:
             return None
         key = (key_of(attachment.target), aspect.name)
         if key not in self._stores_of:
@@ -190,8 +190,10 @@ def same_aspect(one: str | None, other: str | None) -> bool:
 
 def _effect(event: Event) -> str | None:
     """What an event does to what was there; None where nothing, or nothing that is known to matter."""
-    if event.kind in (LOAD, BEGIN, RESUME):
+    if event.kind in (LOAD, BEGIN):
         return _load_effect(event)
+    if event.kind == ELSEWHERE:
+        return MAY_READ
     if event.kind == RESOLVE_WRITE or event.kind == CLEAR:
         return OVERWRITES if event.certain and event.whole and event.frames is None else None
     return READS if event.kind in COMMAND_READS and event.command is not None else None
@@ -211,7 +213,7 @@ def _reads_input_attachment(event: Event, target: Target | None) -> bool:
 def _load_effect(event: Event) -> str | None:
     attachment = event.source
     assert isinstance(attachment, Attachment)
-    if event.kind == RESUME or (event.kind == LOAD and event.certain):
+    if event.kind == LOAD and event.certain:
         return READS
     # Of images that alternate from frame to frame, each is left as it was in every other frame.
     overwrites = OVERWRITES if event.whole and event.frames is None else None

@@ -26,6 +26,7 @@ from .pipeline import draws_of, pipeline_facts, subpass_of, unshaded
 from .readers import Readers
 from .resolve import command_facts, read_in_vain, resolve_facts
 from .resolve_uses import ResolveUses
+from .resumption import resumption_facts
 from .sample_count_choices import choices
 from .sample_readers import samples_fetched
 from .shaders import Finder as ShaderFinder
@@ -180,6 +181,7 @@ class FrameAnalysis:
             instances = contents.get(render_pass.path, [])
             facts = Facts(self.shared, pass_facts(render_pass, self.frame))
             clear_value_facts(facts, render_pass, self.frame)
+            resumption_facts(facts, render_pass, self.walk)
             yield Subject("pass", render_pass.path, render_pass.record.head, facts, render_pass=render_pass)
             yield from self._attachments(render_pass, facts, instances)
             yield from self._subpasses(render_pass, facts, instances, of_subpass)
@@ -207,7 +209,7 @@ class FrameAnalysis:
         if aspect.name == "depth" and aspect.store == "STORE" and attachment.samples != 1:
             facts.put("aspect.fetched", samples_fetched(attachment, aspect, self.search))
         touch_facts(facts, render_pass, attachment, aspect, instances, self.frame)
-        lifetime_facts(facts, render_pass, attachment, aspect, self.contents)
+        lifetime_facts(facts, attachment, aspect, self.contents)
         if self.frame.document.metal is not None:
             from .metal import action_facts
 

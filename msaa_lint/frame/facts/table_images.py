@@ -87,8 +87,18 @@ ATTACHMENT = (
 
 ASPECT = (
     Fact("aspect.name", "STRING", "which aspect", "aspect"),
-    Fact("aspect.load", "STRING", "load operation: stencilLoadOp for stencil, else loadOp", "VkAttachmentLoadOp"),
-    Fact("aspect.store", "STRING", "store operation: stencilStoreOp for stencil, else storeOp", "VkAttachmentStoreOp"),
+    Fact(
+        "aspect.load",
+        "STRING",
+        "load operation: stencilLoadOp for stencil, else loadOp; RESUMED in a resumed rendering, which performs none",
+        "load operation",
+    ),
+    Fact(
+        "aspect.store",
+        "STRING",
+        "store operation: stencilStoreOp for stencil, else storeOp; SUSPENDED in a suspended rendering, which performs none",
+        "store operation",
+    ),
     Fact("aspect.memory_operations", "LIST", "those of its operations that access memory: LOAD, STORE; never unknown"),
     Fact("aspect.initial_layout", "STRING", "layout at the start of the pass", "VkImageLayout"),
     Fact("aspect.resolved", "BOOL", "a resolve in the pass reads it, with a mode other than NONE"),

@@ -17,6 +17,9 @@ PASS = (
     Fact("pass.custom_resolve", "BOOL", "one of its subpasses resolves with a shader"),
     Fact("pass.labels", "LIST", "debug labels within which it is begun: the labels around one begin are joined by ` / `"),
     Fact("pass.suspends", "BOOL", "it is a suspended rendering: a later one continues it"),
+    Fact("pass.resumes_differently", "BOOL", "it is a resumed rendering, and states another value of a member than the suspended one"),
+    Fact("pass.resumed_from", "STRING", "resumed rendering: the suspended rendering that it continues"),
+    Fact("pass.resumed_member", "STRING", "resumed rendering: the first member that differs, as `colorAttachments[0].loadOp`"),
     Fact("pass.attachments", "INT", "number of attachments"),
     Fact("pass.clears", "BOOL", "render pass: an attachment that a subpass uses has load operation CLEAR for one of its aspects"),
     Fact(

@@ -17,15 +17,13 @@ from msaa_lint.frame.description.models import BeginRenderPass, Command, ImageBa
 
 from .commands import CLEAR, COMMAND_WRITES, RESOLVE_READ, RESOLVE_WRITE, accesses
 from .frame import Frame
-from .parts import Attachment, Pass, Resolve, Target, sizes_differ
+from .parts import RESUMED, SUSPENDED, Attachment, Pass, Resolve, Target, sizes_differ
 from .pass_begin import BegunArea, begun_area, is_followed, one_surface, targets_at
 from .walk import PassRun, Walk, once_each
 
 LOAD = "load"
 BEGIN = "begin"
 """A load operation that ends what was there: CLEAR or DONT_CARE."""
-RESUME = "resume"
-"""A rendering goes on with what was there."""
 DRAW = "draw"
 INPUT = "input"
 STORE = "store"
@@ -226,7 +224,7 @@ class Timeline:
                     covered[key] = self.area(run.render_pass, run.position).covers(target)
                 whole = covered[key] and frames is not SOME_FRAMES
                 for aspect in attachment.aspects:
-                    begin = (RESUME, True) if run.render_pass.resumes else _BEGINS.get(aspect.load)
+                    begin = _BEGINS.get(aspect.load)
                     if begin is not None:
                         kind, certain = begin
                         yield (
@@ -235,7 +233,9 @@ class Timeline:
                         )
                     for index in attachment.color | attachment.depth_stencil:
                         yield key, Event(run.starts[index], DRAW, aspect.name, whole, True, attachment, "", run, None, frames)
-                    end = None if run.render_pass.suspends else _end(attachment, aspect.load, aspect.store)
+                    # The suspended rendering states the same, and performed it.
+                    load = attachment.record.loadOp if aspect.load == RESUMED else aspect.load
+                    end = _end(attachment, load, aspect.store)
                     if end is not None:
                         kind, certain = end
                         event = Event(run.end_time, kind, aspect.name, whole, certain, attachment, aspect.store_member, run, None, frames)
@@ -326,13 +326,16 @@ _BEGINS = {None: (LOAD, False), "LOAD": (LOAD, True), "CLEAR": (BEGIN, True), "D
 
 
 def _end(attachment: Attachment, load: str | None, store: str | None) -> tuple[str, bool] | None:
-    """What a store operation leaves, and whether that is certain; None where it leaves what was in memory, and nothing wrote to it."""
+    """What a store operation leaves, and whether that is certain; None where it leaves what was in memory, and nothing wrote to it,
+    and where the rendering goes on in another one."""
     if store == "STORE":
         return STORE, True
     if store == "DONT_CARE":
         return DISCARD, True
     if store is None:
         return STORE, False
+    if store == SUSPENDED:
+        return None
     # NONE keeps what was in memory: of what the pass overwrote as it began, nothing is left.
     if load in ("CLEAR", "DONT_CARE"):
         return DISCARD, True

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import cached_property
+from itertools import pairwise
 from typing import NamedTuple
 
 from msaa_lint.frame.description.models import Command
@@ -85,6 +86,12 @@ class Walk:
     def runs(self) -> list[PassRun]:
         """The runs of the passes; where no commands are stated, or their order is unknown, every pass runs once, in order."""
         return list(self.recorded_runs.values() if self.frame.has_commands else once_each(self.frame.passes))
+
+    @cached_property
+    def suspended(self) -> dict[int, Pass]:
+        """By the identity of a resumed rendering: the suspended one, which is the one before (VUID-VkSubmitInfo2-commandBuffer-06012)."""
+        passes = [run.render_pass for run in self.recorded_runs.values()] if self.frame.has_commands else []
+        return {id(other): one for one, other in pairwise(passes) if one.suspends and other.resumes}
 
     def runs_of(self, render_pass: Pass) -> list[PassRun]:
         """Those of `runs` that are of a pass."""

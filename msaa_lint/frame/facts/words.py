@@ -22,6 +22,8 @@ class Fact(NamedTuple):
 WORDS: dict[str, tuple[str, ...]] = {
     "aspect": ("color", "depth", "stencil"),
     "pass kind": ("renderPass", "rendering"),
+    "load operation": ("LOAD", "CLEAR", "DONT_CARE", "NONE", "RESUMED"),
+    "store operation": ("STORE", "DONT_CARE", "NONE", "SUSPENDED"),
     "begun": ("YES", "NO", "NOT_STATED"),
     "resolve kind": ("subpass", "rendering", "command"),
     "encoding": ("LINEAR", "GAMMA", "DATA"),

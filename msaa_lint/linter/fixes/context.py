@@ -7,6 +7,7 @@ from functools import cached_property
 from msaa_lint.core.text.span import Span
 from msaa_lint.frame.description.document import Document, Lowered
 from msaa_lint.frame.description.models import ClearAttachments, Framebuffer, Metal, PipelineBarrier, SubpassDependency
+from msaa_lint.frame.description.record import Record
 from msaa_lint.frame.facts.frame import Frame
 from msaa_lint.frame.facts.parts import Attachment, Pass, Resolve
 from msaa_lint.frame.facts.subjects import FrameAnalysis
@@ -82,6 +83,20 @@ class FixContext:
         """The resolves within passes, by the identity of their record and their aspect."""
         subpasses = [subpass for render_pass in self.frame.passes for subpass in render_pass.subpasses]
         return {(id(resolve.record), resolve.aspect): resolve for subpass in subpasses for resolve in subpass.resolves}
+
+    @cached_property
+    def continued(self) -> dict[int, list[Record]]:
+        """By the identity of an attachment's record: those of the renderings that it suspends or resumes, which must state the same."""
+        groups: dict[int, list[Pass]] = {}
+        for render_pass in self.frame.passes:
+            before = self.analysis.walk.suspended.get(id(render_pass))
+            groups[id(render_pass)] = [*(groups[id(before)] if before is not None else ()), render_pass]
+        continued: dict[int, list[Record]] = {}
+        for group in groups.values():
+            for attachments in zip(*(each.attachments for each in group), strict=False) if len(group) > 1 else ():
+                records = [attachment.record for attachment in attachments]
+                continued.update((id(record), records) for record in records)
+        return continued
 
     @cached_property
     def framebuffers(self) -> dict[str, list[Framebuffer]]:

@@ -32,6 +32,12 @@ def plan(spec: FixSpec, subject: Subject, context: FixContext) -> tuple[Change, 
             member_action = "unset" if action == "set" and setting.fact in SET_BY_UNSET else action
             for record, member in sources[setting.fact](subject, context):
                 changes += (Change(record, member, member_action, value) for value in values)
+    changes += [
+        change._replace(record=record)
+        for change in changes
+        if not change.structural
+        for record in context.continued.get(id(change.record), ())
+    ]
     effective = distinct(change for change in changes if change.effective)
     if not effective:
         raise NoFix("the description already states this")

@@ -18,6 +18,7 @@ ENUMS = {
 FLAGS = {
     "usage": "VkImageUsageFlagBits", "srcStageMask": "VkPipelineStageFlagBits2", "dstStageMask": "VkPipelineStageFlagBits2",
     "srcAccessMask": "VkAccessFlagBits2", "dstAccessMask": "VkAccessFlagBits2", "memory": "VkMemoryPropertyFlagBits",
+    "renderingFlags": "VkRenderingFlagBits",
 }  # fmt: skip
 
 

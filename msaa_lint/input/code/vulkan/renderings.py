@@ -9,7 +9,8 @@ from msaa_lint.core.text.node_builder import mapping, scalar, sequence
 from msaa_lint.core.text.span import Span
 from msaa_lint.input.code.core.values import UNKNOWN, ApiObject, Struct, Symbol, Value, sole_value
 
-from .members import Item, Members, head_of
+from .enumerants import FLAGS, named
+from .members import Item, Members, flags_of, head_of
 
 
 class Commands(Members):
@@ -25,12 +26,16 @@ class Commands(Members):
         multisampled = any(struct is not None and self.is_multisampled_attachment(struct) for struct in structs)
         head = head_of(obj.at)
         items: list[Item] = []
+        flags, flags_at = self.get(info, "flags")
+        stated = flags_of(FLAGS["renderingFlags"], named("renderingFlags", flags or 0, flags_at), flags_at)
+        if stated is not None and stated.value:
+            items.append(("flags", flags_at, stated))
         if colors:
-            nodes = [self.rendered(color, obj, multisampled, attached) for color in colors]
+            nodes = [self.rendered(color, obj, multisampled, attached, stated is not None) for color in colors]
             items.append(("colorAttachments", head, sequence(nodes, head)))
         for name, struct in depth:
             if struct is not None and self.get(info, name)[0] not in (None, 0):
-                items.append((name, head_of(struct.at), self.rendered(struct, obj, multisampled, attached)))
+                items.append((name, head_of(struct.at), self.rendered(struct, obj, multisampled, attached, stated is not None)))
         if not any(node.kind != "scalar" for _, _, item in items for node in (item.value if item.kind == "sequence" else (item,))):
             return None
         return mapping([("beginRendering", head, mapping(items, head))], head)
@@ -41,9 +46,10 @@ class Commands(Members):
         count = self.samples(image.info)[0] if image is not None else None
         return count > 1 if count is not None else self.resolves_attachment(struct)
 
-    def rendered(self, struct: Struct | None, obj: ApiObject, multisampled: bool, attached: dict[int, ApiObject]) -> Node:
+    def rendered(self, struct: Struct | None, obj: ApiObject, multisampled: bool, attached: dict[int, ApiObject], performed: bool) -> Node:
         """Returns an attachment of a rendering, null if there is none or nothing is known of it.
 
+        `performed`: whether it loads and stores is known. Where it may be one that resumes or suspends, its operations are left out.
         A store operation that only a resolve justifies is left out where it is not known whether there is a resolve.
         """
         head = head_of(struct.at if struct is not None else obj.at)
@@ -59,6 +65,8 @@ class Commands(Members):
         node = self.node("resolveMode", mode or 0, place) if mode is not UNKNOWN else None
         if node is not None:
             items.append(("resolveMode", place, node))
+        if not performed:
+            return mapping(items, head)
         items += self.item(struct, "loadOp")
         unresolved = node is None and target is not None
         items += [item for item in self.item(struct, "storeOp") if not unresolved or item[2].value == "STORE"]
