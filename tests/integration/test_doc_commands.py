@@ -27,7 +27,7 @@ from tests.paths import ROOT
 LANGUAGES = {"sh", "console", "python", "yaml", "toml", "json", "cpp", "markdown", "text", "inline", "lua", "elisp", "groovy"}
 
 NOT_RUN = {
-    "README.md": {"installs packages; tests/integration/test_release.py runs it"},
+    "README.md": {"installs packages; tests/integration/test_release.py runs it", "runs all tests; .ci/run runs it"},
     "CONTRIBUTING.md": {"installs packages; tests/integration/test_release.py runs it", "publishes"},
     "docs/ci.md": {"URL stands for a repository; tests/integration/test_release.py runs it", "needs reviewdog and a token"},
     "docs/confirm.md": {"needs root", "needs a GPU"},
