@@ -201,9 +201,9 @@ class Modules:
         own = self._own.get(name)
         if own is None:
             path = os.path.join(self._folder, name)
-            # What was found out for another input is not read again.
-            record(path)
-            return (self._project, path if is_url(self._folder) else os.path.abspath(path)), lambda: self._bytes(name)
+            # What was found out for another input is not read again. With its name, which messages state.
+            record(path, self._project)
+            return (self._project, path if is_url(self._folder) else os.path.abspath(path), name), lambda: self._bytes(name)
         if name not in self._digests:
             from hashlib import blake2b
 

@@ -106,7 +106,7 @@ def _snapshot(runs: InputRuns[Part]) -> Snapshot:
         key: loaded._replace(settings=loaded.settings._replace(rules=_pages(loaded.settings.rules)))
         for key, loaded in workspace.loaded.items()
     }
-    files = {path: data for path in opened.files if (data := content(path)) is not None}
+    files = {path: data for path, project in opened.files.items() if (data := content(path, project)) is not None}
     return Snapshot(request, os.getcwd(), runs.linter.travelling(), workspace.current.configuration, configurations, files)
 
 

@@ -31,6 +31,7 @@ from msaa_lint.core.finding import (
     Undecided,
     Unread,
 )
+from msaa_lint.core.project import Outside, real_path
 from msaa_lint.core.rendered import Counts, RenderedFinding, RenderedPart
 from msaa_lint.core.serialized import by_name, dumps, loads
 from msaa_lint.core.text.files import Opened, content, file_state, is_settled, recording
@@ -59,6 +60,9 @@ _KIND = "part"
 State = list[Any]
 """A name for the content of a file, and what differs if it has been written; of a program, only the latter. Empty if there is none."""
 
+_REFUSED: State = ["outside"]
+"""The state of a file outside of the project that it must be in."""
+
 
 class _Text(NamedTuple):
     """A text that reports show. `text` is None if it is that of the file of its name."""
@@ -69,12 +73,13 @@ class _Text(NamedTuple):
 
 
 class _Entry(NamedTuple):
-    """A kept part without its texts; `files` are the states of the files that it depends on, `programs` those of programs, and `urls` the
-    versions of what is elsewhere."""
+    """A kept part without its texts; `files` are the states of the files that it depends on, `projects` where those must be that content
+    names, `programs` the states of programs, and `urls` the versions of what is elsewhere."""
 
     part: RunPart
     texts: list[_Text]
     files: dict[str, State]
+    projects: dict[str, str]
     programs: dict[str, State]
     urls: dict[str, str]
 
@@ -150,14 +155,15 @@ class KeptParts:
         else:
             if any(_program_state(name) != state for name, state in entry.programs.items()):
                 return None
-            if any(not _is_unchanged(path, state) for path, state in entry.files.items()):
+            if any(not _is_unchanged(path, entry.projects.get(path), state) for path, state in entry.files.items()):
                 return None
             if any(urls.version(url) != version for url, version in entry.urls.items()):
                 return None
             for each in entry.texts:
                 if each.text is None:
-                    data = content(os.path.abspath(each.name))
-                    if data is None or digest(data) != entry.files[os.path.abspath(each.name)][0]:
+                    path = os.path.abspath(each.name)
+                    data = content(path, entry.projects.get(path))
+                    if data is None or digest(data) != entry.files[path][0]:
                         return None
                     texts[each.name] = decode(data)
         sources = {each.name: Source(each.name, each.text or texts[each.name], each.origins) for each in entry.texts}
@@ -169,7 +175,7 @@ class KeptParts:
         if any(index.content(path, root) != contents.get(path) for path, root in zip(program.paths, program.roots, strict=True)):
             return None
         texts = [_Text(name, None, source.origins) for name, source in part.sources.items()]
-        return _Entry(part._replace(sources={}), texts, {path: [name] for path, name in contents.items()}, {}, {})
+        return _Entry(part._replace(sources={}), texts, {path: [name] for path, name in contents.items()}, {}, {}, {})
 
     def _key(self, unit: Unit) -> str | None:
         """The name of the part of an input or a program; None if it is not kept."""
@@ -202,8 +208,12 @@ def _entry(part: RunPart, opened: Opened, start: int) -> _Entry | None:
         return None
     files: dict[str, State] = {}
     contents: dict[str, bytes] = {}
-    for path in opened.files:
-        state, data = _state(path), content(path)
+    for path, project in opened.files.items():
+        state = _state(path, project)
+        if state == _REFUSED:
+            files[path] = state
+            continue
+        data = content(path, project)
         if state and (data is None or not is_settled(state, start)):
             return None
         files[path] = [digest(data), *state] if data is not None else []
@@ -214,7 +224,8 @@ def _entry(part: RunPart, opened: Opened, start: int) -> _Entry | None:
         data = contents.get(os.path.abspath(name))
         texts.append(_Text(name, None if data is not None and _is_text(data, source.text) else source.text, source.origins))
     programs = {name: _program_state(name) for name in opened.programs}
-    return _Entry(part._replace(sources={}), texts, files, programs, opened.urls)
+    projects = {path: project for path, project in opened.files.items() if project is not None}
+    return _Entry(part._replace(sources={}), texts, files, projects, programs, opened.urls)
 
 
 def _is_whole(part: RunPart) -> bool:
@@ -229,18 +240,23 @@ def _is_text(data: bytes, text: str) -> bool:
         return False
 
 
-def _is_unchanged(path: str, known: State) -> bool:
+def _is_unchanged(path: str, project: str | None, known: State) -> bool:
     """Whether a file is as it was: nobody can set when its state changed last, and a file that was written may have the same content."""
-    state = _state(path)
+    state = _state(path, project)
+    if _REFUSED in (state, known):
+        return state == known
     if state == known[1:]:
         return True
-    data = content(path) if state and known else None
+    data = content(path, project) if state and known else None
     return data is not None and digest(data) == known[0]
 
 
-def _state(path: str) -> State:
+def _state(path: str, project: str | None) -> State:
+    """The state of a file; of one that must be in a project and is not, nothing is looked at."""
     try:
-        return file_state(os.stat(path))
+        return file_state(os.stat(path if project is None else real_path(path, project)))
+    except Outside:
+        return _REFUSED
     except (OSError, ValueError):
         return []
 
@@ -250,4 +266,4 @@ def _program_state(name: str) -> State:
     from msaa_lint.input.child_program import installed
 
     path = installed(name)
-    return [path, *_state(path)] if path is not None else []
+    return [path, *_state(path, None)] if path is not None else []

@@ -51,11 +51,11 @@ def with_buffers(buffers: Mapping[str, bytes]) -> Iterator[None]:
 
 
 class Opened:
-    """The absolute paths of the files that were opened, or that something tried to open, the names of programs that were looked up, and
-    URLs with the versions that their storage stated."""
+    """The absolute paths of the files that were opened, or that something tried to open, each with the project that it must be in, None if
+    the command line names it; the names of programs that were looked up; and URLs with the versions that their storage stated."""
 
     def __init__(self) -> None:
-        self.files: set[str] = set()
+        self.files: dict[str, str | None] = {}
         self.programs: set[str] = set()
         self.urls: dict[str, str] = {}
 
@@ -77,14 +77,15 @@ def record_program(name: str) -> None:
         opened.programs.add(name)
 
 
-def record(path: str) -> None:
-    """Adds a path to what is recorded, if anything is, and a URL if it was read before."""
+def record(path: str, project: str | None) -> None:
+    """Adds a path, which must be in a project unless that is None, to what is recorded, if anything is, and a URL if it was read before."""
     if is_url(path):
         url = normalized(path)
         if (version := version_read(url)) is not None:
             _record_url(url, version)
     elif (opened := _opened.get(None)) is not None:
-        opened.files.add(os.path.abspath(path))
+        absolute = os.path.abspath(path)
+        opened.files[absolute] = None if opened.files.get(absolute, project) is None else project
 
 
 def _record_url(url: str, version: str) -> None:
@@ -117,7 +118,7 @@ def open_file(path: str, project: str | None) -> tuple[BinaryIO, int | None]:
     if is_url(path if project is None else project):
         return _open_url(path, project)
     try:
-        record(path)
+        record(path, project)
         unsaved = _buffer(path, project)
         if unsaved is not None:
             return io.BytesIO(unsaved), len(unsaved)
@@ -145,7 +146,7 @@ def open_entry(path: str) -> BinaryIO:
     """A regular file, according to the listing of its folder, open for reading; a link is not followed. Raises OSError."""
     if is_url(path):
         return open_listed(path)
-    record(path)
+    record(path, os.path.dirname(os.path.abspath(path)))
     unsaved = _buffer(path, None)
     if unsaved is not None:
         return io.BytesIO(unsaved)
@@ -188,10 +189,10 @@ def read(path: str, max_bytes: int, project: str | None) -> bytes:
     return data
 
 
-def content(path: str) -> bytes | None:
-    """The bytes of a regular file on disk; None if there is none."""
+def content(path: str, project: str | None) -> bytes | None:
+    """The bytes of a regular file on disk; None if there is none, or if it must be in a project and is not, which is not opened."""
     try:
-        with open(os.open(path, _FLAGS), "rb") as file:
+        with open(os.open(path, _FLAGS) if project is None else _open_inside(path, project), "rb") as file:
             status = os.fstat(file.fileno())
             return file.read(status.st_size) if stat.S_ISREG(status.st_mode) else None
     except (OSError, ValueError):

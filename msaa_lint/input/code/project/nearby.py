@@ -9,6 +9,8 @@ import os
 import stat
 from collections.abc import Iterable, Iterator
 
+from msaa_lint.core.project import is_inside
+
 from .index import SOURCES
 
 INCLUDE_FOLDERS = ("", "include", "inc", "src", "source", "Source", "Include")
@@ -28,6 +30,8 @@ class Nearby:
         self.root = root
         self.lookups = 0
         self._known: dict[str, bool] = {}
+        self._inside: dict[str, bool] = {}
+        """By folder: whether it is in the project."""
 
     def included(self, path: str, names: Iterable[str]) -> Iterator[str]:
         """Yields the files that a file includes by these names, as paths like its own."""
@@ -56,8 +60,11 @@ class Nearby:
         known = self._known.get(path)
         if known is None and self.lookups < MAX_LOOKUPS:
             self.lookups += 1
+            folder = os.path.dirname(path)
+            if folder not in self._inside:
+                self._inside[folder] = is_inside(folder, self.root)
             try:
-                known = stat.S_ISREG(os.lstat(path).st_mode)
+                known = self._inside[folder] and stat.S_ISREG(os.lstat(path).st_mode)
             except (OSError, ValueError):
                 known = False
             self._known[path] = known

@@ -114,6 +114,7 @@ def test_files_that_have_not_been_written_are_not_opened(many: Path, tmp_path: P
 
 def test_files_that_are_too_young_are_read_again(many: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Within the resolution of times, another content may have the same."""
+    monkeypatch.setattr("msaa_lint.core.text.files.FINE_CLOCK", 10**12)
     check(many, tmp_path / "kept")
     opened = []
     monkeypatch.setattr("msaa_lint.input.code.project.index.open_entry", lambda path: opened.append(path) or open_entry(path))
