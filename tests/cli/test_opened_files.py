@@ -33,14 +33,17 @@ main()
 """
 
 PADDING = "# Results of less than MIN_KEPT bytes of inputs are not kept.\n" * (MIN_KEPT // 60 + 1)
-SHADED = """\
+SHADED = (
+    """\
 images: {color: {format: R8G8B8A8_UNORM, samples: 8, usage: [COLOR_ATTACHMENT]}}
 pipelines:
   own:
     rendering: {colorAttachmentFormats: [R8G8B8A8_UNORM]}
     multisampleState: {rasterizationSamples: 4, alphaToCoverageEnable: true}
     stages: [{stage: FRAGMENT, module: "MODULE"}]
-""" + PADDING
+"""
+    + PADDING
+)
 CODE = """\
 #include "../outside/header.h"
 #include "up/header.h"

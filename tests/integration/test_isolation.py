@@ -9,9 +9,11 @@ import sys
 from pathlib import Path
 
 import pytest
+import yaml
 
 from tests.command import environment_of, run_process
 from tests.integration.test_pre_commit import GOOD
+from tests.paths import ROOT
 
 DESCRIPTION = GOOD.replace("renderPasses:", "frame: {width: 64, height: 64}\nrenderPasses:")
 MESH = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
@@ -110,6 +112,35 @@ def test_no_relative_entry_of_pythonpath_is_searched(checkout: Path) -> None:
     done = run_script(checkout, *STUDY, "--jobs", "2", PYTHONPATH=paths)
     assert imported(checkout) == ""
     assert done.returncode == 0, done.stderr
+
+
+def test_the_hooks_and_the_action_ignore_pythonpath(checkout: Path) -> None:
+    """Python itself imports from it before any program runs, so they have none: docs/security.md says what holds for other uses."""
+    poison(checkout, modules())
+    hooks = yaml.safe_load((ROOT / ".pre-commit-hooks.yaml").read_text(encoding="utf-8"))
+    assert len(hooks) == 2
+    for hook in hooks:
+        python, *words = hook["entry"].split()
+        assert python == "python"
+        done = subprocess.run(
+            [sys.executable, *words, "frame.msaa.yaml"],
+            cwd=checkout,
+            env=environment_of({"PYTHONPATH": f".{os.pathsep}"}),
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+        assert imported(checkout) == "" and done.returncode in (0, 1), done.stderr
+    steps = yaml.safe_load((ROOT / "action.yml").read_text(encoding="utf-8"))["runs"]["steps"]
+    lint = next(step["env"] for step in steps if step["name"] == "Lint")
+    assert (lint["PYTHONPATH"], lint["PYTHONSAFEPATH"]) == ("", "1")
+    done = run_script(checkout, "check", "frame.msaa.yaml", PYTHONPATH=lint["PYTHONPATH"], PYTHONSAFEPATH=lint["PYTHONSAFEPATH"])
+    assert imported(checkout) == "" and done.returncode in (0, 1), done.stderr
+    stated = checkout / "stated"
+    stated.mkdir()
+    poison(stated, {"sitecustomize"})
+    run_script(stated, "--version", PYTHONPATH=f".{os.pathsep}{ROOT}")
+    assert imported(stated).startswith("sitecustomize"), "as the documentation says of relative entries"
 
 
 @pytest.mark.skipif(os.name != "posix", reason="scripts with an interpreter line")
