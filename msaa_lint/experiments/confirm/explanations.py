@@ -186,6 +186,11 @@ CONSEQUENCES = (
         ("resolve-source-single-sampled", "resolve-target-multisampled", "resolve-format-mismatch"),
         "the resolve itself is the mistake",
     ),
+    Consequence(
+        ("resolving-image", "02003"),
+        ("depth-resolved-by-command",),
+        "without maintenance10, the target's format needs the features of a color attachment",
+    ),
 )
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from msaa_lint.frame.description.models import AttachmentDescription, Command, Image, TwoImages
+from msaa_lint.frame.description.models import AttachmentDescription, Command, Image, ResolveImage
 from msaa_lint.frame.facts.commands import END_COMMANDS
 from msaa_lint.frame.facts.frame import Frame
 from msaa_lint.frame.facts.image import BESIDE_TRANSIENT
@@ -92,7 +92,7 @@ def _move_into_pass(
 ) -> bool:
     """Makes a resolve command a resolve of the pass that draws its source. Returns whether that is possible."""
     body = command.body
-    assert isinstance(body, TwoImages)
+    assert isinstance(body, ResolveImage)
     source, target = frame.target(body.srcImage), frame.target(body.dstImage)
     if source is None or target is None or source.samples == 1 or source.name not in drawn:
         return False
@@ -158,7 +158,7 @@ def separate(frame: Frame) -> None:
             together = render_pass.kind == RENDERING and source.depth_stencil
             for attachment in render_pass.subpasses[0].depth_stencil if together else [source]:
                 _store(attachment)
-            body = blank_record(TwoImages, resolve.record, "resolveImage")
+            body = blank_record(ResolveImage, resolve.record, "resolveImage")
             body.srcImage, body.dstImage = _image_to_resolve(frame, source).name, target.name
             command = make_command("resolveImage", body, resolve.record)
             commands.setdefault(id(render_pass), {}).setdefault((body.srcImage, body.dstImage), command)

@@ -10,7 +10,7 @@ import re
 
 from msaa_lint.core.text.node import Node
 
-from .models import AttachmentDescription, SubpassDependency
+from .models import AttachmentDescription, ResolveImage, SubpassDependency
 from .record import Record
 
 PNEXT = {
@@ -23,6 +23,7 @@ PNEXT = {
 WITHIN: dict[str, type[Record]] = {
     "ATTACHMENT_DESCRIPTION_STENCIL_LAYOUT": AttachmentDescription,
     "MEMORY_BARRIER_2": SubpassDependency,
+    "RESOLVE_IMAGE_MODE_INFO": ResolveImage,
 }
 """Structures of a pNext chain whose members belong, in a description, to the structure itself and override its own."""
 

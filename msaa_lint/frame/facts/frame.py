@@ -16,12 +16,13 @@ from msaa_lint.frame.description.models import (
     Framebuffer,
     Pipeline,
     ReadImage,
+    ResolveImage,
     Subpass,
 )
 from msaa_lint.frame.description.record import Record
 from msaa_lint.frame.vulkan.formats import format_of
 
-from .parts import RENDER_PASS, RENDERING, RESUMED, SUSPENDED, Aspect, Attachment, Pass, PassSubpass, Resolve, Target
+from .parts import RENDER_PASS, RENDERING, RESUMED, SUSPENDED, Aspect, Attachment, Pass, PassSubpass, Resolve, Target, states_mode
 
 RecordType = TypeVar("RecordType", bound=Record)
 
@@ -383,14 +384,18 @@ class Frame:
 
     def _resolve_command(self, command: Command) -> Resolve:
         body = command.body
-        assert isinstance(body, Record)
-        source, target = self.target(getattr(body, "srcImage", None)), self.target(getattr(body, "dstImage", None))
-        aspect = "depth" if source is not None and source.format is not None and "color" not in source.format.aspects else "color"
+        assert isinstance(body, ResolveImage)
+        source, target = self.target(body.srcImage), self.target(body.dstImage)
+        # Of depth and stencil together, depth.
+        aspect = source.format.aspects[0] if source is not None and source.format is not None else "color"
+        member = "stencilResolveMode" if aspect == "stencil" else "resolveMode"
         resolve = Resolve("command", aspect, body, command.path)
-        resolve.mode_at = command.head
+        resolve.mode = getattr(body, member)
+        resolve.mode_at = body.place(member) if body.states(member) else command.head
         resolve.source_image, resolve.target_image = source, target
         resolve.source_at, resolve.target_at = body.place("srcImage"), body.place("dstImage")
-        if aspect == "color" and source is not None and source.format is not None and source.format.numeric not in ("UINT", "SINT"):
+        averages = source is not None and source.format is not None and source.format.numeric not in ("UINT", "SINT")
+        if aspect == "color" and averages and not states_mode(body):
             resolve.mode = "AVERAGE"
         return resolve
 

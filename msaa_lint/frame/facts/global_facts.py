@@ -125,6 +125,9 @@ def _enabled(facts: Facts, description: Description, device: DeviceProfile | Non
     features = enabled.features if enabled is not None else None
     if enabled is not None and features is not None:
         facts.put("enabled.sample_rate_shading", "sampleRateShading" in features, enabled.place("features"))
+        facts.put("enabled.maintenance10", "maintenance10" in features, enabled.place("features"))
+    elif enabled is not None and extensions is not None and "VK_KHR_maintenance10" not in extensions:
+        facts.put("enabled.maintenance10", False, enabled.place("extensions"))
     offered = device.extensions if device is not None and extensions is None else None
     facts.put("enabled.mixed_samples", not MIXED_SAMPLES.isdisjoint(extensions or ()))
     facts.put("device.mixed_samples", not MIXED_SAMPLES.isdisjoint(offered or ()))

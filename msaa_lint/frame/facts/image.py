@@ -9,6 +9,7 @@ from msaa_lint.frame.devices import DeviceProfile
 from msaa_lint.frame.devices.shares import sample_count_share
 from msaa_lint.frame.vulkan.formats import Format
 
+from .commands import PRESENT, image_of
 from .facts import Facts
 from .frame import Frame
 from .parts import RENDER_PASS, Attachment, Target
@@ -31,7 +32,7 @@ _RENDER_TARGET_USAGES = frozenset({"COLOR_ATTACHMENT", "DEPTH_STENCIL_ATTACHMENT
 class Bindings:
     """What a frame does with its images. Images and those that stand for attachments without one go by their records."""
 
-    __slots__ = ("_idle", "attachments", "begun", "reads", "resolve_ends", "resolved")
+    __slots__ = ("_idle", "attachments", "begun", "presented", "reads", "resolve_ends", "resolved")
 
     def __init__(self, frame: Frame) -> None:
         self.attachments: dict[int, list[Attachment]] = {}
@@ -44,6 +45,8 @@ class Bindings:
         self.resolve_ends = {id(end.record) for end in ends if end is not None}
         """The images that a resolve reads or writes."""
         self.reads: dict[str, list[ReadImage]] = {}
+        self.presented = {image_of(command, PRESENT): command.head for command in frame.commands if command.kind == "present"}
+        """The images that a command presents, each with the place of a command that does."""
         self._idle: set[int] = set()
         """The attachments, by identity, of passes that the frame does not begin."""
         for render_pass in frame.passes:
@@ -107,6 +110,9 @@ def image_facts(target: Target, bindings: Bindings, frame: Frame, readers: Reade
         facts.put("image.share_of_tilers", sample_count_share(target.samples, tilers=True))
     facts.put("image.loaded", _loaded(bound, frame))
     facts.put("image.resolved", id(record) in bindings.resolved or id(record) in bindings.resolve_ends)
+    stated = image is not None and bool(image.presentable)
+    command_at = bindings.presented.get(target.name) if image is not None else None
+    facts.put("image.presented", stated or command_at is not None, record.place("presentable") if stated else command_at)
     if image is None:
         facts.put("image.is_render_target", rendered)
         return facts

@@ -16,7 +16,7 @@ from msaa_lint.frame.description.record import Record
 from .attachment import resolves_at
 from .facts import Subject
 from .key_values import spelled, values
-from .parts import RENDERING, Attachment, Pass, Resolve, Target
+from .parts import RENDERING, Attachment, Pass, Resolve, Target, states_mode
 from .pipeline import Draw, draws_of
 from .subjects import FrameAnalysis
 from .subpass import pipelines_of
@@ -256,6 +256,11 @@ class MissingKeys:
             pipelines = self.description.pipelines.values()
             yield from ((pipeline, "stages") for pipeline in pipelines) if pipelines else [(self.description, "pipelines")]
 
+    def _copy(self, subject: Subject, member: str) -> Iterator[Place]:
+        names = [subject.facts.values.get(f"copy.{end}") for end in ("source", "target")]
+        targets = [self.frame.target(name) for name in names if isinstance(name, str)]
+        yield from self._of_images([target for target in targets if target is not None], member)
+
     def _choice(self, subject: Subject) -> Record | None:
         return self._choices.get(subject.path)
 
@@ -327,6 +332,7 @@ _PARTS: dict[str, Callable[[MissingKeys, Subject, str], Iterable[Place]]] = {
     "dependency": lambda _, subject, member: _one(subject.dependency, member),
     "pipeline": MissingKeys._pipeline,
     "read": MissingKeys._read,
+    "copy": MissingKeys._copy,
     "choice": lambda keys, subject, member: _one(keys._choice(subject), member),
     "begins": MissingKeys._begins,
     "device": MissingKeys._device,
@@ -348,6 +354,9 @@ def resolve_mode(resolve: Resolve) -> Place | None:
     """The member that states a resolve's mode, or None if Vulkan prescribes the mode."""
     if resolve.kind == RENDERING:
         return (resolve.record, "resolveMode")
+    if resolve.kind == "command":
+        member = "stencilResolveMode" if resolve.aspect == "stencil" else "resolveMode"
+        return (resolve.record, member) if states_mode(resolve.record) else None
     member = f"{resolve.aspect}ResolveMode"
     return (resolve.record, member) if member in resolve.record.SHAPE else None
 

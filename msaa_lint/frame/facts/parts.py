@@ -178,6 +178,11 @@ class Resolve:
         return self.mode not in (None, "NONE")
 
 
+def states_mode(record: Record) -> bool:
+    """Whether a vkCmdResolveImage2 has a VkResolveImageModeInfoKHR."""
+    return record.states("resolveMode") or record.states("stencilResolveMode")
+
+
 def sizes_differ(one: Target | None, other: Target | None) -> bool:
     """Whether two images are known to differ in width or height."""
     return one is not None and other is not None and None not in (one.size, other.size) and one.size != other.size

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from msaa_lint.frame.description.models import ResolveImage
 from msaa_lint.frame.devices import DeviceProfile
 from msaa_lint.frame.devices.shares import resolve_mode_share
 from msaa_lint.frame.vulkan.formats import Format
 
 from .facts import Facts
-from .parts import Resolve, sizes_differ
+from .parts import Resolve, sizes_differ, states_mode
 from .readers import Readers
 from .timeline import Timeline
 
@@ -27,6 +28,9 @@ def resolve_facts(resolve: Resolve, device: DeviceProfile | None) -> Facts:
         facts.put(f"resolve.{end}_samples", part.samples if part is not None else None, at)
         facts.put(f"resolve.{end}_format", format.name if format is not None else None, at)
     from_format, to_format = formats
+    integers = from_format.is_integer if from_format is not None and "color" in from_format.aspects else None
+    facts.put("resolve.source_integers", None if _other_view(resolve, source_only=True) else integers)
+    facts.put("resolve.mode_stated", resolve.kind == "command" and states_mode(resolve.record))
     facts.put("resolve.source_numeric", from_format.numeric if from_format is not None and "color" in from_format.aspects else None)
     image = resolve.source_image.image if resolve.source_image is not None else None
     if image is not None:
@@ -95,11 +99,11 @@ def formats_match(resolve: Resolve, source: Format | None, target: Format | None
     return (source.stencil_bits, source.stencil_type) == (target.stencil_bits, target.stencil_type)
 
 
-def _other_view(resolve: Resolve) -> bool:
+def _other_view(resolve: Resolve, source_only: bool = False) -> bool:
     """Whether the formats are those of images of which a view may have another: MUTABLE_FORMAT, and no attachment that states its own."""
     if resolve.kind == "command":
         return False
-    ends = ((resolve.source, resolve.source_image), (resolve.target, resolve.target_image))
+    ends = ((resolve.source, resolve.source_image), (resolve.target, resolve.target_image))[: 1 if source_only else 2]
     images = [t.image for a, t in ends if t is not None and not (a is not None and a.record.states("format"))]
     return any(image is not None and "MUTABLE_FORMAT" in image.flags for image in images)
 
@@ -108,6 +112,8 @@ def _modes(facts: Facts, resolve: Resolve, device: DeviceProfile | None) -> None
     pair = resolve.pair
     facts.put("resolve.first_of_pair", pair is None or pair.render_pass is None or resolve.aspect == "depth")
     modes = [resolve.mode] if pair is None else [resolve.mode, pair.mode]
+    if isinstance(resolve.record, ResolveImage) and resolve.aspect == "depth" and _has_stencil(resolve):
+        modes.append(resolve.record.stencilResolveMode)
     facts.put("resolve.all_modes_none", False if any(mode not in (None, "NONE") for mode in modes) else None if None in modes else True)
     if resolve.aspect == "color":
         return
@@ -121,6 +127,11 @@ def _modes(facts: Facts, resolve: Resolve, device: DeviceProfile | None) -> None
     if resolve.mode is not None and (resolve.mode in certain or (offered is not None and device is not None and not device.minimum)):
         facts.put("resolve.mode_supported", resolve.mode in certain, resolve.mode_at)
     facts.put("resolve.pair_supported", _pair_supported(resolve, pair, device) if pair is not None else True, resolve.mode_at)
+
+
+def _has_stencil(resolve: Resolve) -> bool:
+    """Whether the format of what a resolve reads has a stencil aspect."""
+    return resolve.read_part is not None and resolve.read_part.format is not None and "stencil" in resolve.read_part.format.aspects
 
 
 def _offered(resolve: Resolve, device: DeviceProfile | None) -> tuple[str, ...] | None:

@@ -11,6 +11,7 @@ from msaa_lint.frame.devices import DeviceProfile
 
 from .attachment import aspect_facts, attachment_facts, clear_value_facts, pass_facts, resolves_at
 from .contents import Contents
+from .copy import copies
 from .dependency import Barriers, external_dependencies, recorded_barriers
 from .event_search import EventSearch
 from .facts import Facts, Subject
@@ -189,6 +190,7 @@ class FrameAnalysis:
         yield from self._resolve_commands()
         yield from self._pipelines(of_subpass)
         yield from self.shaders.reads(self.shared)
+        yield from copies(self.frame, self.shared)
         yield from choices(self.frame.description, self.shared)
 
     def _attachments(self, render_pass: Pass, shared: Facts, instances: list[Instance]) -> Iterator[Subject]:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from .table_images import ASPECT, ATTACHMENT, IMAGE
 from .table_passes import DEPENDENCY, PASS, RESOLVE, SUBPASS
-from .table_pipelines import CHOICE, PIPELINE, READ
+from .table_pipelines import CHOICE, COPY, PIPELINE, READ
 from .words import Fact
 
 GLOBAL = (
@@ -38,6 +38,7 @@ GLOBAL = (
         "it offers VK_EXT_multisampled_render_to_single_sampled, and what is enabled is not stated; never unknown",
     ),
     Fact("enabled.sample_rate_shading", "BOOL", "the application enables sampleRateShading"),
+    Fact("enabled.maintenance10", "BOOL", "the application enables maintenance10"),
     Fact(
         "enabled.depth_stencil_resolve",
         "BOOL",
@@ -63,6 +64,7 @@ SUBJECTS: dict[str, tuple[Fact, ...]] = {
     "pipeline": (*PIPELINE, *SUBPASS, *PASS, *GLOBAL),
     "dependency": (*DEPENDENCY, *PASS, *GLOBAL),
     "read": (*READ, *GLOBAL),
+    "copy": (*COPY, *GLOBAL),
     "choice": (*CHOICE, *GLOBAL),
 }
 """The facts that a rule about each kind of subject may ask."""

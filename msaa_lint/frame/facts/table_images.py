@@ -34,6 +34,7 @@ IMAGE = (
     Fact("image.attachment_usage", "BOOL", "its usage includes COLOR_ATTACHMENT, DEPTH_STENCIL_ATTACHMENT or INPUT_ATTACHMENT"),
     Fact("image.transient_conflicts", "LIST", "usages that Vulkan forbids together with TRANSIENT_ATTACHMENT", "VkImageUsageFlagBits"),
     Fact("image.presentable", "BOOL", "it belongs to a swapchain"),
+    Fact("image.presented", "BOOL", "it is stated to belong to a swapchain, or a command presents it; never unknown"),
     Fact("image.is_data", "BOOL", "its values are stated to be data, not color; never unknown"),
     Fact("image.encoding", "STRING", "what its values mean", "encoding"),
     Fact("image.is_render_target", "BOOL", "a pass draws or resolves to it, or its usage allows that"),

@@ -61,7 +61,13 @@ SUBPASS = (
 RESOLVE = (
     Fact("resolve.kind", "STRING", "in a subpass, at the end of a rendering, or vkCmdResolveImage", "resolve kind"),
     Fact("resolve.aspect", "STRING", "which aspect", "aspect"),
-    Fact("resolve.mode", "STRING", "mode; AVERAGE where Vulkan prescribes it for a color format", "VkResolveModeFlagBits"),
+    Fact(
+        "resolve.mode",
+        "STRING",
+        "mode; AVERAGE where Vulkan prescribes it for a color format; of a command for depth and stencil, that of depth",
+        "VkResolveModeFlagBits",
+    ),
+    Fact("resolve.mode_stated", "BOOL", "command: it has a VkResolveImageModeInfoKHR; never unknown"),
     Fact("resolve.has_source", "BOOL", "the attachment or image that it reads is stated"),
     Fact("resolve.has_target", "BOOL", "the attachment or image that it writes is stated"),
     Fact("resolve.source", "STRING", "name of what it reads"),
@@ -71,6 +77,7 @@ RESOLVE = (
     Fact("resolve.source_format", "STRING", "format of what it reads", "VkFormat"),
     Fact("resolve.target_format", "STRING", "format of what it writes", "VkFormat"),
     Fact("resolve.source_numeric", "STRING", "numeric type of the color that it reads", "numeric"),
+    Fact("resolve.source_integers", "BOOL", "color: it reads integers; unknown if the image may be viewed in another format"),
     Fact("resolve.source_encoding", "STRING", "what the values that it reads mean", "encoding"),
     Fact("resolve.source_is_data", "BOOL", "the values are stated to be data, not color; never unknown"),
     Fact("resolve.formats_match", "BOOL", "Vulkan allows the two formats together"),

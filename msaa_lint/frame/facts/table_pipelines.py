@@ -1,4 +1,4 @@
-"""The facts of pipelines, of the reads of their shaders, and of choices of a sample count in source code."""
+"""The facts of pipelines, of the reads of their shaders, of copies, and of choices of a sample count in source code."""
 
 from __future__ import annotations
 
@@ -71,6 +71,16 @@ READ = (
     Fact("read.on_tile", "BOOL", "the image is attached to the pass around the read"),
     Fact("read.writer", "STRING", "pass that last wrote the image before the read"),
     Fact("read.pass_could_resolve", "BOOL", "that pass does not resolve it, and could; false if the pass around the read has it attached"),
+)
+
+COPY = (
+    Fact("copy.command", "STRING", "the command", "copy command"),
+    Fact("copy.source", "STRING", "image that it reads; unknown for a buffer"),
+    Fact("copy.target", "STRING", "image that it writes; unknown for a buffer"),
+    Fact("copy.source_samples", "INT", "samples per texel of the image that it reads"),
+    Fact("copy.target_samples", "INT", "samples per texel of the image that it writes"),
+    Fact("copy.multisampled", "BOOL", "one of its images has more than one sample"),
+    Fact("copy.counts_differ", "BOOL", "its two images differ in sample count"),
 )
 
 CHOICE = (

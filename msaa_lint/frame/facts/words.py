@@ -26,6 +26,7 @@ WORDS: dict[str, tuple[str, ...]] = {
     "store operation": ("STORE", "DONT_CARE", "NONE", "SUSPENDED"),
     "begun": ("YES", "NO", "NOT_STATED"),
     "resolve kind": ("subpass", "rendering", "command"),
+    "copy command": ("copyImage", "blitImage", "copyImageToBuffer", "copyBufferToImage"),
     "encoding": ("LINEAR", "GAMMA", "DATA"),
     "scene color": ("LDR", "HDR"),
     "tone mapping": ("AFTER_RESOLVE", "IN_PASS", "NONE"),

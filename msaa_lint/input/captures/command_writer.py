@@ -131,7 +131,8 @@ class CommandWriter:
             return {command.kind: thaw(key)}
         if command.kind == "pipelineBarrier":
             return self._barrier(key)
-        images = [self._name(part) for part in (key if isinstance(key, tuple) else (key,)) if not isinstance(part, str)]
+        parts, modes = (key[:2], key[2:]) if command.kind == "resolveImage" else (key if isinstance(key, tuple) else (key,), ())
+        images = [self._name(part) for part in parts if not isinstance(part, str)]
         if None in images and len(images) == 2:
             # The other image is not an attachment of any pass.
             member = "readImage" if images[0] is not None else "writeImage"
@@ -140,7 +141,7 @@ class CommandWriter:
         if None in images:
             return None
         if command.kind in ("resolveImage", "copyImage", "blitImage"):
-            return {command.kind: dict(zip(("srcImage", "dstImage"), images, strict=True))}
+            return {command.kind: dict(zip(("srcImage", "dstImage"), images, strict=True)) | dict(modes)}
         if command.kind in ("copyImageToBuffer", "copyBufferToImage"):
             return {command.kind: {"srcImage" if command.kind == "copyImageToBuffer" else "dstImage": images[0]}}
         body: dict[str, Any] = {"image": images[0]}

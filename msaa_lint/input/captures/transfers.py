@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Hashable
 from typing import Any
 
-from msaa_lint.frame.description.models import PipelineBarrier, Rect, SubpassDependency
+from msaa_lint.frame.description.models import PipelineBarrier, Rect, ResolveImage, SubpassDependency
 
 from . import values
 from .call import Call
@@ -58,7 +58,8 @@ class Transfers(CommandTracker):
             return
         buffer = self.buffer(call)
         if _covers_target(values.items(info.get("pRegions")), target):
-            buffer.record(self.commands.command("resolveImage", (source, target), call))
+            modes = tuple(sorted(to_tree(ResolveImage, {"pNext": info.get("pNext")}).items()))
+            buffer.record(self.commands.command("resolveImage", (source, target, *modes), call))
         else:
             # Resolving a part does not overwrite the whole image.
             buffer.record(self.commands.command("readImage", (source, "RESOLVE"), call))

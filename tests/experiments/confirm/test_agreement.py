@@ -52,6 +52,7 @@ ASIDE = {
     ("source-sample-count-maximum", "BestPractices-Arm-vkCreateImage-too-large-sample-count"),
     ("source-sample-count-maximum", "BestPractices-IMG-vkCreateImage-too-large-sample-count"),
     ("source-sample-masks-compared", "VUID-VkImageCreateInfo-samples-02258"),
+    ("integer-multisampled-target", "VUID-VkRenderingAttachmentInfo-imageView-06130"),
     ("source-stencil-counts-ignored", "VUID-VkImageCreateInfo-samples-02258"),
     ("multisampling-unused", "VUID-VkGraphicsPipelineCreateInfo-multisampledRenderToSingleSampled-06853"),  # what must hold besides
 }
@@ -69,7 +70,7 @@ def test_what_a_page_refers_to_is_in_a_family_that_names_its_rule(rule: str, id:
 
 @pytest.mark.parametrize("family", FAMILIES, ids=lambda family: family.name)
 def test_the_pages_of_a_familys_rules_refer_to_it(family: Family) -> None:
-    if family.scope.instead and family.name != "integer-resolve-mode":
+    if family.scope.instead and family.name != "copy-samples":
         # Ours answers to another matter.
         return
     for rule in family.rules:
@@ -148,7 +149,7 @@ def test_an_id_is_of_its_family_in_every_version_of_the_layer(family: str, ids: 
 
 
 SAID = dict(line.split(" ", 1) for line in (ROOT / "tests" / "data" / "layer_messages.txt").read_text().splitlines())
-"""What version 1.3.239 of the layer says."""
+"""What the layer says: of what version 1.3.239 does not check, the words of 1.4.360."""
 
 
 @pytest.mark.parametrize("id", SAID)

@@ -114,7 +114,7 @@ UNHEARD = {
     "should-be-transient": "lavapipe has no lazily allocated memory",
     "non-lazy-transient-image": "lavapipe has no lazily allocated memory",
     "depth-resolve-structure": "confirm enables depth-stencil resolve wherever it is there",
-    "integer-resolve-mode": "the layer 1.3.239 does not look at it",
+    "copy-samples": "confirm leaves out what a copy does not allow",
     "resolve-mode-none": "the layer says it since 1.3.278",
     "alpha-to-coverage-output": "the shader that confirm draws with writes alpha",
 }

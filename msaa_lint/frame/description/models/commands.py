@@ -107,10 +107,19 @@ class OneImage(Record):
 
 
 class TwoImages(Record):
-    """vkCmdResolveImage, vkCmdCopyImage, vkCmdBlitImage."""
+    """vkCmdCopyImage, vkCmdBlitImage."""
 
     srcImage: ImageName | None = None
     dstImage: ImageName | None = None
+
+
+class ResolveImage(Record):
+    """vkCmdResolveImage; with a mode vkCmdResolveImage2 with a VkResolveImageModeInfoKHR."""
+
+    srcImage: ImageName | None = None
+    dstImage: ImageName | None = None
+    resolveMode: ResolveMode | None = None
+    stencilResolveMode: ResolveMode | None = None
 
 
 class CopyImageToBuffer(Record):
@@ -185,7 +194,7 @@ class Command(Record):
         clearAttachments=ClearAttachments,
         clearColorImage=OneImage,
         clearDepthStencilImage=OneImage,
-        resolveImage=TwoImages,
+        resolveImage=ResolveImage,
         copyImage=TwoImages,
         blitImage=TwoImages,
         copyImageToBuffer=CopyImageToBuffer,

@@ -161,6 +161,28 @@ COMMAND_STRUCTURES = {
             ),
         },
     ),
+    "ResolveImage": Structure(
+        "Resolve an image",
+        "VkResolveImageInfo2",
+        "copies-resolve",
+        {
+            "srcImage": Key("Source image", "The name in `images` of the image that is read.", source="VkResolveImageInfo2::srcImage"),
+            "dstImage": Key(
+                "Destination image", "The name in `images` of the image that is written.", source="VkResolveImageInfo2::dstImage"
+            ),
+            "resolveMode": Key(
+                "Resolve mode",
+                "How the samples of color or depth become one value. Without a mode, there is no VkResolveImageModeInfoKHR, and the "
+                "device chooses.",
+                source="VkResolveImageModeInfoKHR::resolveMode",
+            ),
+            "stencilResolveMode": Key(
+                "Resolve mode of stencil",
+                "How the samples of stencil become one value.",
+                source="VkResolveImageModeInfoKHR::stencilResolveMode",
+            ),
+        },
+    ),
     "CopyImageToBuffer": Structure(
         "Copy an image to a buffer",
         "VkCopyImageToBufferInfo2",

@@ -122,8 +122,8 @@ class VulkanInterpreter(ForeignCode):
     def __init__(self, unit: Unit, fragments: bool, is_cpp: bool, work: Work, names: VulkanLibrary | None = None) -> None:
         self.names = names or VulkanLibrary()
         super().__init__(unit, self.names, fragments, is_cpp, work)
-        self.resolves: dict[Span, tuple[Value, Value]] = {}
-        """The source and the target of each resolve command."""
+        self.resolves: dict[Span, tuple[Value, Value, Value]] = {}
+        """The source, the target, and the pNext chain of each resolve command."""
         self.copied: list[Value] = []
         """The sources of copies and blits."""
         self.descriptors: list[Struct] = []
@@ -319,9 +319,10 @@ class VulkanInterpreter(ForeignCode):
         if name.endswith(("2", "2KHR")):
             info = next((v for v in (pointee(sole_value(value)) for value in values) if isinstance(v, Struct)), None)
             if info is not None:
-                self.resolves[place] = (info.cell("srcImage").writes, info.cell("dstImage").writes)
+                chain = info.cell("next").writes if "next" in info.fields else ()
+                self.resolves[place] = (info.cell("srcImage").writes, info.cell("dstImage").writes, chain)
         elif len(ends := values[1:] if name.startswith(("vk", "cmd")) else values) >= 3:
-            self.resolves[place] = (ends[0], ends[2])
+            self.resolves[place] = (ends[0], ends[2], ())
 
     def create_unused(self, scope: Scope) -> None:
         """Creates objects for the structures of an entry point that no call takes."""

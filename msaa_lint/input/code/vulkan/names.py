@@ -40,6 +40,7 @@ MEMBERS: dict[str, tuple[str, ...]] = {
     "RenderingAttachmentInfo": (
         "imageView", "imageLayout", "resolveMode", "resolveImageView", "resolveImageLayout", "loadOp", "storeOp", "clearValue",
     ),
+    "ResolveImageModeInfo": ("flags", "resolveMode", "stencilResolveMode"),
     "RenderingInfo": (
         "flags", "renderArea", "layerCount", "viewMask", "colorAttachmentCount", "pColorAttachments", "pDepthAttachment",
         "pStencilAttachment",

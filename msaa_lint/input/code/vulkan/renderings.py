@@ -101,11 +101,17 @@ class Commands(Members):
             self.external_images[key] = (name, at, mapping(items, at))
         return self.external_images[key][0]
 
-    def resolve(self, at: Span, ends: tuple[Value, Value], attached: dict[int, ApiObject]) -> Node | None:
-        """Returns a vkCmdResolveImage of an image that the file creates, or None."""
+    def resolve(self, at: Span, parts: tuple[Value, Value, Value], attached: dict[int, ApiObject]) -> Node | None:
+        """Returns a vkCmdResolveImage of an image that the file creates, or None; also None if its pNext chain is unknown."""
         head = head_of(at)
         items: list[Item] = []
-        for name, value in zip(("srcImage", "dstImage"), ends, strict=True):
+        modes: list[Item] = []
+        chained = self.dereference(sole_value(self.settle(parts[2]))) if parts[2] else 0
+        if isinstance(chained, Struct) and chained.kind == "ResolveImageModeInfo":
+            modes = [*self.item(chained, "resolveMode"), *self.item(chained, "stencilResolveMode")]
+        if not modes and chained is not None and chained != 0:
+            return None
+        for name, value in zip(("srcImage", "dstImage"), parts[:2], strict=True):
             known = self.dereference(sole_value(self.settle(value)))
             image = self.first_duplicate(known) if isinstance(known, ApiObject) and known.kind == "image" else None
             if image is None and name == "srcImage":
@@ -114,4 +120,4 @@ class Commands(Members):
                 attached[id(image)] = image
             text = self.object_name(image, "image") if image is not None else self.external_image(known, at, at)
             items.append((name, head, scalar(text, head)))
-        return mapping([("resolveImage", head, mapping(items, head))], head)
+        return mapping([("resolveImage", head, mapping([*items, *modes], head))], head)
