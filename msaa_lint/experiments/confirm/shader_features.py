@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-ALWAYS = frozenset({0, 1, 40, 43, 44, 46, 47, 50, 51, 52, 4437, 5301, 6025})
+ALWAYS = frozenset({0, 1, 40, 43, 44, 46, 47, 50, 51, 4437, 5301, 6025})
 """Capabilities of SPIR-V that need no feature."""
 
 FEATURES = {
@@ -15,7 +15,8 @@ FEATURES = {
     29: "shaderSampledImageArrayDynamicIndexing", 30: "shaderStorageBufferArrayDynamicIndexing",
     31: "shaderStorageImageArrayDynamicIndexing", 32: "shaderClipDistance", 33: "shaderCullDistance", 34: "imageCubeArray",
     35: "sampleRateShading", 39: "shaderInt8", 41: "shaderResourceResidency", 42: "shaderResourceMinLod", 45: "imageCubeArray",
-    48: "shaderStorageImageMultisample", 49: "shaderStorageImageExtendedFormats", 55: "shaderStorageImageReadWithoutFormat",
+    48: "shaderStorageImageMultisample", 49: "shaderStorageImageExtendedFormats", 52: "sampleRateShading",
+    55: "shaderStorageImageReadWithoutFormat",
     56: "shaderStorageImageWriteWithoutFormat", 57: "multiViewport", 69: "shaderOutputLayer", 70: "shaderOutputViewportIndex",
     4427: "shaderDrawParameters", 4433: "storageBuffer16BitAccess", 4434: "uniformAndStorageBuffer16BitAccess",
     4435: "storagePushConstant16", 4436: "storageInputOutput16", 4439: "multiview", 4441: "variablePointersStorageBuffer",

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from msaa_lint.frame.description.models import AttachmentDescription, BeginRendering, BeginRenderPass
+from msaa_lint.frame.description.models import AttachmentDescription, BeginRendering, BeginRenderPass, Subpass
+from msaa_lint.frame.devices import DeviceProfile
 
 from .facts import Facts
 from .frame import Frame
+from .image import supported_samples
 from .parts import RENDER_PASS, Aspect, Attachment, Pass, Resolve
 from .readers import Readers
 
@@ -72,6 +74,33 @@ def attachment_facts(attachment: Attachment, known: bool) -> Facts:
         facts.put("attachment.initial_layout", record.initialLayout, record.place("initialLayout"))
         facts.put("attachment.final_layout", record.finalLayout, record.place("finalLayout"))
     return facts
+
+
+def single_sampled_facts(
+    facts: Facts, render_pass: Pass, attachment: Attachment, device: DeviceProfile | None, chained_known: bool
+) -> None:
+    """Adds whether samples of the rendering are resolved to an attachment as it is stored (VkMultisampledRenderToSingleSampledInfoEXT),
+    and whether a depth-stencil attachment that it concerns lacks the structure that this requires (VUID-VkSubpassDescription2-pNext-06871).
+
+    `chained_known` is false of source code, of which some structures are not read. Resolve targets are not concerned
+    (VUID-VkFramebufferCreateInfo-samples-06881, VUID-VkRenderingInfo-imageView-06859).
+    """
+    depths = [render_pass.subpasses[index].record for index in sorted(attachment.depth_stencil)]
+    rendered = [each for each in depths if isinstance(each, Subpass) and each.multisampledRenderToSingleSampled is not None]
+    facts.put("attachment.depth_resolve_missing", chained_known and any(each.depthStencilResolve is None for each in rendered))
+    indices = attachment.color | attachment.depth_stencil | attachment.input
+    chained = [render_pass.subpasses[index].record.multisampledRenderToSingleSampled for index in sorted(indices)]
+    states = [each for each in chained if each is not None and each.multisampledRenderToSingleSampledEnable is not False]
+    enabled = next((each for each in states if each.multisampledRenderToSingleSampledEnable), None)
+    facts.put("attachment.single_sampled_render", True if enabled is not None else None if states else False)
+    if enabled is None:
+        return
+    count, place = enabled.rasterizationSamples, enabled.place("rasterizationSamples")
+    facts.put("attachment.render_samples", count, place)
+    target = attachment.target
+    offered, whole = supported_samples(target, device) if target is not None else (None, False)
+    if count is not None and offered is not None and device is not None and not device.minimum and (whole or count not in offered):
+        facts.put("attachment.render_samples_supported", count in offered, place)
 
 
 def resolves_at(render_pass: Pass) -> dict[int, list[Resolve]]:

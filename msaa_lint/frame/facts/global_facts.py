@@ -10,6 +10,15 @@ from .facts import Facts
 MIXED_SAMPLES = frozenset({"VK_AMD_mixed_attachment_samples", "VK_NV_framebuffer_mixed_samples"})
 SINGLE_SAMPLED = "VK_EXT_multisampled_render_to_single_sampled"
 
+FEATURES = {
+    "enabled.sample_rate_shading": "sampleRateShading",
+    "enabled.maintenance10": "maintenance10",
+    "enabled.alpha_to_one": "alphaToOne",
+    "enabled.storage_image_multisample": "shaderStorageImageMultisample",
+    "enabled.render_to_single_sampled": "multisampledRenderToSingleSampled",
+}
+"""By fact: the features that the application enables; unknown where it states none."""
+
 DEFAULT_EFFICIENT_SAMPLES = 4
 """What Arm's and Imagination's guides advise as the most without a measurement, and the validation layer's constant for both."""
 
@@ -124,8 +133,8 @@ def _enabled(facts: Facts, description: Description, device: DeviceProfile | Non
     extensions = enabled.extensions if enabled is not None else None
     features = enabled.features if enabled is not None else None
     if enabled is not None and features is not None:
-        facts.put("enabled.sample_rate_shading", "sampleRateShading" in features, enabled.place("features"))
-        facts.put("enabled.maintenance10", "maintenance10" in features, enabled.place("features"))
+        for fact, feature in FEATURES.items():
+            facts.put(fact, feature in features, enabled.place("features"))
     elif enabled is not None and extensions is not None and "VK_KHR_maintenance10" not in extensions:
         facts.put("enabled.maintenance10", False, enabled.place("extensions"))
     offered = device.extensions if device is not None and extensions is None else None

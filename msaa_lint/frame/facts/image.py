@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from msaa_lint.core.text.span import Span
-from msaa_lint.frame.description.models import Image, ReadImage
+from msaa_lint.frame.description.models import Enabled, Image, ReadImage
 from msaa_lint.frame.description.record import Record
 from msaa_lint.frame.devices import DeviceProfile
 from msaa_lint.frame.devices.shares import sample_count_share
@@ -24,6 +24,9 @@ COMPRESSION_BLOCKERS = {
     "nvidia": ("LINEAR",),
 }
 """What keeps a vendor's GPUs from compressing a render target: the validation layer's advice for AMD and NVIDIA, Arm's for AFBC."""
+
+RENDER_TO_SINGLE_SAMPLED = "MULTISAMPLED_RENDER_TO_SINGLE_SAMPLED_EXT"
+"""The creation flag of images that VK_EXT_multisampled_render_to_single_sampled renders to."""
 
 _ATTACHMENT_USAGES = BESIDE_TRANSIENT - {"TRANSIENT_ATTACHMENT"}
 _RENDER_TARGET_USAGES = frozenset({"COLOR_ATTACHMENT", "DEPTH_STENCIL_ATTACHMENT"})
@@ -120,8 +123,11 @@ def image_facts(target: Target, bindings: Bindings, frame: Frame, readers: Reade
     facts.put("image.tiling", image.tiling, image.place("tiling"))
     facts.put("image.mip_levels", image.mipLevels, image.place("mipLevels"))
     facts.put("image.flags", list(image.flags), image.place("flags"))
+    if image.states("flags") or not (image.presentable or frame.document.format == ""):
+        at = image.flag_place("flags", (RENDER_TO_SINGLE_SAMPLED,))
+        facts.put("image.single_sampled_flag", RENDER_TO_SINGLE_SAMPLED in image.flags, at)
     facts.put("image.sharing_mode", image.sharingMode, image.place("sharingMode"))
-    _put_first(facts, "image.multisampling_conflicts", _multisampling_conflicts(image))
+    _put_first(facts, "image.multisampling_conflicts", _multisampling_conflicts(image, format, frame.description.enabled))
     facts.put("image.presentable", image.presentable, image.place("presentable"))
     facts.put("image.encoding", image.encoding, image.place("encoding"))
     if image.memory is not None:
@@ -185,8 +191,21 @@ def _put_first(facts: Facts, name: str, stated: list[tuple[str, Span]]) -> None:
     facts.put(name, [text for text, _ in stated], stated[0][1] if stated else None)
 
 
-def _multisampling_conflicts(image: Image) -> list[tuple[str, Span]]:
-    """VUID-VkImageCreateInfo-samples-02257."""
+SINGLE_SAMPLED_USAGES = (
+    "FRAGMENT_DENSITY_MAP_EXT",
+    "FRAGMENT_SHADING_RATE_ATTACHMENT_KHR",
+    "VIDEO_ENCODE_QUANTIZATION_DELTA_MAP_KHR",
+    "VIDEO_ENCODE_EMPHASIS_MAP_KHR",
+)
+"""Usages that require one sample: VUID-VkImageCreateInfo-samples-02558, -samples-02083 and -usage-10253."""
+
+
+def _multisampling_conflicts(image: Image, format: Format | None, enabled: Enabled | None) -> list[tuple[str, Span]]:
+    """What Vulkan forbids together with more than one sample.
+
+    VUID-VkImageCreateInfo-samples-02257 (dimensions, mip levels, cube faces, tiling), -format-06411, -flags-06883, -imageType-00973 to
+    00976, -multisampleArrayImage-04460, and those of `SINGLE_SAMPLED_USAGES`.
+    """
     found = []
     if image.mipLevels is not None and image.mipLevels > 1:
         found.append((f"mipLevels {image.mipLevels}", image.place("mipLevels")))
@@ -196,6 +215,23 @@ def _multisampling_conflicts(image: Image) -> list[tuple[str, Span]]:
         found.append(("CUBE_COMPATIBLE", image.flag_place("flags", ("CUBE_COMPATIBLE",))))
     if image.tiling == "LINEAR":
         found.append(("LINEAR tiling", image.place("tiling")))
+    if format is not None and format.ycbcr:
+        found.append((f"the YCbCr format {format.name}", image.place("format")))
+    single = [usage for usage in SINGLE_SAMPLED_USAGES if usage in (image.usage or ())]
+    found += [(usage, image.flag_place("usage", (usage,))) for usage in single]
+    if RENDER_TO_SINGLE_SAMPLED in image.flags:
+        found.append((RENDER_TO_SINGLE_SAMPLED, image.flag_place("flags", (RENDER_TO_SINGLE_SAMPLED,))))
+    features = enabled.features if enabled is not None else None
+    extensions = enabled.extensions if enabled is not None else None
+    if features is None:
+        return found
+    sparse = f"sparseResidency{image.samples}Samples"
+    if "SPARSE_RESIDENCY" in image.flags and image.samples in (2, 4, 8, 16) and sparse not in features:
+        found.append((f"SPARSE_RESIDENCY without the feature {sparse}", image.flag_place("flags", ("SPARSE_RESIDENCY",))))
+    layered = image.arrayLayers is not None and image.arrayLayers > 1
+    if layered and "VK_KHR_portability_subset" in (extensions or ()) and "multisampleArrayImage" not in features:
+        text = f"arrayLayers {image.arrayLayers} without the feature multisampleArrayImage"
+        found.append((text, image.place("arrayLayers")))
     return found
 
 

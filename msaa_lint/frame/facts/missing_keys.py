@@ -238,6 +238,10 @@ class MissingKeys:
         if render_pass is not None:
             yield (render_pass.record, member)
 
+    def _subpasses(self, subject: Subject, member: str) -> Iterator[Place]:
+        render_pass = self._pass_of(subject)
+        yield from ((subpass.record, member) for subpass in (render_pass.subpasses if render_pass is not None else ()))
+
     def _pipelines(self, subject: Subject, member: str) -> Iterator[Place]:
         if subject.subpass is not None:
             pipelines = pipelines_of(subject.subpass, self.analysis.walk)
@@ -322,6 +326,7 @@ class MissingKeys:
 _PARTS: dict[str, Callable[[MissingKeys, Subject, str], Iterable[Place]]] = {
     "image": lambda keys, subject, member: keys._of_images(keys._images(subject), member),
     "attachment": MissingKeys._attachment,
+    "subpasses": MissingKeys._subpasses,
     "attachments": MissingKeys._attachments,
     "pipelines": MissingKeys._pipelines,
     "pass": MissingKeys._pass,

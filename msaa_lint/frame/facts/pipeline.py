@@ -72,6 +72,8 @@ def pipeline_facts(
             facts.put("pipeline.shaded_samples", max(math.ceil(fraction * samples), 1), state.place("minSampleShading"))
         if "ALPHA_TO_COVERAGE_ENABLE_EXT" not in dynamic:
             facts.put("pipeline.alpha_to_coverage", state.alphaToCoverageEnable, state.place("alphaToCoverageEnable"))
+        if "ALPHA_TO_ONE_ENABLE_EXT" not in dynamic:
+            facts.put("pipeline.alpha_to_one", state.alphaToOneEnable, state.place("alphaToOneEnable"))
         if samples is not None and "SAMPLE_MASK_EXT" not in dynamic:
             facts.put("pipeline.dropped_samples", _dropped(state.sampleMask, samples), state.place("sampleMask"))
     raster = pipeline.rasterizationState

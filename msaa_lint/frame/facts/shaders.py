@@ -29,6 +29,10 @@ _CERTAIN = ("SampleId", "SamplePosition")
 """What makes a shader run for every sample; inputs decorated Sample may."""
 
 
+_SAMPLE_RATE = frozenset({35, 52})
+"""The capabilities SampleRateShading and InterpolationFunction, which need the feature sampleRateShading (vk.xml, spirvcapabilities)."""
+
+
 def fragment_stage(pipeline: Pipeline) -> ShaderStage | None:
     """The fragment shader of a pipeline, where its module is stated; None where rasterization is disabled."""
     if discards(pipeline):
@@ -95,7 +99,10 @@ class Shaders:
             dynamic = "ALPHA_TO_COVERAGE_ENABLE_EXT" in pipeline.dynamicState
             covers = state is not None and state.alphaToCoverageEnable is True and not dynamic
             render_pass = self.frame.render_pass(pipeline.renderPass)
-            needed = not one or covers or pipeline.key in self._reading or (render_pass is not None and self._has_inputs(render_pass))
+            features = self.frame.description.enabled.features if self.frame.description.enabled is not None else None
+            missing = features is not None and "sampleRateShading" not in features
+            inputs = render_pass is not None and self._has_inputs(render_pass)
+            needed = not one or covers or missing or inputs or pipeline.key in self._reading
             found = self._find(stage, covers) if self._find is not None and stage is not None and needed else None
             self._found[pipeline.key] = found if found is not None and found.stage == "FRAGMENT" else None
         return self._found[pipeline.key]
@@ -117,6 +124,8 @@ class Shaders:
             facts.put("pipeline.alpha_output", found.alpha.declared, at)
             facts.put("pipeline.alpha_written", found.alpha.written, at)
             facts.put("pipeline.alpha_constant", found.alpha.constant, at)
+        declared = found is not None and not _SAMPLE_RATE.isdisjoint(found.capabilities)
+        facts.put("pipeline.sample_rate_capability", declared, at if declared else None)
         facts.put("pipeline.per_sample_reads", reads, at)
         facts.put("pipeline.shaded_per_sample", certain, at)
         samples, runs = facts.values.get("pipeline.rasterization_samples"), facts.values.get("pipeline.shaded_samples")

@@ -39,6 +39,9 @@ GLOBAL = (
     ),
     Fact("enabled.sample_rate_shading", "BOOL", "the application enables sampleRateShading"),
     Fact("enabled.maintenance10", "BOOL", "the application enables maintenance10"),
+    Fact("enabled.alpha_to_one", "BOOL", "the application enables alphaToOne"),
+    Fact("enabled.storage_image_multisample", "BOOL", "the application enables shaderStorageImageMultisample"),
+    Fact("enabled.render_to_single_sampled", "BOOL", "the application enables multisampledRenderToSingleSampled"),
     Fact(
         "enabled.depth_stencil_resolve",
         "BOOL",

@@ -16,6 +16,11 @@ IMAGE = (
     Fact("image.tiling", "STRING", "tiling", "VkImageTiling"),
     Fact("image.mip_levels", "INT", "number of mip levels"),
     Fact("image.flags", "LIST", "creation flags", "VkImageCreateFlagBits"),
+    Fact(
+        "image.single_sampled_flag",
+        "BOOL",
+        "it is created with MULTISAMPLED_RENDER_TO_SINGLE_SAMPLED_EXT; unknown where a swapchain or source code does not state its flags",
+    ),
     Fact("image.sharing_mode", "STRING", "sharing mode", "VkSharingMode"),
     Fact("image.usage", "LIST", "usage", "VkImageUsageFlagBits"),
     Fact("image.memory", "LIST", "property flags of the memory that it is bound to", "VkMemoryPropertyFlagBits"),
@@ -82,6 +87,21 @@ ATTACHMENT = (
     Fact("attachment.drawn", "BOOL", "a subpass draws to it: it is a color or depth-stencil attachment"),
     Fact("attachment.is_resolve_target", "BOOL", "a resolve writes it"),
     Fact("attachment.read_as_input", "BOOL", "a subpass reads it as input attachment"),
+    Fact(
+        "attachment.single_sampled_render",
+        "BOOL",
+        "a subpass that has it as color, depth-stencil or input attachment enables multisampledRenderToSingleSampled",
+    ),
+    Fact("attachment.render_samples", "INT", "rasterizationSamples of that subpass"),
+    Fact(
+        "attachment.render_samples_supported", "BOOL", "the device supports that sample count for its format; absent without such a subpass"
+    ),
+    Fact(
+        "attachment.depth_resolve_missing",
+        "BOOL",
+        "a subpass of a render pass that has it as depth-stencil attachment states multisampledRenderToSingleSampled, but no "
+        "depthStencilResolve; never unknown",
+    ),
     Fact("attachment.initial_layout", "STRING", "layout at the start of the pass", "VkImageLayout"),
     Fact("attachment.final_layout", "STRING", "layout at the end of the pass", "VkImageLayout"),
 )

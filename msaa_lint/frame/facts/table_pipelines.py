@@ -26,6 +26,7 @@ PIPELINE = (
         "fragment shader invocations per pixel that sample shading requires: max(ceil(minSampleShading * samples), 1)",
     ),
     Fact("pipeline.alpha_to_coverage", "BOOL", "alphaToCoverageEnable"),
+    Fact("pipeline.alpha_to_one", "BOOL", "alphaToOneEnable; unknown if it is dynamic state"),
     Fact(
         "pipeline.blends_first",
         "BOOL",
@@ -39,6 +40,11 @@ PIPELINE = (
         "pipeline.per_sample_reads",
         "LIST",
         "inputs of its fragment shader that force per-sample shading, or may: SampleId, SamplePosition, `sample` inputs; never unknown",
+    ),
+    Fact(
+        "pipeline.sample_rate_capability",
+        "BOOL",
+        "its fragment shader's module declares SampleRateShading or InterpolationFunction; false if the module is not known; never unknown",
     ),
     Fact("pipeline.shaded_per_sample", "BOOL", "its fragment shader reads SampleId or SamplePosition; never unknown"),
     Fact(

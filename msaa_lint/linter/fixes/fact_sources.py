@@ -104,6 +104,7 @@ FACT_SOURCES: dict[str, FindSources] = {
     "pipeline.rasterization_samples": partial(_multisample_state, "rasterizationSamples", "RASTERIZATION_SAMPLES_EXT"),
     "pipeline.sample_shading": partial(_multisample_state, "sampleShadingEnable", ""),
     "pipeline.min_sample_shading": partial(_multisample_state, "minSampleShading", ""),
+    "pipeline.alpha_to_one": partial(_multisample_state, "alphaToOneEnable", "ALPHA_TO_ONE_ENABLE_EXT"),
     "pipeline.alpha_to_coverage": partial(_multisample_state, "alphaToCoverageEnable", "ALPHA_TO_COVERAGE_ENABLE_EXT"),
     "pipeline.dropped_samples": partial(_multisample_state, "sampleMask", "SAMPLE_MASK_EXT"),
     "pipeline.blends_first": _first_blend,

@@ -10,8 +10,15 @@ from .subject_parts import described_image
 
 
 def allow_multisampling(subject: Subject, _: FixContext) -> list[Change]:
-    """Removes what Vulkan forbids for an image with more than one sample (VUID-VkImageCreateInfo-samples-02257)."""
+    """Removes the mip levels, dimensions, cube faces and tiling that Vulkan forbids for an image with more than one sample.
+
+    VUID-VkImageCreateInfo-samples-02257. For other conflicts, the image needs one sample, or another format or usage.
+    """
     image = described_image(subject)
+    conflicts = subject.facts.values.get("image.multisampling_conflicts")
+    removable = ("mipLevels ", "imageType ", "CUBE_COMPATIBLE", "LINEAR tiling")
+    if not isinstance(conflicts, list) or not all(str(conflict).startswith(removable) for conflict in conflicts):
+        raise NoFix("whether the image needs one sample, or another format or usage, has to be decided")
     required = (("mipLevels", 1), ("imageType", "2D"), ("tiling", "OPTIMAL"))
     return [
         Change(image, "flags", "remove", "CUBE_COMPATIBLE"),

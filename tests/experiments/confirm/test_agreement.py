@@ -48,6 +48,7 @@ ASIDE = {
     ("clear-value-without-clear", "VUID-VkRenderPassBeginInfo-clearValueCount-00902"),  # what must hold besides
     ("depth-resolve-unread", "VUID-VkSubpassDescriptionDepthStencilResolve-pDepthStencilResolveAttachment-03178"),  # likewise
     ("multisampled-image-not-transient", "VUID-VkImageCreateInfo-usage-00963"),  # why some images are excused
+    ("sample-shading-feature-missing", "VUID-VkShaderModuleCreateInfo-pCode-08740"),  # of this capability only: its text tells
     # How a program comes to its count, of which no device is asked.
     ("source-sample-count-maximum", "BestPractices-Arm-vkCreateImage-too-large-sample-count"),
     ("source-sample-count-maximum", "BestPractices-IMG-vkCreateImage-too-large-sample-count"),
