@@ -223,10 +223,14 @@ class PartLinter:
                 trials = try_fixes(description, lint, lambda found: finding_kind(found) in failing and fixable(found))
             part = part._replace(failing={result.file: savings(description, trials, True, converted)})
         refusals = {finding_kind(failed.finding): failed.reason for failed in trials.all.failed_fixes}
-        findings = [
-            found._replace(fix=found.fix._replace(refusal=refusals.get(finding_kind(found), ""))) if found.fix else found
-            for found in part.findings
-        ]
+        # What only comes about beside an unsafe fix is not made by `--fix` alone.
+        only_beside = {finding_kind(failed.finding) for failed in trials.safe.failed_fixes} - refusals.keys()
+        findings = []
+        for found in part.findings:
+            kind, fix = finding_kind(found), found.fix
+            if fix is not None:
+                found = found._replace(fix=fix._replace(safe=fix.safe and kind not in only_beside, refusal=refusals.get(kind, "")))
+            findings.append(found)
         return part._replace(findings=findings)
 
     def apply_baseline(self, findings: Sequence[Finding]) -> tuple[Sequence[Finding], Sequence[Suppressed]]:

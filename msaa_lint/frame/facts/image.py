@@ -264,7 +264,8 @@ def _loaded(bound: list[Attachment], frame: Frame) -> bool | None:
     ops = [aspect.load for attachment in bound if attachment.used for aspect in attachment.aspects]
     if "LOAD" in ops:
         return True
-    return None if None in ops else False
+    stored = any(aspect.store == "STORE" for attachment in bound if attachment.used for aspect in attachment.aspects)
+    return None if None in ops or (stored and "NONE" in ops) else False
 
 
 def _read(target: Target, bindings: Bindings, frame: Frame, readers: Readers) -> bool | None:

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from msaa_lint.core.allowance import Allowance
 from msaa_lint.core.text.span import Span
-from msaa_lint.frame.description.models import ClearAttachment, ClearAttachments, Draw, Pipeline, ReadImage, Rect
+from msaa_lint.frame.description.models import ClearAttachment, ClearAttachments, ColorBlendAttachment, Draw, Pipeline, ReadImage, Rect
 
 from .contents import Contents
 from .facts import Facts, known
@@ -19,7 +19,10 @@ from .pass_begin import max_uses, targets_at
 from .walk import Walk
 
 _DYNAMIC_MASKS = frozenset({"COLOR_WRITE_MASK_EXT", "COLOR_WRITE_ENABLE_EXT"})
+_DYNAMIC_BLENDING = _DYNAMIC_MASKS | {"COLOR_BLEND_ENABLE_EXT", "COLOR_BLEND_EQUATION_EXT", "COLOR_BLEND_ADVANCED_EXT"}
+_DYNAMIC_DEPTH = frozenset({"DEPTH_TEST_ENABLE", "DEPTH_WRITE_ENABLE", "DEPTH_COMPARE_OP"})
 _DYNAMIC_SAMPLES = frozenset({"SAMPLE_MASK_EXT", "ALPHA_TO_COVERAGE_ENABLE_EXT"})
+_FACTORED = ("ADD", "SUBTRACT", "REVERSE_SUBTRACT")
 _FETCHING = frozenset(
     {"VK_EXT_shader_tile_image", "VK_ARM_rasterization_order_attachment_access", "VK_EXT_rasterization_order_attachment_access"}
 )
@@ -184,6 +187,96 @@ def _touches(pipeline: Pipeline | None, slots: list[int], aspect: Aspect, depth_
         tests = [(state.depthTestEnable, "DEPTH_TEST_ENABLE"), (bounds, "DEPTH_BOUNDS_TEST_ENABLE")]
     answers = [None if name in dynamic else enabled for enabled, name in tests]
     return True if True in answers else None if None in answers else False
+
+
+def put_undefined_use(
+    facts: Facts, render_pass: Pass, attachment: Attachment, aspect: Aspect, instances: list[Instance], frame: Frame
+) -> None:
+    """Adds what uses contents of an aspect that the pass neither loaded nor cleared, before anything in the pass writes it.
+
+    "VK_ATTACHMENT_LOAD_OP_NONE specifies that the previous contents of the image will be undefined inside the render pass", and after
+    DONT_CARE they are undefined inside the render area (VkAttachmentLoadOp).
+    """
+    if aspect.load is None:
+        return
+    use: _Use | None = None
+    if aspect.load in ("NONE", "DONT_CARE") and aspect.name is not None and not attachment.resolve:
+        uses = (_undefined_use(render_pass, attachment, aspect, instance, frame) for instance in instances)
+        use = next(filter(None, uses), None)
+        if use is None and not any(instance.says for instance in instances) and frame.document.whole:
+            use = _by_every_pipeline(render_pass, attachment, aspect, frame)
+    facts.put("aspect.undefined_used", use is not None, attachment.record.place(aspect.load_member))
+    if use is not None:
+        facts.put("aspect.undefined_user", *use)
+
+
+_Use = tuple[str, Span | None]
+"""The pipeline of a draw, or a command, and where it is stated."""
+
+
+def _undefined_use(render_pass: Pass, attachment: Attachment, aspect: Aspect, instance: Instance, frame: Frame) -> _Use | None:
+    """What certainly uses the contents that a pass found, as far as its draws are recorded."""
+    if any(_clears(render_pass, clear, attachment, aspect) for clear in instance.clears):
+        return None
+    names = {target.name for target in targets_at(frame, attachment, instance.position)}
+    if attachment.input and not attachment.drawn and not instance.read.isdisjoint(names):
+        return "readImage", None
+    for index in sorted(attachment.color | attachment.depth_stencil):
+        slots = [n for n, own in enumerate(render_pass.subpasses[index].color) if own is attachment]
+        for pipeline in instance.drawn.get(index, {}).values():
+            if pipeline is not None and _uses_contents(pipeline, slots, aspect):
+                return pipeline.key, pipeline.head
+            if _touches(pipeline, slots, aspect, True) is not False:
+                return None
+    return None
+
+
+def _by_every_pipeline(render_pass: Pass, attachment: Attachment, aspect: Aspect, frame: Frame) -> _Use | None:
+    """The first of the pipelines of the first subpass that draws to an attachment, if every one uses what it finds there."""
+    first = min(attachment.color | attachment.depth_stencil, default=None)
+    if first is None:
+        return None
+    slots = [n for n, own in enumerate(render_pass.subpasses[first].color) if own is attachment]
+    pipelines = frame.pipelines_of(render_pass, first)
+    if not all(pipeline is not None and _uses_contents(pipeline, slots, aspect) for pipeline in pipelines):
+        return None
+    return next(((pipeline.key, pipeline.head) for pipeline in pipelines if pipeline is not None), None)
+
+
+def _uses_contents(pipeline: Pipeline, slots: list[int], aspect: Aspect) -> bool:
+    """Whether what a draw makes certainly depends on what it finds in an aspect.
+
+    The comparison of a stencil test is not described. Blending over what DONT_CARE left may add nothing of it where the source is opaque.
+    """
+    dynamic, raster = pipeline.dynamicState, pipeline.rasterizationState
+    if raster is not None and (raster.rasterizerDiscardEnable or "RASTERIZER_DISCARD_ENABLE" in dynamic):
+        return False
+    if aspect.name == "depth":
+        state = pipeline.depthStencilState
+        if state is None or not _DYNAMIC_DEPTH.isdisjoint(dynamic):
+            return False
+        # A test that does not write is for its comparison.
+        compares = state.depthCompareOp not in ("ALWAYS", "NEVER") if state.depthCompareOp is not None else state.depthWriteEnable is False
+        return bool(state.depthTestEnable) and compares
+    blend = pipeline.colorBlendState
+    if aspect.name != "color" or aspect.load != "NONE" or blend is None or not _DYNAMIC_BLENDING.isdisjoint(dynamic):
+        return False
+    return any(n < len(blend.attachments) and _blends(blend.attachments[n]) for n in slots)
+
+
+def _blends(state: ColorBlendAttachment) -> bool:
+    """Whether blending that writes certainly takes something from the attachment."""
+    equations = (
+        (state.colorBlendOp, state.srcColorBlendFactor, state.dstColorBlendFactor, {"R", "G", "B"}),
+        (state.alphaBlendOp, state.srcAlphaBlendFactor, state.dstAlphaBlendFactor, {"A"}),
+    )
+    if not state.blendEnable:
+        return False
+    return any(
+        not components.isdisjoint(state.colorWriteMask or ())
+        and (op in ("MIN", "MAX") or (op in _FACTORED and ("DST" in (source or "") or destination not in (None, "ZERO"))))
+        for op, source, destination, components in equations
+    )
 
 
 def _clears(render_pass: Pass, clear: Clear, attachment: Attachment, aspect: Aspect) -> bool:

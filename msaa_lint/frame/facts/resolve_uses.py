@@ -264,6 +264,9 @@ def _pair(uses: ResolveUses, since: _Since, event: Event, found: dict[int, _Repe
         repetition = found.get(id(second), _Repetition())._replace(repeats=repeats, first_at=first.target_at)
         found[id(second)] = repetition._replace(by_command=by_command, same_target=same, one_pass=one_pass)
         return
+    if first.aspect != "color" and uses.is_read(first) is False and uses.is_read(second) is False:
+        # Each of them is one too many: not the first alone.
+        return
     unread = None if since.unknown else uses.unread(first, since.taken)
     if unread is not False:
         repetition = found.get(id(first), _Repetition())._replace(drawn_on=unread, next_at=second.target_at)

@@ -22,7 +22,7 @@ from .joined_facts import join_facts
 from .lifetimes import lifetime_facts
 from .parts import Aspect, Attachment, Pass, Target
 from .pass_begin import max_uses, uses_at_most
-from .pass_contents import Instance, PassContents, pass_contents, screen_facts, touch_facts
+from .pass_contents import Instance, PassContents, pass_contents, put_undefined_use, screen_facts, touch_facts
 from .pipeline import draws_of, pipeline_facts, subpass_of, unshaded
 from .readers import Readers
 from .resolve import command_facts, read_in_vain, resolve_facts
@@ -212,6 +212,7 @@ class FrameAnalysis:
         if aspect.name == "depth" and aspect.store == "STORE" and attachment.samples != 1:
             facts.put("aspect.fetched", samples_fetched(attachment, aspect, self.search))
         touch_facts(facts, render_pass, attachment, aspect, instances, self.frame)
+        put_undefined_use(facts, render_pass, attachment, aspect, instances, self.frame)
         lifetime_facts(facts, attachment, aspect, self.contents)
         if self.frame.document.metal is not None:
             from .metal import action_facts

@@ -172,6 +172,13 @@ ASPECT = (
     Fact("aspect.clear_command", "STRING", "that command"),
     Fact("aspect.clears_in_pass", "BOOL", "that command is recorded in the pass; never unknown"),
     Fact(
+        "aspect.undefined_used",
+        "BOOL",
+        "load operation NONE or DONT_CARE: a draw tests depth against it, or blends with it, or a shader reads it as input attachment, "
+        "before the pass writes it; false if that is not known",
+    ),
+    Fact("aspect.undefined_user", "STRING", "the pipeline of that draw, or readImage"),
+    Fact(
         "aspect.untouched",
         "BOOL",
         "no subpass references the attachment, or no recorded draw or clear touches the aspect; false if that is not known; never unknown",

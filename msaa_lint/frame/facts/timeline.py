@@ -225,6 +225,9 @@ class Timeline:
                 whole = covered[key] and frames is not SOME_FRAMES
                 for aspect in attachment.aspects:
                     begin = _BEGINS.get(aspect.load)
+                    if aspect.load == "NONE" and (attachment.drawn or attachment.input):
+                        # Nothing is left inside the pass of what was there, though a pass that tests or blends with it means it.
+                        begin = LOAD, False
                     if begin is not None:
                         kind, certain = begin
                         yield (

@@ -155,13 +155,14 @@ class _Fixer:
         self.trials += 1
         attempt = [*applied, *group]
         objections = [Objection("it overlaps another fix")]
+        edits = {edit for fix in attempt for edit in fix.edits}
         try:
-            new_text = apply(text, {edit for fix in attempt for edit in fix.edits})
+            new_text = apply(text, edits)
         except Overlap:
             pass
         else:
             new_result = self.lint(new_text)
-            objections = _objections(result, new_result, [finding for fix in attempt for finding in fix.findings])
+            objections = _objections(result, new_result, [finding for fix in attempt for finding in fix.findings], edits)
             if not objections:
                 self.text, self.result = new_text, new_result
                 return attempt
@@ -290,7 +291,7 @@ class Objection(NamedTuple):
     finding: Finding | None = None
 
 
-def _objections(before: FileResult, after: FileResult, fixed_findings: Sequence[Finding]) -> list[Objection]:
+def _objections(before: FileResult, after: FileResult, fixed_findings: Sequence[Finding], edits: Iterable[Edit]) -> list[Objection]:
     """The reasons why the result of fixes cannot be kept."""
     kinds_before = set(map(_kind, before.findings))
     error = next((finding for finding in after.findings if finding.fatal and _kind(finding) not in kinds_before), None)
@@ -304,7 +305,7 @@ def _objections(before: FileResult, after: FileResult, fixed_findings: Sequence[
         Objection("it would not remove the finding", addition)
         if _kind(addition) in fixed_kinds
         else Objection(f"it would introduce {addition.rule}: {addition.message}", addition)
-        for addition in _additions(before, after, fixed_findings)
+        for addition in _additions(before, after, fixed_findings, edits)
         if addition.code != UNUSED_SUPPRESSION
     ]
 
@@ -335,11 +336,11 @@ def _blamed(group: Sequence[_Fix], objections: Sequence[Objection]) -> dict[int,
     return blamed
 
 
-def _additions(before: FileResult, after: FileResult, fixed_findings: Sequence[Finding]) -> Iterator[Finding]:
+def _additions(before: FileResult, after: FileResult, fixed_findings: Sequence[Finding], edits: Iterable[Edit]) -> Iterator[Finding]:
     """The findings of `after` that neither were there before nor are one that moved.
 
     A fix may move a finding: a resolve that becomes part of a pass has the same problem there. It is then by the same rule and about the
-    same image as one that is gone.
+    same image as one in the text that the edits remove.
     """
     expected = Counter(map(_kind, _with_suppressed(before)))
     expected.subtract(map(_kind, fixed_findings))
@@ -351,11 +352,15 @@ def _additions(before: FileResult, after: FileResult, fixed_findings: Sequence[F
             new.append(finding)
     if not new:
         return
+    removals = [edit for edit in edits if not edit.text.strip()]
     gone: dict[tuple[str, tuple[str, ...]], list[int]] = {}
     for number, finding in enumerate(_with_suppressed(before)):
         kind = _kind(finding)
         if expected[kind] > 0:
             expected[kind] -= 1
+            span = finding.span
+            if span is None or not any(edit.span.start <= span.start and span.end <= edit.span.end for edit in removals):
+                continue
             for image in _images(finding):
                 gone.setdefault((finding.code, image), []).append(number)
     matched: set[int] = set()
