@@ -206,3 +206,130 @@ def test_a_presented_image_has_one_sample(tmp_path: Path, image: str, command: s
     stated = "imageType: 2D, mipLevels: 1, tiling: OPTIMAL, usage: [COLOR_ATTACHMENT]"
     text = f"images:\n  shown: {{format: B8G8R8A8_UNORM, {stated}, {image}}}\ncommands:\n  - pipelineBarrier: {{}}\n{command}"
     assert found(tmp_path, text, IMAGE) == ([2] if wrong else [])
+
+
+USAGE, TWICE, SMALL = "MSAA321", "MSAA322", "MSAA323"
+MS, ONE = "samples: 4, usage: [COLOR_ATTACHMENT]", "samples: 1, usage: [COLOR_ATTACHMENT]"
+
+
+def rendered(images: dict[str, str], attachments: str, area: str = "", after: str = "") -> str:
+    """A frame with images, each on a line from the second on, and a rendering."""
+    lines = "".join(f"  {name}: {{format: {'D32_SFLOAT' if 'depth' in name else 'R8G8B8A8_UNORM'}, {it}}}\n" for name, it in images.items())
+    return f"images:\n{lines}commands:\n  - beginRendering:\n{area}{attachments}  - endRendering\n{after}"
+
+
+def resolved(*pairs: str, member: str = "colorAttachments", mode: str = "AVERAGE") -> str:
+    """The attachments of a rendering, `source target` each; without a target, there is no resolve."""
+    items = []
+    for source, target in ((*pair.split(), "")[:2] for pair in pairs):
+        resolve = f", resolveMode: {mode}, resolveImage: {target}" if target else ""
+        items.append(f"{{image: {source}, loadOp: CLEAR, storeOp: STORE{resolve}}}")
+    return f"      {member}: {items[0] if member != 'colorAttachments' else '[' + ', '.join(items) + ']'}\n"
+
+
+def legacy(images: dict[str, str], subpass: str, framebuffer: str = "", begin: str = "", count: int = 1) -> str:
+    """A frame with images, each on a line from the second on, that are the attachments of a render pass with their names."""
+    lines = "".join(f"  {name}: {{format: {'D32_SFLOAT' if 'depth' in name else 'R8G8B8A8_UNORM'}, {it}}}\n" for name, it in images.items())
+    attachments = "".join(f"      {name}: {{loadOp: DONT_CARE, storeOp: STORE}}\n" for name in images)
+    names = ", ".join(images)
+    buffers = "".join(f"  f{n}: {{renderPass: p, attachments: [{names}]{framebuffer}}}\n" for n in range(count))
+    return (
+        f"images:\n{lines}renderPasses:\n  p:\n    attachments:\n{attachments}    subpasses:\n      - {subpass}\nframebuffers:\n{buffers}"
+        f"commands:\n  - beginRenderPass: {{renderPass: p, framebuffer: f0{begin}}}\n  - endRenderPass\n"
+    )
+
+
+@pytest.mark.parametrize(
+    ("text", "lines"),
+    [
+        (rendered({"ms": MS, "out": "samples: 1, usage: [SAMPLED]"}, resolved("ms out")), [3]),
+        (rendered({"ms": "samples: 4, usage: [SAMPLED]", "out": ONE}, resolved("ms out")), [2]),
+        (rendered({"ms": MS, "out": "samples: 1, usage: [TRANSFER_DST]"}, resolved("ms out", mode="NONE")), []),
+        (rendered({"ms": MS, "out": "samples: 1"}, resolved("ms out")), []),
+        (rendered({"out": "samples: 1, usage: [SAMPLED]"}, resolved("out")), []),
+        (
+            rendered(
+                {"depth_ms": "samples: 4, usage: [DEPTH_STENCIL_ATTACHMENT]", "depth": "samples: 1, usage: [SAMPLED]"},
+                resolved("depth_ms depth", member="depthAttachment", mode="SAMPLE_ZERO"),
+            ),
+            [3],
+        ),
+        (rendered({"ms": MS, "out": ONE}, resolved("ms"), after="  - resolveImage: {srcImage: ms, dstImage: out}\n"), [2, 3]),
+        (rendered({"ms": MS}, resolved("ms"), after="  - clearColorImage: {image: ms}\n"), [2]),
+        (legacy({"ms": MS, "out": "samples: 1, usage: [SAMPLED]"}, "{colorAttachments: [ms], resolveAttachments: [out]}"), [3]),
+        (legacy({"ms": MS, "out": "samples: 1, usage: [SAMPLED]"}, "{colorAttachments: [ms], resolveAttachments: [null]}"), []),
+        (legacy({"ms": MS, "out": ONE}, "{colorAttachments: [ms], resolveAttachments: [out]}", ", flags: [IMAGELESS]"), []),
+        (legacy({"ms": MS}, "{inputAttachments: [ms]}"), [2]),
+        (legacy({"depth_ms": MS}, "{depthStencilAttachment: depth_ms}"), [2]),
+        (
+            legacy(
+                {"depth_ms": "samples: 4, usage: [DEPTH_STENCIL_ATTACHMENT]", "depth": ONE},
+                "{depthStencilAttachment: depth_ms, depthStencilResolve: {attachment: depth, depthResolveMode: SAMPLE_ZERO}}",
+            ),
+            [3],
+        ),
+    ],
+)
+def test_an_image_without_the_usage_that_is_needed(tmp_path: Path, text: str, lines: list[int]) -> None:
+    assert found(tmp_path, text, USAGE) == lines
+
+
+@pytest.mark.parametrize(
+    ("text", "count"),
+    [
+        (rendered({"a": MS, "b": MS, "out": ONE}, resolved("a out", "b out")), 1),
+        (rendered({"a": MS, "b": MS, "c": MS, "out": ONE}, resolved("a out", "b out", "c out")), 2),
+        (rendered({"a": MS, "out": ONE}, resolved("a out", "out")), 1),
+        (rendered({"a": MS, "b": MS, "out": ONE, "two": ONE}, resolved("a out", "b two")), 0),
+        (rendered({"a": MS, "b": MS, "out": f"{ONE}, arrayLayers: 2"}, resolved("a out", "b out")), 0),
+        (rendered({"a": MS, "b": MS, "out": f"{ONE}, mipLevels: 2"}, resolved("a out", "b out")), 0),
+        (rendered({"a": MS, "b": MS, "out": f"{ONE}, imageType: 3D"}, resolved("a out", "b out")), 0),
+        (rendered({"a": MS, "b": MS, "out": ONE}, resolved("a out", "b out", mode="NONE")), 0),
+        (legacy({"a": MS, "b": MS, "out": ONE}, "{colorAttachments: [a, b], resolveAttachments: [out, out]}"), 1),
+        (legacy({"a": MS, "b": MS, "out": ONE}, "{colorAttachments: [a, b], resolveAttachments: [out, null]}"), 0),
+        (legacy({"a": MS, "out": ONE}, "{colorAttachments: [a], resolveAttachments: [out], inputAttachments: [out]}"), 1),
+        (legacy({"a": MS, "out": ONE}, "{colorAttachments: [a], resolveAttachments: [out], preserveAttachments: [out]}"), 1),
+        (legacy({"a": MS, "out": ONE}, "{colorAttachments: [a], resolveAttachments: [out], inputAttachments: [a]}"), 0),
+        (
+            legacy({"a": MS, "b": MS, "out": ONE}, "{colorAttachments: [a, b], resolveAttachments: [out, 3]}")
+            .replace("      out: {", "      other: {image: out, loadOp: DONT_CARE, storeOp: STORE}\n      out: {")
+            .replace("out: {loadOp", "out: {image: out, loadOp")
+            .replace("attachments: [a, b, out]", "attachments: [a, b, out, out]"),
+            1,
+        ),
+    ],
+)
+def test_a_resolve_target_with_another_use(tmp_path: Path, text: str, count: int) -> None:
+    assert len(found(tmp_path, text, TWICE)) == count
+
+
+def sized(width: int, height: int, image: str) -> str:
+    return f"{image}, extent: {{width: {width}, height: {height}}}"
+
+
+AREA = "      renderArea: {x: 0, y: 0, width: 64, height: 32}\n"
+PAIR = "{colorAttachments: [ms], resolveAttachments: [out]}"
+
+
+@pytest.mark.parametrize(
+    ("text", "wrong"),
+    [
+        (rendered({"ms": sized(64, 32, MS), "out": sized(64, 16, ONE)}, resolved("ms out"), AREA), True),
+        (rendered({"ms": sized(64, 32, MS), "out": sized(32, 64, ONE)}, resolved("ms out"), AREA), True),
+        (rendered({"ms": sized(80, 32, MS), "out": sized(64, 32, ONE)}, resolved("ms out"), AREA.replace("x: 0", "x: 8")), True),
+        (rendered({"ms": sized(64, 32, MS), "out": sized(64, 32, ONE)}, resolved("ms out"), AREA), False),
+        (rendered({"ms": sized(64, 32, MS), "out": sized(128, 64, ONE)}, resolved("ms out"), AREA), False),
+        (rendered({"ms": sized(128, 32, MS), "out": sized(64, 32, ONE)}, resolved("ms out"), AREA), False),
+        (rendered({"ms": sized(64, 32, MS), "out": sized(32, 16, ONE)}, resolved("ms out")), False),
+        (rendered({"ms": sized(64, 32, MS), "out": sized(32, 16, ONE)}, resolved("ms out", mode="NONE"), AREA), False),
+        (rendered({"ms": MS, "out": ONE}, resolved("ms out"), AREA), False),
+        (legacy({"ms": sized(64, 32, MS), "out": sized(32, 32, ONE)}, PAIR, ", width: 64, height: 32"), True),
+        (legacy({"ms": sized(64, 32, MS), "out": sized(32, 32, ONE)}, PAIR, ", width: 64, height: 32", count=2), True),
+        (legacy({"ms": sized(64, 32, MS), "out": sized(32, 32, ONE)}, PAIR, "", ", renderArea: {width: 64, height: 32}"), True),
+        (legacy({"ms": sized(64, 32, MS), "out": sized(32, 32, ONE)}, PAIR, ", width: 32, height: 32"), False),
+        (legacy({"ms": sized(64, 32, MS), "out": sized(64, 32, ONE)}, PAIR, ", width: 64, height: 32"), False),
+        (legacy({"ms": sized(64, 32, MS), "out": sized(32, 32, ONE)}, PAIR), False),
+    ],
+)
+def test_a_resolve_target_that_is_too_small(tmp_path: Path, text: str, wrong: bool) -> None:
+    assert len(found(tmp_path, text, SMALL)) == wrong

@@ -187,6 +187,11 @@ CONSEQUENCES = (
         "the resolve itself is the mistake",
     ),
     Consequence(
+        ("01208", "01209", "01212", "01213", "00895", "01758", "02842", "02844", "03094", "03096"),
+        ("image-usage-missing",),
+        "the layout of an attachment, or of what a command reads or writes, requires the same usage",
+    ),
+    Consequence(
         ("resolving-image", "02003"),
         ("depth-resolved-by-command",),
         "without maintenance10, the target's format needs the features of a color attachment",

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from msaa_lint.core.text.span import Span
-from msaa_lint.frame.description.models import Enabled, Image, ReadImage
+from msaa_lint.frame.description.models import AttachmentDescription, Enabled, Image, ReadImage
 from msaa_lint.frame.description.record import Record
 from msaa_lint.frame.devices import DeviceProfile
 from msaa_lint.frame.devices.shares import sample_count_share
 from msaa_lint.frame.vulkan.formats import Format
 
-from .commands import PRESENT, image_of
+from .commands import PRESENT, accesses, image_of
 from .facts import Facts
 from .frame import Frame
-from .parts import RENDER_PASS, Attachment, Target
+from .parts import RENDER_PASS, RENDERING, Attachment, Target
 from .readers import READS, Readers, usage_reads
 
 BESIDE_TRANSIENT = frozenset({"TRANSIENT_ATTACHMENT", "COLOR_ATTACHMENT", "DEPTH_STENCIL_ATTACHMENT", "INPUT_ATTACHMENT"})
@@ -35,7 +35,7 @@ _RENDER_TARGET_USAGES = frozenset({"COLOR_ATTACHMENT", "DEPTH_STENCIL_ATTACHMENT
 class Bindings:
     """What a frame does with its images. Images and those that stand for attachments without one go by their records."""
 
-    __slots__ = ("_idle", "attachments", "begun", "presented", "reads", "resolve_ends", "resolved")
+    __slots__ = ("_idle", "_usages", "attachments", "begun", "presented", "reads", "resolve_ends", "resolved")
 
     def __init__(self, frame: Frame) -> None:
         self.attachments: dict[int, list[Attachment]] = {}
@@ -65,6 +65,9 @@ class Bindings:
             self.resolved.update(id(target.record) for target in targets if target is not None)
             sources = (resolve.source_image for resolve in render_pass.resolves)
             self.resolve_ends.update(id(source.record) for source in sources if source is not None)
+        self._usages: dict[str, list[tuple[str, tuple[str, Span]]]] = {}
+        """The usages that commands and the resolves of renderings need, by image."""
+        self._add_usages(frame)
         passes = {render_pass.name: render_pass for render_pass in frame.passes if render_pass.kind == RENDER_PASS}
         begun_with = {id(attachment): set(map(id, attachment.targets)) for each in passes.values() for attachment in each.attachments}
         for framebuffer in frame.description.framebuffers.values():
@@ -76,6 +79,36 @@ class Bindings:
         for _, body in frame.recorded(ReadImage):
             if body.image is not None:
                 self.reads.setdefault(body.image, []).append(body)
+
+    def _add_usages(self, frame: Frame) -> None:
+        for render_pass in frame.passes:
+            for resolve in render_pass.resolves if render_pass.kind == RENDERING else ():
+                if resolve.target_image is not None and resolve.is_certain:
+                    usage = "COLOR_ATTACHMENT" if resolve.aspect == "color" else "DEPTH_STENCIL_ATTACHMENT"
+                    self._usages.setdefault(resolve.target_image.name, []).append((usage, (render_pass.name, resolve.target_at)))
+        for command in frame.commands:
+            for name, access in accesses(command):
+                target = frame.target(name)
+                # The usage of a stencil aspect may be stated apart (VkImageStencilUsageCreateInfo), which is not read.
+                has_stencil = target is not None and (target.format is None or "stencil" in target.format.aspects)
+                if len(access.usages) == 1 and not has_stencil and isinstance(command.body, Record):
+                    self._usages.setdefault(name, []).append((access.usages[0], (command.kind, command.body.place(access.member))))
+
+    def needed_usages(self, target: Target) -> dict[str, tuple[str, Span]]:
+        """The usages that an image needs, each with the name of a pass or command that needs it, and where that states it."""
+        found: dict[str, tuple[str, Span]] = {}
+        for attachment in self.used_by(target.record):
+            aspects = set().union(*attachment.resolve.values())
+            roles = (
+                ("COLOR_ATTACHMENT", attachment.color or "color" in aspects),
+                ("DEPTH_STENCIL_ATTACHMENT", attachment.depth_stencil or aspects - {"color"}),
+                ("INPUT_ATTACHMENT", attachment.input and isinstance(attachment.record, AttachmentDescription)),
+            )
+            for usage in (usage for usage, is_used in roles if is_used):
+                found.setdefault(usage, (attachment.title, attachment.record.head))
+        for name, use in self._usages.get(target.name, ()) if target.image is not None else ():
+            found.setdefault(name, use)
+        return found
 
     def used_by(self, record: Record) -> list[Attachment]:
         """Those of `attachments` in passes that the frame may begin."""
@@ -139,6 +172,11 @@ def image_facts(target: Target, bindings: Bindings, frame: Frame, readers: Reade
         transient_at = image.flag_place("usage", ("TRANSIENT_ATTACHMENT",))
         facts.put("image.transient", "TRANSIENT_ATTACHMENT" in image.usage, transient_at)
         facts.put("image.attachment_usage", not _ATTACHMENT_USAGES.isdisjoint(image.usage), at)
+        if (target.samples or 0) > 1 or id(record) in bindings.resolved or id(record) in bindings.resolve_ends:
+            missing = {usage: use for usage, use in bindings.needed_usages(target).items() if usage not in image.usage}
+            facts.put("image.missing_usages", list(missing), at)
+            for user, place in list(missing.values())[:1]:
+                facts.put("image.usage_needed_by", user, place)
         conflicts = [usage for usage in image.usage if usage not in BESIDE_TRANSIENT]
         facts.put("image.transient_conflicts", conflicts, image.flag_place("usage", conflicts) if conflicts else transient_at)
         facts.put("image.is_render_target", rendered, at)

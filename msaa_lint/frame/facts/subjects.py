@@ -26,6 +26,7 @@ from .pass_contents import Instance, PassContents, pass_contents, put_undefined_
 from .pipeline import draws_of, pipeline_facts, subpass_of, unshaded
 from .readers import Readers
 from .resolve import command_facts, read_in_vain, resolve_facts
+from .resolve_target import ResolveTargets, other_uses
 from .resolve_uses import ResolveUses
 from .resumption import resumption_facts
 from .sample_count_choices import choices
@@ -94,6 +95,10 @@ class FrameAnalysis:
     def resolve_uses(self) -> ResolveUses:
         """What becomes of the results of resolves."""
         return ResolveUses(self.search, self.readers, self.device)
+
+    @cached_property
+    def _resolve_targets(self) -> ResolveTargets:
+        return ResolveTargets(self.frame, self.timeline.followed)
 
     @cached_property
     def shaders(self) -> Shaders:
@@ -220,6 +225,7 @@ class FrameAnalysis:
             action_facts(facts, attachment, aspect, self.frame.document.metal)
 
     def _subpasses(self, render_pass: Pass, shared: Facts, instances: list[Instance], of_subpass: dict[str, Facts]) -> Iterator[Subject]:
+        uses = other_uses(render_pass)
         for subpass in render_pass.subpasses:
             facts = Facts(shared, subpass_facts(subpass, self.walk, self.device))
             screen_facts(facts, subpass, instances, self.contents)
@@ -228,6 +234,7 @@ class FrameAnalysis:
             for resolve in subpass.resolves:
                 of_resolve = Facts(shared, resolve_facts(resolve, self.device))
                 self.resolve_uses.put(of_resolve, resolve)
+                self._resolve_targets.put(of_resolve, resolve, uses)
                 if self.frame.document.metal is not None:
                     from .metal import filter_facts
 

@@ -38,6 +38,14 @@ IMAGE = (
     ),
     Fact("image.attachment_usage", "BOOL", "its usage includes COLOR_ATTACHMENT, DEPTH_STENCIL_ATTACHMENT or INPUT_ATTACHMENT"),
     Fact("image.transient_conflicts", "LIST", "usages that Vulkan forbids together with TRANSIENT_ATTACHMENT", "VkImageUsageFlagBits"),
+    Fact(
+        "image.missing_usages",
+        "LIST",
+        "of a multisampled image, or one that a resolve reads or writes: usages that passes and commands require and that it lacks; empty "
+        "where nothing is known to lack",
+        "VkImageUsageFlagBits",
+    ),
+    Fact("image.usage_needed_by", "STRING", "pass or command that needs the first of them"),
     Fact("image.presentable", "BOOL", "it belongs to a swapchain"),
     Fact("image.presented", "BOOL", "it is stated to belong to a swapchain, or a command presents it; never unknown"),
     Fact("image.is_data", "BOOL", "its values are stated to be data, not color; never unknown"),

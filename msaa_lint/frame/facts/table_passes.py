@@ -93,6 +93,10 @@ RESOLVE = (
     ),
     Fact("resolve.pass_could_resolve", "BOOL", "command: the last pass to write the source does not resolve it, and could"),
     Fact("resolve.writer", "STRING", "command: the pass that last wrote the source"),
+    Fact("resolve.target_too_small", "BOOL", "an image that it writes is smaller than a framebuffer or render area that it is used with"),
+    Fact("resolve.target_extent", "STRING", "width and height of that image"),
+    Fact("resolve.rendered_extent", "STRING", "width and height of that framebuffer, or right and lower end of that render area"),
+    Fact("resolve.target_also", "STRING", "what else its subpass or rendering uses the image for that it writes", "other use"),
     Fact("resolve.target_stored", "BOOL", "what it writes outlives the pass"),
     Fact("resolve.target_read", "BOOL", "something reads what it writes, later in the pass or the frame, or in the next frame"),
     Fact(

@@ -26,6 +26,9 @@ WORDS: dict[str, tuple[str, ...]] = {
     "store operation": ("STORE", "DONT_CARE", "NONE", "SUSPENDED"),
     "begun": ("YES", "NO", "NOT_STATED"),
     "resolve kind": ("subpass", "rendering", "command"),
+    "other use": (
+        "NOTHING", "RESOLVE_TARGET", "COLOR_ATTACHMENT", "DEPTH_STENCIL_ATTACHMENT", "INPUT_ATTACHMENT", "PRESERVED_ATTACHMENT",
+    ),
     "copy command": ("copyImage", "blitImage", "copyImageToBuffer", "copyBufferToImage"),
     "encoding": ("LINEAR", "GAMMA", "DATA"),
     "scene color": ("LDR", "HDR"),
