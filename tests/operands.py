@@ -98,9 +98,9 @@ def not_held(rule: Rule) -> tuple[int, list[Operand]]:
     engine = Engine(Registry(tuple(variants), ()))
     remaining = dict(enumerate(every, 1))
     for example in examples(RULES / f"{rule.name}.md", (*DESCRIPTIONS, *PROGRAMS)):
-        places: dict[str, set[object]] = {variant.name: set() for variant in variants}
+        places: dict[str, list[object]] = {variant.name: [] for variant in variants}
         for finding in lint(engine, example).findings:
-            places[finding.rule].add(finding.span)
+            places[finding.rule].append(finding.span)
         remaining = {n: operand for n, operand in remaining.items() if places[variants[n].name] == places[variants[0].name]}
     return len(every), list(remaining.values())
 

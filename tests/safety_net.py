@@ -108,8 +108,8 @@ def run(out: Path) -> None:
             errors.flush()
         file = out / name
         file.parent.mkdir(parents=True, exist_ok=True)
-        text = _comparable(stored.buffer.getvalue().decode())  # type: ignore[attr-defined]
-        messages = errors.buffer.getvalue().decode()  # type: ignore[attr-defined]
+        text = _comparable(stored.buffer.getvalue().decode())
+        messages = errors.buffer.getvalue().decode()
         both = f"{text}\nexit code {code}\n{messages}".replace(os.getcwd(), "INPUTS")
         file.write_text(both, encoding="utf-8")
 

@@ -51,7 +51,10 @@ class ResolveUses:
         return _repetitions(self)
 
     def put(self, facts: Facts, resolve: Resolve) -> None:
-        """Adds what is known of what becomes of a resolve. Of one that resolves nothing, or may not, nothing is."""
+        """Adds what is known of what becomes of a resolve: of one that may resolve nothing, nothing is."""
+        if resolve.mode == "NONE":
+            for name in ("resolve.target_stored", "resolve.repeats", "resolve.resolved_anew"):
+                facts.put(name, False)
         if resolve.mode in (None, "NONE") and resolve.kind != "command":
             return
         self._put_read(facts, resolve)

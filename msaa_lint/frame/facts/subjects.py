@@ -214,7 +214,9 @@ class FrameAnalysis:
 
     def _put_aspect(self, facts: Facts, render_pass: Pass, attachment: Attachment, aspect: Aspect, instances: list[Instance]) -> None:
         """Adds what the frame says of an aspect over time."""
-        if aspect.name == "depth" and aspect.store == "STORE" and attachment.samples != 1:
+        if aspect.name != "depth" or aspect.store not in ("STORE", None) or attachment.samples == 1:
+            facts.put("aspect.fetched", "OTHER")
+        elif aspect.store is not None:
             facts.put("aspect.fetched", samples_fetched(attachment, aspect, self.search))
         touch_facts(facts, render_pass, attachment, aspect, instances, self.frame)
         put_undefined_use(facts, render_pass, attachment, aspect, instances, self.frame)

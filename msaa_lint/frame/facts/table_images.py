@@ -148,7 +148,7 @@ ASPECT = (
         "aspect.fetched",
         "STRING",
         "stored multisampled depth that only shaders read: ALL if one fetches every sample, ONE if each fetches one, NOT_STATED if one "
-        "does not say; OTHER if something else reads it, or nothing",
+        "does not say; OTHER if something else reads it, or nothing, and for what is not stored multisampled depth",
         "fetched",
     ),
     Fact("aspect.stored_by", "STRING", "pass that stored what it loads"),
