@@ -91,7 +91,11 @@ RESOLVE = (
         "BOOL",
         "the device supports the modes of both aspects together, if it supports each (independentResolve, independentResolveNone)",
     ),
-    Fact("resolve.pass_could_resolve", "BOOL", "command: the last pass to write the source does not resolve it, and could; false for other kinds"),
+    Fact(
+        "resolve.pass_could_resolve",
+        "BOOL",
+        "command: the last pass to write the source does not resolve it, and could; false for other kinds",
+    ),
     Fact("resolve.writer", "STRING", "command: the pass that last wrote the source"),
     Fact("resolve.target_too_small", "BOOL", "an image that it writes is smaller than a framebuffer or render area that it is used with"),
     Fact("resolve.target_extent", "STRING", "width and height of that image"),
