@@ -17,6 +17,7 @@ from msaa_lint.frame.description.record import Record
 from msaa_lint.frame.facts.facts import Subject
 from msaa_lint.frame.facts.missing_keys import resolve_mode
 from msaa_lint.frame.facts.parts import Attachment, Resolve
+from msaa_lint.frame.facts.pipeline_stages import includes_access, stated_stages
 
 from .changes import Change, NoFix
 from .context import FixContext
@@ -149,12 +150,22 @@ def _redirect(resolve: Resolve, target: Image, copy: int, context: FixContext) -
 
 
 def wait_for_resolve(subject: Subject, context: FixContext) -> list[Change]:
-    """Adds the stage and the access of a resolve to the source scopes of the wait that the finding points at."""
+    """Adds to the wait that a finding points at what its scopes lack: the stages and accesses of the write and of its reader."""
+    facts = subject.facts.values
     place = subject.facts.places.get("resolve.waiting_stages")
-    by_command = subject.facts.values.get("resolve.kind") == "command"
-    stage, access = ("TRANSFER", "TRANSFER_WRITE") if by_command else ("COLOR_ATTACHMENT_OUTPUT", "COLOR_ATTACHMENT_WRITE")
     waits = context.waits.get(place, []) if place is not None else []
     if not waits:
-        raise NoFix("no dependency or barrier states the stages that wait for the resolve")
-    changes = [Change(wait, "srcStageMask", "add", stage) for wait in waits]
-    return [*changes, *(Change(wait, "srcAccessMask", "add", access) for wait in waits if "MEMORY_WRITE" not in (wait.srcAccessMask or ()))]
+        raise NoFix("no dependency or barrier is stated for the read")
+    changes: list[Change] = []
+    for ends, stages, accesses in (("src", "resolve.stage", "resolve.access"), ("dst", "resolve.reader_stage", "resolve.reader_access")):
+        stage, access = facts.get(stages), facts.get(accesses)
+        if not isinstance(stage, str) or not isinstance(access, str):
+            continue
+        for wait in waits:
+            stage_mask, access_mask = getattr(wait, f"{ends}StageMask") or (), getattr(wait, f"{ends}AccessMask") or ()
+            needed = {"RESOLVE"} if (ends, stage) == ("src", "TRANSFER") else stated_stages((stage,))
+            if not needed <= stated_stages(stage_mask):
+                changes.append(Change(wait, f"{ends}StageMask", "add", stage))
+            if not includes_access(access_mask, access):
+                changes.append(Change(wait, f"{ends}AccessMask", "add", access))
+    return changes

@@ -64,7 +64,7 @@ READ_AFTER = """
     """
 
 
-def barrier(stages: str, into: str = "FRAGMENT_SHADER", access: str = "DEPTH_STENCIL_ATTACHMENT_WRITE", images: str = "depth") -> str:
+def barrier(stages: str, into: str = "FRAGMENT_SHADER", access: str = "MEMORY_WRITE", images: str = "depth") -> str:
     masks = f"srcStageMask: [{stages}], srcAccessMask: [{access}], dstStageMask: [{into}], dstAccessMask: [SHADER_READ]"
     return f"- pipelineBarrier: {{{masks}, images: [{images}]}}"
 
@@ -86,7 +86,8 @@ def waits(*barriers: str, stage: str = "FRAGMENT") -> bool | None:
         ("LATE_FRAGMENT_TESTS, COLOR_ATTACHMENT_OUTPUT", True),
         ("ALL_GRAPHICS", True),
         ("ALL_COMMANDS", True),
-        ("BOTTOM_OF_PIPE", True),
+        # It waits for everything, and accesses nothing.
+        ("BOTTOM_OF_PIPE", False),
         ("LATE_FRAGMENT_TESTS", False),
         ("VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT, VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT", False),
         ("FRAGMENT_SHADER", False),
@@ -132,7 +133,7 @@ PASSES = """
     """
 
 
-def dependency(src: str, dst: str, stages: str, into: str = "FRAGMENT_SHADER", access: str = "DEPTH_STENCIL_ATTACHMENT_WRITE") -> str:
+def dependency(src: str, dst: str, stages: str, into: str = "FRAGMENT_SHADER", access: str = "MEMORY_WRITE") -> str:
     masks = f"srcStageMask: [{stages}], dstStageMask: [{into}], srcAccessMask: [{access}], dstAccessMask: [SHADER_READ]"
     return f"{{srcSubpass: {src}, dstSubpass: {dst}, {masks}}}"
 
@@ -144,6 +145,7 @@ def dependency(src: str, dst: str, stages: str, into: str = "FRAGMENT_SHADER", a
         ("", "", None),
         (dependency("0", "EXTERNAL", "LATE_FRAGMENT_TESTS"), "", False),
         (dependency("0", "EXTERNAL", "COLOR_ATTACHMENT_OUTPUT"), "", True),
+        (dependency("0", "EXTERNAL", "COLOR_ATTACHMENT_OUTPUT", access="DEPTH_STENCIL_ATTACHMENT_WRITE"), "", False),
         ("", dependency("EXTERNAL", "0", "LATE_FRAGMENT_TESTS"), False),
         ("", dependency("EXTERNAL", "0", "COLOR_ATTACHMENT_OUTPUT", access="COLOR_ATTACHMENT_WRITE"), True),
         (dependency("0", "EXTERNAL", "LATE_FRAGMENT_TESTS"), dependency("EXTERNAL", "0", "ALL_GRAPHICS"), True),
@@ -206,7 +208,7 @@ def test_within_a_pass_nothing_else_can_order_them() -> None:
 
 
 def test_a_wait_is_mended_and_nothing_else() -> None:
-    text = given_text(READ_AFTER, barriers=barrier("LATE_FRAGMENT_TESTS"), stage="FRAGMENT")
+    text = given_text(READ_AFTER, barriers=barrier("LATE_FRAGMENT_TESTS", access="DEPTH_STENCIL_ATTACHMENT_WRITE"), stage="FRAGMENT")
     after = fixed(text, "MSAA601")
     assert after == text.replace("[LATE_FRAGMENT_TESTS]", "[LATE_FRAGMENT_TESTS, COLOR_ATTACHMENT_OUTPUT]").replace(
         "[DEPTH_STENCIL_ATTACHMENT_WRITE]", "[DEPTH_STENCIL_ATTACHMENT_WRITE, COLOR_ATTACHMENT_WRITE]"
