@@ -12,9 +12,10 @@ from msaa_lint.frame.description.record import Record
 from .facts import Facts
 from .frame import Frame
 from .parts import RENDER_PASS, Attachment, Pass
+from .pipeline_stages import stated_stages
 
-_ALL_STAGES = frozenset({"ALL_GRAPHICS", "ALL_COMMANDS", "BOTTOM_OF_PIPE"})
-_LATE_STAGES = frozenset({"LATE_FRAGMENT_TESTS"}) | _ALL_STAGES
+_ALL_STAGES = frozenset({"ALL_GRAPHICS", "ALL_COMMANDS"})
+_LATE_STAGES = frozenset({"LATE_FRAGMENT_TESTS", "BOTTOM_OF_PIPE"}) | _ALL_STAGES
 _COLOR_STAGES = frozenset({"COLOR_ATTACHMENT_OUTPUT"}) | _ALL_STAGES
 _ATTACHMENT_STAGES = frozenset({"COLOR_ATTACHMENT_OUTPUT", "EARLY_FRAGMENT_TESTS", "LATE_FRAGMENT_TESTS", "ALL_GRAPHICS", "ALL_COMMANDS"})
 
@@ -176,10 +177,12 @@ def _dependency_facts(
 def _makes_available(access: str, wait: Wait) -> bool:
     """Whether a wait makes an attachment's writes available.
 
-    A specific access implies its stage (VUID-VkSubpassDependency-srcAccessMask-00868); MEMORY_WRITE goes with every stage. The stages that
-    write depth and stencil are judged by `dependency.waits_for_late_tests`.
+    A specific access implies its stage (VUID-VkSubpassDependency-srcAccessMask-00868); MEMORY_WRITE goes with every stage, and
+    BOTTOM_OF_PIPE accesses nothing. The stages that write depth and stencil are judged by `dependency.waits_for_late_tests`.
     """
     accesses = wait.srcAccessMask or ()
+    if wait.srcStageMask and not stated_stages(wait.srcStageMask):
+        return False
     if access in accesses:
         return True
     return "MEMORY_WRITE" in accesses and (access != COLOR_WRITE or not _COLOR_STAGES.isdisjoint(wait.srcStageMask or ()))

@@ -1,7 +1,7 @@
 """Which configuration of a program is the multisampled one, and which unknown sample counts are above 1 in it.
 
 What the code does decides before what it calls its settings: a count of 1 that a condition replaces by another count, a resolve, a resolve
-mode, a comparison with 1. All attachments of a subpass have the same count (VUID-VkSubpassDescription-pDepthStencilAttachment-04440).
+mode, a comparison with 1. All attachments of a subpass have the same count (VUID-VkSubpassDescription-pDepthStencilAttachment-01418).
 """
 
 from __future__ import annotations
