@@ -95,7 +95,8 @@ def _entries(frame: Frame, device: DeviceProfile | None, sizes: Sizes, frame_rat
                 entries[id(render_pass)] = _pass_entry(render_pass, device, sizes)
             if id(render_pass) not in attached:
                 attached[id(render_pass)] = _attached_images(render_pass)
-        elif command.kind not in MOVING:
+        elif command.kind not in MOVING or getattr(command.body, "access", None) == "INPUT_ATTACHMENT_READ":
+            # An input attachment is counted with its pass.
             continue
         elif render_pass is None:
             lines = Lines(device)

@@ -1,6 +1,7 @@
 """What fragment shaders say: facts of pipelines from their modules, and the images that shaders read."""
 
 from collections.abc import Callable, Iterator
+from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
 from msaa_lint.frame.description.models import Draw, Pipeline, ReadImage, ShaderStage, Subpass
@@ -162,6 +163,22 @@ class Shaders:
         for pipeline, render_pass in self.frame.pipelines:
             if render_pass is not None and self._has_inputs(render_pass):
                 yield from self._input_reads(around, pipeline, render_pass)
+
+    @cached_property
+    def _read_at(self) -> dict[int, tuple[ReadImage, Target, _Part]]:
+        return {position: (body, target, part) for position, body, target, part in self._reads}
+
+    def fetched(self, position: int) -> tuple[str | None, str | None]:
+        """What `read.samples` and `read.resolves` say of the read at a position; None for what is not known."""
+        if position not in self._read_at:
+            return None, None
+        body, target, part = self._read_at[position]
+        facts = self._stated(position, body, target, part)
+        fetching = self._fetching(body, part)
+        if body.resolves is None and fetching.reads:
+            _resolved(facts, body, fetching)
+        samples, resolves = facts.values.get("read.samples"), facts.values.get("read.resolves")
+        return (str(samples) if samples is not None else None), (str(resolves) if resolves is not None else None)
 
     def _stated(self, position: int, body: ReadImage, target: Target, part: _Part) -> Facts:
         """What the commands say of a read."""

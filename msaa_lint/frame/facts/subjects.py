@@ -17,6 +17,7 @@ from .event_search import EventSearch
 from .facts import Facts, Subject
 from .frame import Frame
 from .global_facts import global_facts, profile
+from .handovers import put_handover
 from .image import Bindings, image_facts
 from .joined_facts import join_facts
 from .lifetimes import lifetime_facts
@@ -187,6 +188,7 @@ class FrameAnalysis:
             instances = contents.get(render_pass.path, [])
             facts = Facts(self.shared, pass_facts(render_pass, self.frame))
             clear_value_facts(facts, render_pass, self.frame)
+            put_handover(facts, render_pass, self.search, self.shaders.fetched)
             resumption_facts(facts, render_pass, self.walk)
             yield Subject("pass", render_pass.path, render_pass.record.head, facts, render_pass=render_pass)
             yield from self._attachments(render_pass, facts, instances)

@@ -20,6 +20,13 @@ PASS = (
     Fact("pass.resumes_differently", "BOOL", "it is a resumed rendering, and states another value of a member than the suspended one"),
     Fact("pass.resumed_from", "STRING", "resumed rendering: the suspended rendering that it continues"),
     Fact("pass.resumed_member", "STRING", "resumed rendering: the first member that differs, as `colorAttachments[0].loadOp`"),
+    Fact(
+        "pass.handed_over",
+        "LIST",
+        "multisampled attachments whose stored samples only the fragment shaders of one later pass read, which may become one with this",
+    ),
+    Fact("pass.handed_samples", "INT", "samples per texel of the first of them"),
+    Fact("pass.handed_to", "STRING", "that later pass"),
     Fact("pass.attachments", "INT", "number of attachments"),
     Fact("pass.clears", "BOOL", "render pass: an attachment that a subpass uses has load operation CLEAR for one of its aspects"),
     Fact(

@@ -9,6 +9,7 @@ from msaa_lint.frame.facts.facts import Subject
 from .changes import Change
 from .clears import clear_on_load, draw_the_copy
 from .context import FixContext
+from .handovers import keep_on_tile
 from .images import allow_multisampling, share_image
 from .resolve_depth import resolve_depth
 from .resolve_in_pass import resolve_before_read, resolve_in_pass
@@ -31,4 +32,8 @@ ACTIONS: dict[str, Action] = {
     "wait-for-resolve": wait_for_resolve,
     "share-image": share_image,
     "hand-over-depth": resolve_depth,
+    "keep-on-tile": keep_on_tile,
 }
+
+PRICE_ONLY = frozenset({"keep-on-tile"})
+"""Fixes whose changes are for the price alone. What such a fix is, a pass with other shaders, no edit of a description can write."""

@@ -15,6 +15,7 @@ from .actions import Action
 from .changes import Change, NoFix
 from .context import FixContext
 from .fact_sources import FindSources, Source
+from .handovers import keep_on_tile
 from .subject_parts import aspect_of, copied_images, described_image, images_of, pipeline_of, present
 from .transient import check_unread, drop_stores, is_needed
 
@@ -150,5 +151,6 @@ METAL_ACTIONS: dict[str, Action] = {
     "make-memoryless": make_memoryless,
     "drop-resolve-texture": drop_resolve_texture,
     "resolve-to-copy": resolve_to_copy,
+    "keep-on-tile": keep_on_tile,
 }
 """The fixes that rule pages name by `do`."""
