@@ -297,6 +297,8 @@ class InputLinter:
         verdicts = self._runner.run(
             subjects, file, options.severity, document.api, missing_keys, options.all_keys, options.keys or Allowance(0), qualify
         )
+        if document.has_unread_structures:
+            verdicts = _without_safe_fixes(verdicts)
         verdicts = of_turns(verdicts, frame.turns.of.values()) if verdicts.findings else verdicts
         at = document.description.place("commands", "renderPasses")
         verdicts.findings.extend(diagnostic("MSAA906", f"limit exceeded: {text}", file, at) for text in frame.limits())
@@ -325,6 +327,16 @@ class InputLinter:
             findings, comments, source, self.registry.names, enabled.difference(undecided, self._runner.turned_off()), comment_lines
         )
         return [*remaining, *about_comments], suppressed
+
+
+def _without_safe_fixes(verdicts: Verdicts) -> Verdicts:
+    """The verdicts on a document that was not wholly read: no fix is safe, as what was not read may use what a fix takes away."""
+    findings = [found._replace(fix=found.fix._replace(safe=False)) if found.fix else found for found in verdicts.findings]
+    specs = {
+        key: [(spec._replace(safety="unsafe") if spec.safe else spec, subject) for spec, subject in fixes]
+        for key, fixes in verdicts.fix_specs.items()
+    }
+    return verdicts._replace(findings=findings, fix_specs=specs)
 
 
 def _apart(problems: Sequence[DocumentProblem], others: Sequence[TextProblem]) -> tuple[DocumentProblem, ...]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import NamedTuple
 
 from msaa_lint.frame.description.models import BeginRendering, BeginRenderPass, Framebuffer
@@ -39,7 +40,7 @@ class Sizes:
         self.width = terms.width if terms.width is not None else size.width if size is not None else None
         self.height = terms.height if terms.height is not None else size.height if size is not None else None
         self._of_framebuffer: dict[str, tuple[int | None, int | None, int | None]] = {}
-        self._of_images: dict[str, tuple[int, int]] | None = None
+        self._of_images: dict[str, tuple[int | None, int | None]] | None = None
 
     def area(self, render_pass: Pass) -> Area:
         """What a pass renders in a frame."""
@@ -50,7 +51,7 @@ class Sizes:
             begun = (self.frame.commands[position].body for position in render_pass.begun)
             bodies = [body for body in begun if isinstance(body, BeginRenderPass)] if self.frame.has_commands else [None]
         own = self._own(render_pass)
-        layers_of_images = _least_layers([a.targets[0] for a in render_pass.attachments if a.used and a.targets])
+        layers_of_images = _least_layers([a.targets[0] for a in render_pass.attachments if a.used and not a.only_rate and a.targets])
         pixels = layered = 0
         first: tuple[int, int] | None = None
         sized, assumed = True, False
@@ -99,7 +100,7 @@ class Sizes:
     def _framebuffer_size(self, framebuffer: Framebuffer) -> tuple[int | None, int | None, int | None]:
         found = self._of_framebuffer.get(framebuffer.key)
         if found is None:
-            targets = [target for target in map(self.frame.target, framebuffer.attachments) if target is not None]
+            targets = [target for target in self._targets(framebuffer) if target is not None]
             # Of a mip level further up the framebuffer alone knows the size.
             width, height = _least(targets) if framebuffer.width is None or framebuffer.height is None else (None, None)
             layers = framebuffer.layers
@@ -107,10 +108,19 @@ class Sizes:
             self._of_framebuffer[framebuffer.key] = found
         return found
 
+    def _targets(self, framebuffer: Framebuffer) -> Iterator[Target | None]:
+        """The images that a framebuffer has the size of: all but density maps and shading rate attachments."""
+        render_pass = self.frame.render_pass(framebuffer.renderPass)
+        attachments = render_pass.attachments if render_pass is not None else []
+        for index, name in enumerate(framebuffer.attachments):
+            if not (index < len(attachments) and attachments[index].only_rate):
+                yield self.frame.target(name)
+
     @staticmethod
     def _own(render_pass: Pass) -> tuple[int | None, int | None]:
         """What a pass's images say of its size."""
-        targets = [target for attachment in render_pass.attachments if attachment.used for target in attachment.targets[:1]]
+        rendered = [attachment for attachment in render_pass.attachments if attachment.used and not attachment.only_rate]
+        targets = [target for attachment in rendered for target in attachment.targets[:1]]
         if render_pass.kind == RENDERING:
             targets += [resolve.target_image for resolve in render_pass.subpasses[0].resolves if resolve.target_image is not None]
         return _least(targets)
@@ -126,8 +136,11 @@ class Sizes:
             width, height = width or bound[0], height or bound[1]
         return (width, height, depth or 1) if width is not None and height is not None else None
 
-    def _sizes_of_images(self) -> dict[str, tuple[int, int]]:
-        found: dict[str, tuple[int, int]] = {}
+    def _sizes_of_images(self) -> dict[str, tuple[int | None, int | None]]:
+        found: dict[str, tuple[int | None, int | None]] = {}
+        for render_pass in self.frame.passes:
+            rates = [target for attachment in render_pass.attachments if attachment.only_rate for target in attachment.targets]
+            found.update((target.path, (None, None)) for target in (*rates, *render_pass.rates))
         for render_pass in self.frame.passes:
             own = self._own(render_pass)
             if render_pass.kind == RENDERING:
@@ -136,11 +149,12 @@ class Sizes:
                 framebuffers = [*self.frame.framebuffers.get(render_pass.name, ())] or [None]
             for framebuffer in framebuffers:
                 width, height = own
-                targets = [target for attachment in render_pass.attachments for target in attachment.targets]
+                rendered = [attachment for attachment in render_pass.attachments if not attachment.only_rate]
+                targets = [target for attachment in rendered for target in attachment.targets]
                 if framebuffer is not None:
                     wide, high, _ = self._framebuffer_size(framebuffer)
                     width, height = wide or width, high or height
-                    targets = [target for target in map(self.frame.target, framebuffer.attachments) if target is not None]
+                    targets = [target for target in self._targets(framebuffer) if target is not None]
                 elif render_pass.kind == RENDERING:
                     targets += [r.target_image for r in render_pass.subpasses[0].resolves if r.target_image is not None]
                 width, height = width or self.width, height or self.height

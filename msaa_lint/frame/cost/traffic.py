@@ -102,7 +102,13 @@ def pass_lines(render_pass: Pass, area: Area, device: DeviceProfile | None) -> L
 def _attachment(lines: Lines, render_pass: Pass, attachment: Attachment, area: Area) -> None:
     target = attachment.targets[0] if attachment.targets else None
     image = target.name if target is not None and target.image is not None else ""
-    pixels = _pixels(render_pass, attachment, area)
+    pixels: int | None = _pixels(render_pass, attachment, area)
+    if attachment.only_rate:
+        # A texel of it is for a block of pixels: the extent alone says how many it has.
+        extent = target.image.extent if target is not None and target.image is not None else None
+        sides = (extent.width, extent.height) if extent is not None else (None, None)
+        layers = target.image.arrayLayers if target is not None and target.image is not None else None
+        pixels = sides[0] * sides[1] * (layers or 1) * area.times if sides[0] is not None and sides[1] is not None else None
     over: set[str] = set().union(*attachment.resolve.values()) if attachment.resolve else set()
     record, samples = attachment.record, attachment.samples
     for aspect in attachment.aspects:
@@ -124,6 +130,9 @@ def _attachment(lines: Lines, render_pass: Pass, attachment: Attachment, area: A
         if not causes:
             continue
         texel = aspect_bytes(attachment.format, name) if attachment.format is not None else None
+        if pixels is None:
+            lines.missing(f"`{attachment.title}`: its size is not stated: write `extent`")
+            continue
         if texel is None or samples is None:
             lines.missing(f"`{attachment.title}`: {_NOT_STATED['format' if texel is None else 'samples']}")
             continue

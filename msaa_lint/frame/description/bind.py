@@ -12,7 +12,7 @@ from msaa_lint.core.quote import quoted, shortened
 from msaa_lint.core.text.node import Node
 from msaa_lint.core.text.span import Span
 
-from .dumps import PNEXT, WITHIN, is_null, is_number, member_name, structure_type
+from .dumps import PNEXT, WITHIN, is_null, is_number, is_unread, member_name, structure_type
 from .hints import (
     commands_hint,
     has_no_value,
@@ -33,19 +33,27 @@ from .scalars import ATTACHMENT_UNUSED, UNUSED, caseless
 from .shapes import Shape
 from .values import ValueBinder, is_word
 
+UNREAD = "pNext"
+"""The member that names the structures of a pNext chain that are not read."""
+
 
 class Binder(ValueBinder):
     """Reads the records of one document. `problems` and `mentions` fill as it goes."""
 
     def record(self, kind: type[Record], node: Node, path: str, key: str, head: Span | None = None) -> Any:
         """The record of that class that a mapping states."""
-        record = kind(node, path, key, head if head is not None else head_of(node))
+        record = self.structure(kind, node, path, key, head if head is not None else head_of(node))
+        if self.dumped and node.kind == "mapping" and "pNext" in node.value:
+            self.chain(record, node.value["pNext"])
+        return record
+
+    def structure(self, kind: type[Record], node: Node, path: str, key: str, head: Span) -> Any:
+        """The record of a mapping, without what its pNext chain states."""
+        record = kind(node, path, key, head)
         if node.kind != "mapping":
             self.wrong_structure(node, path, "a mapping", "" if self.dumped else mapping_hint(("record", kind), node))
             return record
         self.members(record, node, path)
-        if self.dumped and "pNext" in node.value:
-            self.chain(record, node.value["pNext"])
         if isinstance(record, DepthStencilResolve) and record.attachment is not None and record.attachment.layout is None:
             record.attachment.layout = record.layout
         return record
@@ -81,22 +89,31 @@ class Binder(ValueBinder):
                 setattr(record, name, self.value(shape, value, f"{path}.{key_text}" if path else key_text, key_text, key.span))
 
     def chain(self, record: Record, node: Node) -> None:
-        """Gives a record the members that its pNext chain states."""
+        """Gives a record the members that its pNext chain states, and the names of the structures that are not read."""
         path = f"{record.path}.pNext"
+        unread: list[str] = []
         while node.kind == "mapping":
             stype = structure_type(node)
             name = PNEXT.get(stype)
             if WITHIN.get(stype) is type(record):
                 self.members(record, node, path)
-            elif name is not None and name in record.SHAPE:
+            elif name is not None and name in record.SHAPE and record.SHAPE[name][0] == "record":
                 key = node.keys["sType"]
                 record.spelled[name] = (key, node)
-                setattr(record, name, self.value(record.SHAPE[name], node, path, name, key.span))
+                setattr(record, name, self.structure(record.SHAPE[name][1], node, path, name, key.span))
+            elif is_unread(stype, type(record)):
+                unread.append(stype or "UNKNOWN")
             following = node.value.get("pNext")
             if following is None:
                 break
             path += ".pNext"
             node = following
+        if node.kind == "sequence":
+            unread += [item.text or "UNKNOWN" for item in node.value]
+        elif node.kind == "scalar" and not is_null(node):
+            unread.append("UNKNOWN")
+        if unread and UNREAD in record.SHAPE:
+            setattr(record, UNREAD, tuple(unread))
 
     def unindented(self, above: str, key: Node, path: str) -> None:
         """Reports a key that lacks the indentation to be part of the value of the key above it."""

@@ -7,7 +7,7 @@ from msaa_lint.core.text.node import Node
 from msaa_lint.core.text.source import Source
 from msaa_lint.core.text.span import Span
 
-from .models import Description, MetalStencilAttachment
+from .models import BeginRendering, Description, MetalStencilAttachment
 from .problems import Problem
 from .record import Record
 
@@ -78,6 +78,18 @@ class Document(NamedTuple):
         """Whether it states how often its frame occurs in its program, and has no problems."""
         frame = self.description.frame
         return frame is not None and frame.share is not None and not self.problems
+
+    @property
+    def has_unread_structures(self) -> bool:
+        """Whether a pNext chain has a structure that was not read: what nothing that was read uses may be used all the same."""
+        records: list[Record] = list(self.description.images.values())
+        for render_pass in self.description.renderPasses.values():
+            records += (render_pass, *render_pass.attachments, *render_pass.subpasses)
+        for command in self.description.commands or ():
+            if command is not None and isinstance(command.body, BeginRendering):
+                attachments = (*command.body.colorAttachments, command.body.depthAttachment, command.body.stencilAttachment)
+                records += (command.body, *(attachment for attachment in attachments if attachment is not None))
+        return any(getattr(record, "pNext", ()) for record in records)
 
     @property
     def api(self) -> str:

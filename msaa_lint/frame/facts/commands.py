@@ -68,6 +68,9 @@ def naming_records(command: Command) -> Iterator[tuple[Record, str]]:
     """Every image that a command names, attachments of renderings and barriers included, with the record that names it."""
     body = command.body
     if isinstance(body, BeginRendering):
+        for rate in (body.fragmentDensityMapAttachment, body.fragmentShadingRateAttachment):
+            if rate is not None and rate.image is not None:
+                yield rate, rate.image
         for info in (*body.colorAttachments, body.depthAttachment, body.stencilAttachment):
             for name in (info.image, info.resolveImage) if info is not None else ():
                 if info is not None and name is not None:

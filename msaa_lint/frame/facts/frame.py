@@ -157,6 +157,9 @@ class Frame:
                 made.attachments.append(self._described(name, description, index))
             named = {a.name: a for a in made.attachments}
             made.subpasses = [self._subpass(made, subpass, n, named) for n, subpass in enumerate(record.subpasses)]
+            density_map = _referred(made, record.fragmentDensityMapAttachment, named)
+            if density_map is not None:
+                density_map.rate.update(range(max(len(made.subpasses), 1)))
             # A slot of Metal's says which aspects it is attached for.
             slots = self.document.metal.attachments if self.document.metal is not None else {}
             for attachment in made.attachments:
@@ -204,11 +207,7 @@ class Frame:
         made = PassSubpass(render_pass, record, index)
 
         def find(reference: AttachmentReference | None) -> Attachment | None:
-            if reference is None or reference.attachment is None:
-                return None
-            if isinstance(reference.attachment, int):
-                return render_pass.attachments[reference.attachment] if reference.attachment < len(render_pass.attachments) else None
-            return named.get(reference.attachment)
+            return _referred(render_pass, reference, named)
 
         for reference in record.colorAttachments:
             attachment = find(reference)
@@ -217,6 +216,9 @@ class Frame:
                 attachment.color.add(index)
         for attachment in filter(None, map(find, record.inputAttachments)):
             attachment.input.add(index)
+        rate = find(record.fragmentShadingRateAttachment)
+        if rate is not None:
+            rate.rate.add(index)
         for attachment in filter(None, map(find, record.preserveAttachments)):
             attachment.preserve.add(index)
         depth_stencil = find(record.depthStencilAttachment)
@@ -312,6 +314,8 @@ class Frame:
     def _rendering(self, made: Pass, record: BeginRendering) -> None:
         subpass = PassSubpass(made, record, 0)
         made.subpasses = [subpass]
+        rates = (record.fragmentDensityMapAttachment, record.fragmentShadingRateAttachment)
+        made.rates = [target for target in (self.target(rate.image) for rate in rates if rate is not None) if target is not None]
         stated = [("color", a) for a in record.colorAttachments]
         stated += [("depth", record.depthAttachment), ("stencil", record.stencilAttachment)]
         pair: Resolve | None = None
@@ -413,11 +417,20 @@ class Frame:
         for framebuffer in self.framebuffers_of(record):
             if framebuffer.width is not None:
                 return framebuffer.width, framebuffer.height
-        for target in (target for attachment in begun.attachments for target in attachment.targets):
+        for target in (target for attachment in begun.attachments if not attachment.only_rate for target in attachment.targets):
             if target.size is not None:
                 return target.size
         size = self.description.frame
         return (size.width, size.height) if size is not None else (None, None)
+
+
+def _referred(render_pass: Pass, reference: AttachmentReference | None, named: dict[str, Attachment]) -> Attachment | None:
+    """The attachment of a pass, `named` by its name, that a reference means; None for VK_ATTACHMENT_UNUSED."""
+    if reference is None or reference.attachment is None:
+        return None
+    if isinstance(reference.attachment, int):
+        return render_pass.attachments[reference.attachment] if reference.attachment < len(render_pass.attachments) else None
+    return named.get(reference.attachment)
 
 
 def _implied(passes: Iterable[Pass]) -> list[Target]:

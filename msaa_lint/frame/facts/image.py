@@ -314,6 +314,8 @@ def _read(target: Target, bindings: Bindings, frame: Frame, readers: Readers) ->
     """
     image = target.image
     assert image is not None
+    if any(attachment.rate for attachment in bindings.used_by(image)):
+        return True
     if not readers.timeline.followed:
         return None
     uses = readers.uses(target.name)

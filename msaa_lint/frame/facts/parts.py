@@ -84,6 +84,8 @@ class Attachment:
         """By subpass: the aspects that a resolve with a source and a mode overwrites here; `?` for one whose mode is unknown."""
         self._resolved: list[ref[Resolve]] = []
         self.input: set[int] = set()
+        self.rate: set[int] = set()
+        """The subpasses that it is the fragment density map or the shading rate attachment of, which read it."""
         self.preserve: set[int] = set()
 
     @property
@@ -107,7 +109,12 @@ class Attachment:
     @property
     def used(self) -> bool:
         """Whether a subpass refers to it at all."""
-        return bool(self.color or self.depth_stencil or self.resolve or self.input)
+        return bool(self.color or self.depth_stencil or self.resolve or self.input or self.rate)
+
+    @property
+    def only_rate(self) -> bool:
+        """Whether it is nothing but a fragment density map or shading rate attachment, which is not as large as the others."""
+        return bool(self.rate) and not (self.color or self.depth_stencil or self.resolve or self.input)
 
     @property
     def drawn(self) -> bool:
@@ -227,6 +234,8 @@ class Pass:
         self.attachments: list[Attachment] = []
         self.subpasses: list[PassSubpass] = []
         self.begun: list[int] = []
+        self.rates: list[Target] = []
+        """The fragment density map and the shading rate attachment of a rendering, which reads them and has no operations for them."""
         self.partial_area: bool | None = False
         """Whether some render area that it is begun with is smaller than what it renders to; None where a size is not stated."""
 
@@ -253,6 +262,12 @@ class Pass:
             for each in self.subpasses
         )
         return len(self.attachments) + sum(references) + len(getattr(self.record, "dependencies", ()))
+
+    @cached_property
+    def unread(self) -> bool:
+        """Whether a pNext chain of it has a structure that was not read, which may use its attachments in any way."""
+        records = (self.record, *(each.record for each in self.subpasses), *(each.record for each in self.attachments))
+        return any(record.pNext for record in records)
 
     @cached_property
     def custom_resolve(self) -> bool:

@@ -121,10 +121,10 @@ def _draw(current: Instance, draw: Draw, render_pass: Pass, subpass: int, frame:
 
 def touch_facts(facts: Facts, render_pass: Pass, attachment: Attachment, aspect: Aspect, instances: list[Instance], frame: Frame) -> None:
     """Adds whether anything in the pass touches an aspect, and whether the pass clears it by a command before it draws."""
-    untouched = not attachment.used
-    if attachment.used and instances and facts.values.get("aspect.resolved") is False:
+    untouched = not (attachment.used or render_pass.unread)
+    if attachment.used and not render_pass.unread and instances and facts.values.get("aspect.resolved") is False:
         untouched = _untouched(render_pass, attachment, aspect, instances, frame)
-    if attachment.used or render_pass.subpasses or frame.document.whole:
+    if attachment.used or (not render_pass.unread and (render_pass.subpasses or frame.document.whole)):
         facts.put("aspect.untouched", untouched)
     if untouched:
         needs = aspect.store_member if aspect.store == "STORE" and aspect.load != "LOAD" else aspect.load_member
@@ -142,7 +142,7 @@ def _untouched(render_pass: Pass, attachment: Attachment, aspect: Aspect, instan
     enabled = frame.description.enabled
     fetches = enabled is not None and not _FETCHING.isdisjoint(enabled.extensions or ())
     depth_bounds = enabled is not None and "depthBounds" in (enabled.features or ())
-    if not instances or attachment.input or attachment.resolve or aspect.name is None or fetches:
+    if not instances or attachment.input or attachment.rate or attachment.resolve or aspect.name is None or fetches:
         return False
     for instance in instances:
         if not instance.says or not instance.read.isdisjoint(t.name for t in targets_at(frame, attachment, instance.position)):
@@ -339,7 +339,8 @@ def _area(render_pass: Pass, attachment: Attachment, instance: Instance, frame: 
         if area.width is None or area.height is None:
             return None, layers
         return (area.x or 0, area.y or 0, (area.x or 0) + area.width, (area.y or 0) + area.height), layers
-    extents = [target.image.extent for target in attachment.targets if target.image is not None and target.image.extent is not None]
+    targets = attachment.targets if not attachment.only_rate else ()
+    extents = [target.image.extent for target in targets if target.image is not None and target.image.extent is not None]
     for sized in (*buffers, *extents, frame.description.frame):
         if sized is not None and sized.width is not None and sized.height is not None:
             return (0, 0, sized.width, sized.height), layers

@@ -25,7 +25,9 @@ READS = "reads"
 OVERWRITES = "overwrites"
 MAY_READ = "may read"
 
-READING_USAGES = frozenset({"SAMPLED", "STORAGE", "INPUT_ATTACHMENT", "TRANSFER_SRC"})
+READING_USAGES = frozenset({
+    "SAMPLED", "STORAGE", "INPUT_ATTACHMENT", "TRANSFER_SRC", "FRAGMENT_DENSITY_MAP_EXT", "FRAGMENT_SHADING_RATE_ATTACHMENT_KHR",
+})  # fmt: skip
 
 
 class Store(NamedTuple):
@@ -73,7 +75,7 @@ class Readers:
 
     def _reads_later(self, render_pass: Pass, attachment: Attachment, aspect: Aspect) -> bool | None:
         runs = self.timeline.walk.runs_of(render_pass)
-        if render_pass.suspends:
+        if attachment.rate or render_pass.suspends:
             # What a suspended rendering draws is stored by the one that resumes and ends it.
             return True
         if not self.timeline.followed:
@@ -215,6 +217,8 @@ def _load_effect(event: Event) -> str | None:
     assert isinstance(attachment, Attachment)
     if event.kind == LOAD and event.certain:
         return READS
+    if not attachment.used:
+        return MAY_READ
     # Of images that alternate from frame to frame, each is left as it was in every other frame.
     overwrites = OVERWRITES if event.whole and event.frames is None else None
     if event.kind == BEGIN or any(event.aspect in aspects for aspects in attachment.resolve.values()):

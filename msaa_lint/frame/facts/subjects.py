@@ -202,7 +202,7 @@ class FrameAnalysis:
 
     def _attachments(self, render_pass: Pass, shared: Facts, instances: list[Instance]) -> Iterator[Subject]:
         resolves = resolves_at(render_pass)
-        subpasses_known = self.frame.document.whole or bool(render_pass.subpasses)
+        subpasses_known = (self.frame.document.whole or bool(render_pass.subpasses)) and not render_pass.unread
         for attachment in render_pass.attachments:
             facts = Facts(shared, self._image_of(attachment), attachment_facts(attachment, subpasses_known))
             single_sampled_facts(facts, render_pass, attachment, self.device, chained_known=self.frame.document.format != "")

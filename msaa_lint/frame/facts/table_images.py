@@ -91,7 +91,11 @@ ATTACHMENT = (
     Fact("attachment.name", "STRING", "name, or index"),
     Fact("attachment.format", "STRING", "format", "VkFormat"),
     Fact("attachment.samples", "INT", "samples per texel"),
-    Fact("attachment.used", "BOOL", "a subpass references it as color, depth-stencil, resolve or input attachment"),
+    Fact(
+        "attachment.used",
+        "BOOL",
+        "a subpass references it as color, depth-stencil, resolve, input or shading rate attachment, or it is the density map",
+    ),
     Fact("attachment.drawn", "BOOL", "a subpass draws to it: it is a color or depth-stencil attachment"),
     Fact("attachment.is_resolve_target", "BOOL", "a resolve writes it"),
     Fact("attachment.read_as_input", "BOOL", "a subpass reads it as input attachment"),

@@ -15,7 +15,7 @@ from typing import NamedTuple
 from msaa_lint.core.text.span import Span
 from msaa_lint.frame.description.models import BeginRenderPass, Command, ImageBarrier, PipelineBarrier
 
-from .commands import CLEAR, COMMAND_WRITES, RESOLVE_READ, RESOLVE_WRITE, accesses
+from .commands import CLEAR, COMMAND_WRITES, READ, RESOLVE_READ, RESOLVE_WRITE, accesses
 from .frame import Frame
 from .parts import RESUMED, SUSPENDED, Attachment, Pass, Resolve, Target, sizes_differ
 from .pass_begin import BegunArea, begun_area, is_followed, one_surface, targets_at
@@ -215,8 +215,12 @@ class Timeline:
     def _run_events(self, run: PassRun) -> Iterator[tuple[str, Event]]:
         stores: list[tuple[str, Event]] = []
         covered: dict[str, bool] = {}
+        begin_command = run.position if run.position is not None else next(iter(run.render_pass.begun), None)
+        for target in run.render_pass.rates if begin_command is not None else ():
+            command = self.frame.commands[begin_command]
+            yield key_of(target), Event(run.begin_time, READ, None, True, True, None, "", run, command)
         for attachment in run.render_pass.attachments:
-            if not attachment.used:
+            if not (attachment.used or run.render_pass.unread):
                 continue
             for target, frames in self._images(attachment, run):
                 key = key_of(target)
@@ -224,11 +228,17 @@ class Timeline:
                     covered[key] = self.area(run.render_pass, run.position).covers(target)
                 whole = covered[key] and frames is not SOME_FRAMES
                 for aspect in attachment.aspects:
+                    if not attachment.used:
+                        # A structure that was not read may use it.
+                        source = (attachment, aspect.load_member, run)
+                        yield key, Event(run.begin_time, LOAD, aspect.name, whole, False, *source)
+                        stores.append((key, Event(run.end_time, STORE, aspect.name, whole, False, attachment, aspect.store_member, run)))
+                        continue
                     begin = _BEGINS.get(aspect.load)
                     if aspect.load == "NONE" and (attachment.drawn or attachment.input):
                         # Nothing is left inside the pass of what was there, though a pass that tests or blends with it means it.
                         begin = LOAD, False
-                    if begin is not None:
+                    if begin is not None and not (attachment.only_rate and begin[0] == BEGIN):
                         kind, certain = begin
                         yield (
                             key,
@@ -238,12 +248,14 @@ class Timeline:
                         yield key, Event(run.starts[index], DRAW, aspect.name, whole, True, attachment, "", run, None, frames)
                     # The suspended rendering states the same, and performed it.
                     load = attachment.record.loadOp if aspect.load == RESUMED else aspect.load
-                    end = _end(attachment, load, aspect.store)
+                    # A pass does not write its density map, whose storeOp is DONT_CARE
+                    # (VUID-VkRenderPassFragmentDensityMapCreateInfoEXT-fragmentDensityMapAttachment-02551).
+                    end = None if attachment.only_rate else _end(attachment, load, aspect.store)
                     if end is not None:
                         kind, certain = end
                         event = Event(run.end_time, kind, aspect.name, whole, certain, attachment, aspect.store_member, run, None, frames)
                         stores.append((key, event))
-                for index in attachment.input:
+                for index in attachment.input | attachment.rate:
                     yield key, Event(run.starts[index], INPUT, None, whole, True, attachment, "", run, None, frames)
         if not run.render_pass.suspends:
             for resolve in run.render_pass.resolves:

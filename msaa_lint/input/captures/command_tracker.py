@@ -4,7 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Hashable
 
-from msaa_lint.frame.description.models import BeginRendering, RenderingAttachment
+from msaa_lint.frame.description.models import (
+    BeginRendering,
+    FragmentDensityMapAttachment,
+    FragmentShadingRateAttachment,
+    RenderingAttachment,
+)
+from msaa_lint.frame.description.record import Record
 
 from . import values
 from .bound_sets import GRAPHICS, BoundSets, bind_point
@@ -35,6 +41,13 @@ COUNTED = {"vkCmdDraw": "vertexCount", "vkCmdDrawIndexed": "indexCount"}
 
 MULTIPLE = {"vkCmdDrawMultiEXT": ("vertexCount", "pVertexInfo"), "vkCmdDrawMultiIndexedEXT": ("indexCount", "pIndexInfo")}
 """Of commands that draw several times: the member with the number of vertices or indices, and the array of structures that has it."""
+
+
+RATES: dict[str, tuple[str, type[Record]]] = {
+    "RENDERING_FRAGMENT_DENSITY_MAP_ATTACHMENT_INFO": ("fragmentDensityMapAttachment", FragmentDensityMapAttachment),
+    "RENDERING_FRAGMENT_SHADING_RATE_ATTACHMENT_INFO": ("fragmentShadingRateAttachment", FragmentShadingRateAttachment),
+}
+"""Structures chained to a VkRenderingInfo that name an image, with the member of a description for each."""
 
 
 class CommandTracker(BoundSets):
@@ -94,22 +107,28 @@ class CommandTracker(BoundSets):
             attachment = self._attachment(info.get(name))
             if attachment is not None:
                 tree[member] = attachment
+        rates = [values.chained(info, structure) for structure in RATES]
+        for rate, (member, kind) in zip(rates, RATES.values(), strict=True):
+            tree.pop(member, None)
+            attachment = self._attachment(rate, kind)
+            if attachment is not None:
+                tree[member] = attachment
         # The commands of a secondary command buffer are inlined where it is executed.
         tree["flags"] = [flag for flag in tree.get("flags", []) if not flag.startswith("CONTENTS")]
         parts = self.parts_of(
             values.record(each).get(member)
-            for each in (info.get("pDepthAttachment"), info.get("pStencilAttachment"), *colors)
+            for each in (info.get("pDepthAttachment"), info.get("pStencilAttachment"), *colors, *rates)
             for member in ("imageView", "resolveImageView")
         )
         self._record_boundary(call, "beginRendering", freeze(tree), parts)
 
-    def _attachment(self, value: object) -> Tree | None:
-        """A VkRenderingAttachmentInfo with images in place of views; None if it has no view."""
+    def _attachment(self, value: object, kind: type[Record] = RenderingAttachment) -> Tree | None:
+        """A VkRenderingAttachmentInfo, or another `kind`, with images in place of views; None if it has no view."""
         info = values.record(value)
         image = self.view(info.get("imageView"))
         if image is None:
             return None
-        tree = to_tree(RenderingAttachment, info)
+        tree = to_tree(kind, info if kind is RenderingAttachment else {**info, "pNext": None})
         attachment: Tree = {"image": image, **tree}
         resolve = self.view(info.get("resolveImageView"))
         if resolve is not None:

@@ -10,7 +10,7 @@ from msaa_lint.frame.description.models import Pipeline, RenderPass
 from msaa_lint.frame.vulkan.formats import format_of
 
 from . import values
-from .structures import Tree, slot, to_tree
+from .structures import Tree, to_tree
 
 
 def render_pass_of(info: dict[str, Any]) -> Tree:
@@ -18,7 +18,6 @@ def render_pass_of(info: dict[str, Any]) -> Tree:
     tree = to_tree(RenderPass, info)
     for attachment in tree.get("attachments", ()):
         _drop_stencil(attachment)
-    _add_shading_rate_inputs(tree, info)
     _drop_dangling_references(tree)
     return tree
 
@@ -29,18 +28,6 @@ def _drop_stencil(attachment: Tree) -> None:
     if format is not None and "stencil" not in format.aspects:
         for member in ("stencilLoadOp", "stencilStoreOp", "stencilInitialLayout", "stencilFinalLayout"):
             attachment.pop(member, None)
-
-
-def _add_shading_rate_inputs(tree: Tree, info: dict[str, Any]) -> None:
-    """Adds fragment density maps and shading rate attachments as input attachments, because the pass reads them."""
-    density = values.chained(info, "RENDER_PASS_FRAGMENT_DENSITY_MAP_CREATE_INFO")
-    density_map = slot(density.get("fragmentDensityMapAttachment")) if density is not None else None
-    for subpass, info_of_subpass in zip(tree.get("subpasses", ()), values.items(info.get("pSubpasses")), strict=False):
-        rate = values.chained(values.record(info_of_subpass), "FRAGMENT_SHADING_RATE_ATTACHMENT_INFO")
-        rate_attachment = slot(rate.get("pFragmentShadingRateAttachment")) if rate is not None else None
-        inputs = [reference for reference in (density_map, rate_attachment) if reference is not None]
-        if inputs:
-            subpass["inputAttachments"] = [*subpass.get("inputAttachments", ()), *inputs]
 
 
 def _drop_dangling_references(tree: Tree) -> None:
@@ -55,11 +42,14 @@ def _drop_dangling_references(tree: Tree) -> None:
         for member in ("inputAttachments", "colorAttachments", "resolveAttachments", "preserveAttachments"):
             if member in subpass:
                 subpass[member] = [valid_or_none(reference) for reference in subpass[member]]
-        if valid_or_none(subpass.get("depthStencilAttachment")) is None:
-            subpass.pop("depthStencilAttachment", None)
+        for member in ("depthStencilAttachment", "fragmentShadingRateAttachment"):
+            if valid_or_none(subpass.get(member)) is None:
+                subpass.pop(member, None)
         resolve = subpass.get("depthStencilResolve")
         if resolve is not None and valid_or_none(resolve.get("attachment")) is None:
             resolve.pop("attachment", None)
+    if valid_or_none(tree.get("fragmentDensityMapAttachment")) is None:
+        tree.pop("fragmentDensityMapAttachment", None)
     dependencies = tree.get("dependencies", [])
     ends = ("srcSubpass", "dstSubpass")
     tree["dependencies"] = [

@@ -192,8 +192,9 @@ class _Writer:
             tree, origin = render_pass.tree, self.origin(render_pass)
             value = "" if tree else " {}"
             self.lines.line(f"  {scalar(self.names.render_pass(render_pass))}:{value}  # {origin_comment(render_pass)}", origin)
-            if "flags" in tree:
-                self.lines.member(4, "flags", tree["flags"], origin)
+            for member in ("flags", "fragmentDensityMapAttachment", "pNext"):
+                if member in tree:
+                    self.lines.member(4, member, tree[member], origin)
             for member in ("attachments", "subpasses", "dependencies"):
                 if member in tree:
                     self.lines.line(f"    {member}:", origin)

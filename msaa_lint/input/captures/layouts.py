@@ -198,7 +198,8 @@ def _pass_uses(begin: RenderPassBegin) -> Iterator[tuple[Image | None, Layouts, 
 
 
 def _rendering_uses(tree: dict[str, Any]) -> Iterator[tuple[Image | None, Layouts, Layouts]]:
-    for info in (*tree.get("colorAttachments", ()), tree.get("depthAttachment"), tree.get("stencilAttachment")):
+    rates = (tree.get("fragmentDensityMapAttachment"), tree.get("fragmentShadingRateAttachment"))
+    for info in (*tree.get("colorAttachments", ()), tree.get("depthAttachment"), tree.get("stencilAttachment"), *rates):
         attachment = dict(info or ())
         for image, layout in (("image", "imageLayout"), ("resolveImage", "resolveImageLayout")):
             layouts = readable(attachment.get(layout))
@@ -212,6 +213,7 @@ def _pass_layouts(render_pass: RenderPass) -> list[AttachmentLayouts]:
         within: dict[int, Layouts] = {}
         for subpass in tree.get("subpasses", ()):
             references = [subpass.get("depthStencilAttachment"), subpass.get("depthStencilResolve")]
+            references += [subpass.get("fragmentShadingRateAttachment"), tree.get("fragmentDensityMapAttachment")]
             for member in ("colorAttachments", "resolveAttachments", "inputAttachments"):
                 references += subpass.get(member, ())
             for reference in references:

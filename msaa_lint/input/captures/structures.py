@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from msaa_lint.frame.description.dumps import DECISIVE, OTHER_NAMES, PNEXT, WITHIN
+from msaa_lint.frame.description.dumps import DECISIVE, OTHER_NAMES, PNEXT, WITHIN, is_unread
 from msaa_lint.frame.description.record import Record
 from msaa_lint.frame.description.scalars import ATTACHMENT_UNUSED
 from msaa_lint.frame.description.shapes import Shape
@@ -52,7 +52,9 @@ def _members(kind: type[Record]) -> Members:
         return known
     others = {member: [other for other, name in OTHER_NAMES.items() if name == member] for member in kind.SHAPE}
     _MEMBERS[kind] = [
-        (member, shape, (member, f"p{member[0].upper()}{member[1:]}", *others[member])) for member, shape in kind.SHAPE.items()
+        (member, shape, (member, f"p{member[0].upper()}{member[1:]}", *others[member]))
+        for member, shape in kind.SHAPE.items()
+        if member != "pNext"
     ]
     return _MEMBERS[kind]
 
@@ -64,6 +66,8 @@ def _add_chained(kind: type[Record], tree: Tree, structure: dict[str, Any], dept
         tree.update(to_tree(kind, {key: value for key, value in structure.items() if key != "pNext"}, depth + 1))
     elif member is not None and member in kind.SHAPE and kind.SHAPE[member][0] == "record":
         tree[member] = to_tree(kind.SHAPE[member][1], {**structure, "pNext": None}, depth + 1)
+    elif is_unread(name, kind):
+        tree["pNext"] = [*tree.get("pNext", ()), name or "UNKNOWN"]
 
 
 def _value(shape: Shape, value: object, depth: int) -> Any:

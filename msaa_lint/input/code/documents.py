@@ -36,6 +36,7 @@ def _read(source: Source, tree: Node) -> Document:
     binder = Binder(dumped=True)
     record: Description = binder.record(Description, tree, "", "", tree.span)
     description.check_names(binder, record)
+    description.forget_unread(record)
     return Document(source, record, tuple(binder.problems))
 
 

@@ -11,7 +11,16 @@ from msaa_lint.core.text.span import Span
 from msaa_lint.core.text.tree import Node
 from msaa_lint.frame.description.bind import Binder
 from msaa_lint.frame.description.document import Document
-from msaa_lint.frame.description.models import AttachmentReference, BeginRenderPass, Description, Device, Framebuffer, RenderPass, Subpass
+from msaa_lint.frame.description.models import (
+    AttachmentReference,
+    BeginRendering,
+    BeginRenderPass,
+    Description,
+    Device,
+    Framebuffer,
+    RenderPass,
+    Subpass,
+)
 from msaa_lint.frame.description.problems import Problem, member_of
 
 SECTIONS = frozenset(Description.SHAPE)
@@ -41,7 +50,7 @@ def read(source: Source, root: Node) -> Document:
 
         check_order(binder, description)
     if description.metal is None:
-        return Document(source, description, tuple(binder.problems))
+        return Document(source, description, tuple(binder.problems), ordered=not forget_unread(description))
     from . import metal
 
     metal.check(binder, description)
@@ -70,6 +79,19 @@ def _of_render_targets(source: Source, description: Description, binder: Binder)
         return Document(source, description, tuple(binder.problems))
     tree = expansion.expand(description)
     return read(source, tree)._replace(tree=tree)
+
+
+def forget_unread(description: Description) -> bool:
+    """Makes unknown what structures of a pNext chain that were not read may add: usages and readers of their images.
+
+    Returns whether one may name any image, so that what the commands do is not all known.
+    """
+    for image in description.images.values():
+        if image.pNext:
+            image.usage, image.mayBeRead = None, True
+            image.spelled.pop("usage", None)
+    bodies = (command.body for command in description.commands or () if command is not None)
+    return any(isinstance(body, BeginRendering) and body.pNext for body in bodies)
 
 
 def check_names(binder: Binder, description: Description) -> None:
@@ -160,7 +182,7 @@ def _attachments(binder: Binder, name: str, render_pass: RenderPass) -> None:
         if resolves > colors and subpass.states("colorAttachments") and not binder.dumped:
             message = f"`resolveAttachments` has {_count(resolves, 'item')}, but `colorAttachments` {colors}; list at most one for each"
             binder.report("MSAA903", message, subpass.place("resolveAttachments"), f"{subpass.path}.resolveAttachments")
-        for reference in _references(subpass):
+        for reference in _references(subpass, render_pass):
             attachment = reference.attachment
             if attachment is None or (isinstance(attachment, int) and attachment < count) or attachment in names:
                 continue
@@ -196,11 +218,15 @@ def _count(number: int, noun: str) -> str:
     return f"{number} {noun}{'' if number == 1 else 'es' if noun.endswith('s') else 's'}"
 
 
-def _references(subpass: Subpass) -> list[AttachmentReference]:
-    """Every attachment reference of a subpass."""
+def _references(subpass: Subpass, render_pass: RenderPass) -> list[AttachmentReference]:
+    """Every attachment reference of a subpass, and with the first one those of the render pass itself."""
     found = [*subpass.inputAttachments, *subpass.colorAttachments, *subpass.resolveAttachments, *subpass.preserveAttachments]
     if subpass.depthStencilAttachment is not None:
         found.append(subpass.depthStencilAttachment)
+    if subpass.fragmentShadingRateAttachment is not None:
+        found.append(subpass.fragmentShadingRateAttachment)
+    if render_pass.fragmentDensityMapAttachment is not None and subpass is render_pass.subpasses[0]:
+        found.append(render_pass.fragmentDensityMapAttachment)
     if subpass.depthStencilResolve is not None and subpass.depthStencilResolve.attachment is not None:
         found.append(subpass.depthStencilResolve.attachment)
     return found

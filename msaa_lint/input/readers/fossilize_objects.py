@@ -58,6 +58,8 @@ CHAINED: dict[int, tuple[str, dict[str, str]]] = {
         {"depthStencilResolveAttachment": "pDepthStencilResolveAttachment"},
     ),
     1000241002: ("ATTACHMENT_DESCRIPTION_STENCIL_LAYOUT", {}),
+    1000218002: ("RENDER_PASS_FRAGMENT_DENSITY_MAP_CREATE_INFO_EXT", {}),
+    1000226000: ("FRAGMENT_SHADING_RATE_ATTACHMENT_INFO_KHR", {"fragmentShadingRateAttachment": "pFragmentShadingRateAttachment"}),
     1000314000: ("MEMORY_BARRIER_2", {}),
     1000376002: ("MULTISAMPLED_RENDER_TO_SINGLE_SAMPLED_INFO_EXT", {}),
 }

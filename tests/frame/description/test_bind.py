@@ -112,7 +112,7 @@ IS_NO = "MSAA903"
         (
             "images: {a: ⟦[⟧{}]}",
             "`images.a` must be a mapping, found a list; its keys are format, samples, usage, memory, "
-            "presentable, extent, mipLevels, arrayLayers, imageType, tiling, flags, sharingMode, initialLayout, encoding, mayBeRead",
+            "presentable, extent, mipLevels, arrayLayers, imageType, tiling, flags, sharingMode, initialLayout, encoding, mayBeRead, pNext",
             "",
         ),
         ("images: {a: {usage: ⟦{⟧}}}", "`usage` must be a list of VkImageUsageFlagBits, found a mapping", ""),

@@ -19,6 +19,13 @@ from msaa_lint.frame.description.record import Record
 from msaa_lint.frame.description.scalars import ATTACHMENT_UNUSED, UNUSED
 from tests.frame.description.shapes import JUNK, MODELS, RECORDS, Json, paths, replaced, structure
 
+SLOTS = {
+    "DepthStencilResolve": {"attachment"},
+    "RenderPass": {"fragmentDensityMapAttachment"},
+    "Subpass": {"depthStencilAttachment", "fragmentShadingRateAttachment"},
+}
+"""Members that refer to an attachment, which null leaves unused."""
+
 UNHURRIED = [HealthCheck.too_slow, HealthCheck.data_too_large, HealthCheck.filter_too_much]
 SOME = settings(max_examples=100, deadline=None, suppress_health_check=UNHURRIED)
 MANY = settings(max_examples=300, deadline=None, suppress_health_check=UNHURRIED)
@@ -65,7 +72,7 @@ def members(value: Any, names: list[str]) -> dict[str, Any]:
         held = plain(getattr(value, name), name)
         if type(value).__name__ == "Subpass" and name in slots:
             held = [slot(each) for each in held]
-        elif (type(value).__name__, name) in (("Subpass", "depthStencilAttachment"), ("DepthStencilResolve", "attachment")):
+        elif name in SLOTS.get(type(value).__name__, ()):
             held = slot(held)
         out[name] = held
     if type(value).__name__ == "DepthStencilResolve" and out["attachment"] is not None:
@@ -151,8 +158,7 @@ def test_mutated_structures_are_refused_by_both_or_by_neither(data: st.DataObjec
 NULLABLE = {
     "AttachmentReference": {"attachment"},
     "Command": {"nextSubpass", "endRenderPass", "endRendering"},
-    "DepthStencilResolve": {"attachment"},
-    "Subpass": {"depthStencilAttachment"},
+    **SLOTS,
 }
 """Members for which null says something: an unused attachment, no parameters."""
 

@@ -26,7 +26,7 @@ from ..members import (
 )
 from ..record import Record
 from ..shapes import shapes_of
-from .vulkan import RenderToSingleSampled
+from .vulkan import Extent2D, RenderToSingleSampled, UnreadStructures
 
 
 class Rect(Record):
@@ -58,6 +58,22 @@ class RenderingAttachment(Record):
     resolveImageLayout: Layout | None = None
     loadOp: LoadOp | None = None
     storeOp: StoreOp | None = None
+    pNext: UnreadStructures = ()
+
+
+class FragmentDensityMapAttachment(Record):
+    """VkRenderingFragmentDensityMapAttachmentInfoEXT, with an image in place of the view."""
+
+    image: ImageName | None = None
+    imageLayout: Layout | None = None
+
+
+class FragmentShadingRateAttachment(Record):
+    """VkRenderingFragmentShadingRateAttachmentInfoKHR, with an image in place of the view."""
+
+    image: ImageName | None = None
+    imageLayout: Layout | None = None
+    shadingRateAttachmentTexelSize: Extent2D | None = None
 
 
 class BeginRendering(Record):
@@ -71,7 +87,10 @@ class BeginRendering(Record):
     depthAttachment: RenderingAttachment | None = None
     stencilAttachment: RenderingAttachment | None = None
     multisampledRenderToSingleSampled: RenderToSingleSampled | None = None
+    fragmentDensityMapAttachment: FragmentDensityMapAttachment | None = None
+    fragmentShadingRateAttachment: FragmentShadingRateAttachment | None = None
     label: str | tuple[str, ...] | None = None
+    pNext: UnreadStructures = ()
 
 
 class Draw(Record):

@@ -53,6 +53,17 @@ class Extent(Record):
     depth: Size | None = None
 
 
+class Extent2D(Record):
+    """VkExtent2D, in pixels."""
+
+    width: Size | None = None
+    height: Size | None = None
+
+
+UnreadStructures = tuple[str, ...]
+"""The structures of a pNext chain, by sType, that a description has no keys for: what they do is unknown."""
+
+
 class Image(Record):
     """VkImageCreateInfo, the memory it is bound to, what its values encode, and whether something that is not described may read it."""
 
@@ -71,6 +82,7 @@ class Image(Record):
     initialLayout: Layout | None = None
     encoding: Literal["LINEAR", "GAMMA", "DATA"] | None = None
     mayBeRead: bool | None = None
+    pNext: UnreadStructures = ()
 
 
 class AttachmentDescription(Record):
@@ -88,6 +100,7 @@ class AttachmentDescription(Record):
     stencilInitialLayout: Layout | None = None
     stencilFinalLayout: Layout | None = None
     flags: AttachmentFlags = ()
+    pNext: UnreadStructures = ()
 
 
 class AttachmentReference(Record):
@@ -117,7 +130,7 @@ class RenderToSingleSampled(Record):
 
 
 class Subpass(Record):
-    """VkSubpassDescription, VkSubpassDescription2."""
+    """VkSubpassDescription, VkSubpassDescription2, VkFragmentShadingRateAttachmentInfoKHR."""
 
     flags: SubpassFlags = ()
     pipelineBindPoint: PipelineBindPoint | None = None
@@ -129,6 +142,9 @@ class Subpass(Record):
     preserveAttachments: tuple[AttachmentSlot, ...] = ()
     viewMask: Index | None = None
     multisampledRenderToSingleSampled: RenderToSingleSampled | None = None
+    fragmentShadingRateAttachment: AttachmentSlot | None = None
+    shadingRateAttachmentTexelSize: Extent2D | None = None
+    pNext: UnreadStructures = ()
 
 
 class SubpassDependency(Record):
@@ -145,12 +161,14 @@ class SubpassDependency(Record):
 
 
 class RenderPass(Record):
-    """VkRenderPassCreateInfo, VkRenderPassCreateInfo2."""
+    """VkRenderPassCreateInfo, VkRenderPassCreateInfo2, VkRenderPassFragmentDensityMapCreateInfoEXT."""
 
     flags: RenderPassFlags = ()
     attachments: Annotated[tuple[AttachmentDescription, ...], ("counted", ("record", AttachmentDescription))] = ()
     subpasses: tuple[Subpass, ...] = ()
     dependencies: tuple[SubpassDependency, ...] = ()
+    fragmentDensityMapAttachment: AttachmentSlot | None = None
+    pNext: UnreadStructures = ()
 
 
 class Framebuffer(Record):

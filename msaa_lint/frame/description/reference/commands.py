@@ -1,6 +1,7 @@
 """What recorded commands and their keys mean."""
 
 from .entries import Key, Structure
+from .render_passes import UNREAD
 
 _STAGE = Key(
     "Shader stage",
@@ -78,6 +79,36 @@ COMMAND_STRUCTURES = {
                 "right if nothing reads them later.",
                 section="renderpass-store-operations",
             ),
+            "pNext": UNREAD,
+        },
+    ),
+    "FragmentDensityMapAttachment": Structure(
+        "Fragment density map of dynamic rendering",
+        "VkRenderingFragmentDensityMapAttachmentInfoEXT",
+        "renderpass",
+        {
+            "image": Key(
+                "Image",
+                "The name of the image in `images`.",
+                absent="no attachment",
+                source="VkRenderingFragmentDensityMapAttachmentInfoEXT::imageView",
+            ),
+            "imageLayout": Key("Layout", "The layout of the image while rendering.", section="resources-image-layouts"),
+        },
+    ),
+    "FragmentShadingRateAttachment": Structure(
+        "Fragment shading rate attachment of dynamic rendering",
+        "VkRenderingFragmentShadingRateAttachmentInfoKHR",
+        "renderpass",
+        {
+            "image": Key(
+                "Image",
+                "The name of the image in `images`.",
+                absent="no attachment",
+                source="VkRenderingFragmentShadingRateAttachmentInfoKHR::imageView",
+            ),
+            "imageLayout": Key("Layout", "The layout of the image while rendering.", section="resources-image-layouts"),
+            "shadingRateAttachmentTexelSize": Key("Texel size", "The pixels that a texel of the attachment is for."),
         },
     ),
     "BeginRendering": Structure(
@@ -100,11 +131,24 @@ COMMAND_STRUCTURES = {
                 absent="not used",
                 source="VkMultisampledRenderToSingleSampledInfoEXT",
             ),
+            "fragmentDensityMapAttachment": Key(
+                "Fragment density map",
+                "The image that says for each block of pixels how densely it is shaded, such as for a foveated eye buffer. It is read.",
+                absent="none",
+                source="VkRenderingFragmentDensityMapAttachmentInfoEXT",
+            ),
+            "fragmentShadingRateAttachment": Key(
+                "Fragment shading rate attachment",
+                "The image that says for each block of pixels how large a fragment is. It is read.",
+                absent="none",
+                source="VkRenderingFragmentShadingRateAttachmentInfoKHR",
+            ),
             "label": Key(
                 "Debug label",
                 "What the application calls this part of the frame; a list for a rendering that is begun again. Findings begin with it.",
                 source="VkDebugUtilsLabelEXT::pLabelName",
             ),
+            "pNext": UNREAD,
         },
     ),
     "Draw": Structure(

@@ -29,7 +29,7 @@ SPECIFICATION = "https://docs.vulkan.org/spec/latest/chapters"
 REFERENCE_PAGES = "https://docs.vulkan.org/refpages/latest/refpages/source"
 METAL_REFERENCE = "https://developer.apple.com/documentation/metal"
 
-_BY_VALUE = frozenset({"extent", "renderArea"})
+_BY_VALUE = frozenset({"extent", "renderArea", "shadingRateAttachmentTexelSize"})
 """The members of the specification's structures that are structures themselves; others are pointers to them."""
 
 

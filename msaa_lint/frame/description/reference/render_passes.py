@@ -2,7 +2,20 @@
 
 from .entries import Key, Structure
 
+UNREAD = Key(
+    "Structures that are not described",
+    "The structures of the pNext chain, by sType, for which a description has no key. What they use is unknown: no rule then relies on "
+    "nothing using what this structure describes, and no fix of the description is safe.",
+    source="",
+)
+
 RENDER_PASS_STRUCTURES = {
+    "Extent2D": Structure(
+        "Size of a texel",
+        "VkExtent2D",
+        "renderpass-creation",
+        {"width": Key("Width", "The width.", "pixels"), "height": Key("Height", "The height.", "pixels")},
+    ),
     "Extent": Structure(
         "Image size",
         "VkExtent3D",
@@ -71,6 +84,7 @@ RENDER_PASS_STRUCTURES = {
                 absent="false",
                 source="",
             ),
+            "pNext": UNREAD,
         },
     ),
     "AttachmentDescription": Structure(
@@ -131,6 +145,7 @@ RENDER_PASS_STRUCTURES = {
                 source="VkAttachmentDescriptionStencilLayout::stencilFinalLayout",
             ),
             "flags": Key("Attachment flags", "MAY_ALIAS if the attachment may share memory with another one of the render pass."),
+            "pNext": UNREAD,
         },
     ),
     "AttachmentReference": Structure(
@@ -230,6 +245,19 @@ RENDER_PASS_STRUCTURES = {
                 source="VkMultisampledRenderToSingleSampledInfoEXT",
                 section="renderpass",
             ),
+            "fragmentShadingRateAttachment": Key(
+                "Fragment shading rate attachment",
+                "The attachment that says for each block of pixels how large a fragment is. The subpass reads it.",
+                "index from 0",
+                "none",
+                "VkFragmentShadingRateAttachmentInfoKHR::pFragmentShadingRateAttachment",
+            ),
+            "shadingRateAttachmentTexelSize": Key(
+                "Texel size of the shading rate attachment",
+                "The pixels that a texel of the fragment shading rate attachment is for.",
+                source="VkFragmentShadingRateAttachmentInfoKHR::shadingRateAttachmentTexelSize",
+            ),
+            "pNext": UNREAD,
         },
     ),
     "SubpassDependency": Structure(
@@ -268,6 +296,15 @@ RENDER_PASS_STRUCTURES = {
             "dependencies": Key(
                 "Dependencies", "The execution and memory dependencies between subpasses, and with what is outside the render pass."
             ),
+            "fragmentDensityMapAttachment": Key(
+                "Fragment density map",
+                "The attachment that says for each block of pixels how densely it is shaded, such as for a foveated eye buffer. "
+                "The pass reads it, and no subpass names it.",
+                "index from 0",
+                "none",
+                "VkRenderPassFragmentDensityMapCreateInfoEXT::fragmentDensityMapAttachment",
+            ),
+            "pNext": UNREAD,
         },
     ),
     "Framebuffer": Structure(

@@ -24,6 +24,8 @@ _MEMBER_TYPES = {
     "subpasses": "std::vector<VkSubpassDescription>",
     "dependencies": "std::vector<VkSubpassDependency>",
     "depthStencilAttachment": "VkAttachmentReference",
+    "fragmentDensityMapAttachment": "VkAttachmentReference",
+    "shadingRateAttachmentTexelSize": "VkExtent2D",
 }
 
 _ONE_SAMPLE = {

@@ -26,6 +26,10 @@ ZERO = {
 """What zero means for members where it is a valid value."""
 
 
+WITHOUT_USES = frozenset({"RenderPassMultiviewCreateInfo", "RenderPassInputAttachmentAspectCreateInfo", "ImageFormatListCreateInfo"})
+"""Structures of a pNext chain that are not read, and that neither name an attachment or image nor change how one is used."""
+
+
 def complete(nodes: Iterable[_T | None]) -> list[_T] | None:
     """Returns the nodes, or None if any of them is unknown."""
     known: list[_T] = []
@@ -71,6 +75,26 @@ class Members(Multisampling):
         if type(value) is int and name.endswith("Enable"):
             return scalar(bool(value), at)
         return None
+
+    def chain(self, struct: Struct) -> tuple[list[Struct], bool]:
+        """Returns the structures of a pNext chain that may use something, and whether these are all of them."""
+        structs: list[Struct] = []
+        value = self.get(struct, "next")[0] if struct.zeroed or "next" in struct.fields else None
+        for _ in range(8):
+            chained = self.dereference(value)
+            if chained is None or (chained == 0 and type(chained) is int):
+                return structs, True
+            if not isinstance(chained, Struct) or not chained.kind:
+                return structs, False
+            if chained.kind not in WITHOUT_USES:
+                structs.append(chained)
+            value = self.get(chained, "next")[0] if chained.zeroed or "next" in chained.fields else None
+        return structs, False
+
+    def unread(self, struct: Struct) -> Item:
+        """Returns the member that says that the pNext chain of a structure is not wholly known."""
+        at = head_of(self.get(struct, "next")[1])
+        return "pNext", at, sequence([scalar("UNKNOWN", at)], at)
 
     def object_name(self, obj: ApiObject, otherwise: str) -> str:
         """Returns a unique name for an object."""

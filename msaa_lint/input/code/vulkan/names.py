@@ -25,6 +25,15 @@ MEMBERS: dict[str, tuple[str, ...]] = {
         "pResolveAttachments", "pDepthStencilAttachment", "preserveAttachmentCount", "pPreserveAttachments",
     ),
     "SubpassDescriptionDepthStencilResolve": ("depthResolveMode", "stencilResolveMode", "pDepthStencilResolveAttachment"),
+    "RenderPassFragmentDensityMapCreateInfo": ("fragmentDensityMapAttachment",),
+    "FragmentShadingRateAttachmentInfo": ("pFragmentShadingRateAttachment", "shadingRateAttachmentTexelSize"),
+    "RenderingFragmentDensityMapAttachmentInfo": ("imageView", "imageLayout"),
+    "RenderingFragmentShadingRateAttachmentInfo": ("imageView", "imageLayout", "shadingRateAttachmentTexelSize"),
+    "RenderPassMultiviewCreateInfo": (
+        "subpassCount", "pViewMasks", "dependencyCount", "pViewOffsets", "correlationMaskCount", "pCorrelationMasks",
+    ),
+    "RenderPassInputAttachmentAspectCreateInfo": ("aspectReferenceCount", "pAspectReferences"),
+    "ImageFormatListCreateInfo": ("viewFormatCount", "pViewFormats"),
     "SubpassDependency": (
         "srcSubpass", "dstSubpass", "srcStageMask", "dstStageMask", "srcAccessMask", "dstAccessMask", "dependencyFlags",
     ),

@@ -109,7 +109,9 @@ class Passes(Subpasses):
         subpasses = [self.subpass(struct, names, head) for struct in described]
         sources = _resolved([subpass.node for subpass in subpasses])
         referred = {reference.text for subpass in subpasses for reference in _leaves(subpass.node)} & set(names)
-        is_complete = is_complete and all(subpass.complete for subpass in subpasses)
+        chained, chain_known = self.chained_to_pass(info, names)
+        referred |= {reference.text for _, _, node in chained for reference in _leaves(node)} & set(names)
+        is_complete = is_complete and chain_known and all(subpass.complete for subpass in subpasses)
         nodes: list[Item] = []
         for name, struct, image in zip(names, structs, images, strict=True):
             at = head_of(self.place_of(struct, obj.at))
@@ -120,6 +122,7 @@ class Passes(Subpasses):
             while nodes[-1][0] not in referred:
                 nodes.pop()
         items: list[Item] = [("attachments", head, mapping(nodes, head))]
+        items += chained
         if referred or (subpasses and is_complete):
             items.append(("subpasses", head, sequence([subpass.node for subpass in subpasses], head)))
         dependencies = self.structs(info, "dependencies")
@@ -128,6 +131,19 @@ class Passes(Subpasses):
             if nodes_of_dependencies is not None:
                 items.append(("dependencies", head, sequence(nodes_of_dependencies, head)))
         return self.object_name(obj, "renderPass"), head, mapping(items, head)
+
+    def chained_to_pass(self, info: Struct, names: Sequence[str]) -> tuple[list[Item], bool]:
+        """Returns what the pNext chain of a render pass states, and whether all of the chain is known."""
+        items: list[Item] = []
+        structs, known = self.chain(info)
+        for struct in structs:
+            node = None
+            if struct.kind == "RenderPassFragmentDensityMapCreateInfo":
+                node = self.chained_reference(struct, "fragmentDensityMapAttachment", names)
+            if node is not None:
+                items.append(("fragmentDensityMapAttachment", head_of(struct.at), node))
+            known = known and node is not None
+        return (items, True) if known else ([*items, self.unread(info)], False)
 
     def attachment_names(self, info: Struct, structs: Sequence[Struct | None]) -> list[str]:
         """Returns unique names of attachments: those of their variables, or indices of their list."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any
 
 from msaa_lint.core.text.node import Node
@@ -11,6 +12,12 @@ from msaa_lint.input.code.core.values import UNKNOWN, ApiObject, Struct, Symbol,
 
 from .enumerants import FLAGS, named
 from .members import Item, Members, flags_of, head_of
+
+RATES = {
+    "RenderingFragmentDensityMapAttachmentInfo": "fragmentDensityMapAttachment",
+    "RenderingFragmentShadingRateAttachmentInfo": "fragmentShadingRateAttachment",
+}
+"""The members of a description for structures that are chained to a VkRenderingInfo."""
 
 
 class Commands(Members):
@@ -38,7 +45,20 @@ class Commands(Members):
                 items.append((name, head_of(struct.at), self.rendered(struct, obj, multisampled, attached, stated is not None)))
         if not any(node.kind != "scalar" for _, _, item in items for node in (item.value if item.kind == "sequence" else (item,))):
             return None
-        return mapping([("beginRendering", head, mapping(items, head))], head)
+        return mapping([("beginRendering", head, mapping([*items, *self.chained_to_rendering(info, obj, attached)], head))], head)
+
+    def chained_to_rendering(self, info: Struct, obj: ApiObject, attached: dict[int, ApiObject]) -> Iterator[Item]:
+        """Yields what the pNext chain of a rendering states: the images that say how densely it shades."""
+        structs, known = self.chain(info)
+        for struct in structs:
+            name = RATES.get(struct.kind)
+            view, at = self.get(struct, "imageView")
+            if name is None:
+                known = False
+            elif view is not None and not (view == 0 and type(view) is int):
+                yield name, head_of(struct.at), mapping([("image", at, self.image_name(view, at, obj, attached))], head_of(struct.at))
+        if not known:
+            yield self.unread(info)
 
     def is_multisampled_attachment(self, struct: Struct) -> bool:
         """Returns whether an attachment certainly has several samples: its image has, or it is resolved."""

@@ -11,7 +11,7 @@ from typing import NamedTuple
 from msaa_lint.core.text.node import Node
 from msaa_lint.core.text.node_builder import mapping, scalar, sequence
 from msaa_lint.core.text.span import Span
-from msaa_lint.input.code.core.values import UNKNOWN, Struct
+from msaa_lint.input.code.core.values import UNKNOWN, Array, Struct
 
 from .members import Item, Members, head_of
 
@@ -65,24 +65,33 @@ class Subpasses(Members):
     def chained(self, struct: Struct, names: Sequence[str]) -> tuple[list[Item], bool]:
         """Returns what the pNext chain of a subpass states, and whether all of the chain is known."""
         items: list[Item] = []
-        value = self.get(struct, "next")[0] if struct.zeroed or "next" in struct.fields else None
-        for _ in range(4):
-            chained = self.dereference(value)
-            if chained is None or (chained == 0 and type(chained) is int):
-                return items, True
-            if not isinstance(chained, Struct):
-                return items, False
+        structs, known = self.chain(struct)
+        for chained in structs:
+            name, node = "", None
             if chained.kind == "SubpassDescriptionDepthStencilResolve":
-                node = self.depth_resolve(chained, names)
-                if node is None:
-                    return items, False
-                items.append(("depthStencilResolve", head_of(chained.at), node))
+                name, node = "depthStencilResolve", self.depth_resolve(chained, names)
             elif chained.kind == "MultisampledRenderToSingleSampledInfo":
-                items.append(("multisampledRenderToSingleSampled", head_of(chained.at), self.single_sampled(chained)))
-            else:
-                return items, False
-            value = self.get(chained, "next")[0] if chained.zeroed or "next" in chained.fields else None
-        return items, False
+                name, node = "multisampledRenderToSingleSampled", self.single_sampled(chained)
+            elif chained.kind == "FragmentShadingRateAttachmentInfo":
+                name, node = "fragmentShadingRateAttachment", self.chained_reference(chained, "fragmentShadingRateAttachment", names)
+            if node is not None:
+                items.append((name, head_of(chained.at), node))
+            known = known and node is not None
+        return (items, True) if known else ([*items, self.unread(struct)], False)
+
+    def chained_reference(self, struct: Struct, name: str, names: Sequence[str]) -> Node | None:
+        """Returns the attachment that a structure of a pNext chain refers to, null for none; None if it is unknown."""
+        value, at = self.get(struct, name)
+        target = self.dereference(value)
+        if target is None or (target == 0 and type(target) is int):
+            # A pointer that is null, or a reference whose members are all zero.
+            return scalar(None, at) if name != "fragmentDensityMapAttachment" else scalar(names[0], at)
+        if isinstance(target, Array) and target.items:
+            # `{2, layout}` is assigned to a member.
+            items = target.items
+            target = Struct("AttachmentReference", at, True)
+            target.fields["attachment"] = items[0]
+        return self.reference(target, names) if isinstance(target, Struct) else None
 
     def single_sampled(self, struct: Struct) -> Node:
         count, place = self.samples(struct, "rasterizationSamples")

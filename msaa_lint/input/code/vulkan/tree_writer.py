@@ -63,6 +63,9 @@ class DescriptionWriter(Passes, Commands):
     def image(self, obj: ApiObject) -> Item:
         info = obj.info
         items: list[Item] = []
+        structs, known = self.chain(info)
+        if structs or not known:
+            items.append(self.unread(info))
         for name in ("format", "imageType", "tiling", "sharingMode", "usage"):
             if name == "usage" and not self.is_transient(info) and (obj.escaped or self.is_unread(obj)):
                 # External code may use the image in any way; what nothing reads is used in fewer ways than the usage allows.
