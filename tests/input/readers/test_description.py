@@ -93,7 +93,7 @@ def test_yaml_and_json_are_the_same() -> None:
     yaml, json_ = document(WHOLE), document(json.dumps(documents(WHOLE)[0], indent=1))
     facts = [[(s.kind, s.path, s.facts.values) for s in subjects(each)] for each in (yaml, json_)]
     assert facts[0] == facts[1]
-    assert len(facts[0]) == 49
+    assert len(facts[0]) == 53
 
 
 def test_the_documentation_shows_a_description() -> None:
