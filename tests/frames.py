@@ -86,14 +86,17 @@ def _one_of(value: Json, names: list[str]) -> Json:
 def _slots(render_pass: dict[str, Any]) -> None:
     count = len(render_pass.get("attachments", []))
     subpasses = render_pass.get("subpasses", [])
+    if "fragmentDensityMapAttachment" in render_pass:
+        render_pass["fragmentDensityMapAttachment"] = _slot(render_pass["fragmentDensityMapAttachment"], count)
     for subpass in subpasses:
         for member in ("inputAttachments", "colorAttachments", "resolveAttachments", "preserveAttachments"):
             if member in subpass:
                 subpass[member] = [_slot(each, count) for each in subpass[member]]
         if {"colorAttachments", "resolveAttachments"} <= subpass.keys():
             subpass["resolveAttachments"] = subpass["resolveAttachments"][: len(subpass["colorAttachments"])]
-        if "depthStencilAttachment" in subpass:
-            subpass["depthStencilAttachment"] = _slot(subpass["depthStencilAttachment"], count)
+        for member in ("depthStencilAttachment", "fragmentShadingRateAttachment"):
+            if member in subpass:
+                subpass[member] = _slot(subpass[member], count)
         if "attachment" in subpass.get("depthStencilResolve", {}):
             subpass["depthStencilResolve"]["attachment"] = _slot(subpass["depthStencilResolve"]["attachment"], count)
     for dependency in render_pass.get("dependencies", []):
