@@ -177,6 +177,8 @@ def image_facts(target: Target, bindings: Bindings, frame: Frame, readers: Reade
             facts.put("image.missing_usages", list(missing), at)
             for user, place in list(missing.values())[:1]:
                 facts.put("image.usage_needed_by", user, place)
+        elif target.samples is not None:
+            facts.put("image.missing_usages", [], at)
         conflicts = [usage for usage in image.usage if usage not in BESIDE_TRANSIENT]
         facts.put("image.transient_conflicts", conflicts, image.flag_place("usage", conflicts) if conflicts else transient_at)
         facts.put("image.is_render_target", rendered, at)

@@ -117,14 +117,14 @@ def other_uses(render_pass: Pass) -> dict[int, Use]:
     resolved: dict[tuple[int, int], Resolve] = {}
     for resolve in render_pass.resolves:
         for memory in _memory(resolve.target, resolve.target_image):
-            key = (resolve.subpass, memory)
-            other = resolved.get(key)
+            place = (resolve.subpass, memory)
+            other = resolved.get(place)
             if other is not None and other is not resolve.pair:
                 found.setdefault(id(resolve), ("RESOLVE_TARGET", other.target_at))
-            if key in drawn and drawn[key][0] is not resolve.source:
-                found.setdefault(id(resolve), drawn[key][1])
+            if place in drawn and drawn[place][0] is not resolve.source:
+                found.setdefault(id(resolve), drawn[place][1])
             if resolve.is_certain:
-                resolved.setdefault(key, resolve)
+                resolved.setdefault(place, resolve)
     return found
 
 
