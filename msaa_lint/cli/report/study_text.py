@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from msaa_lint.experiments.study.effects import TABLE
 from msaa_lint.experiments.study.measures import ERROR
 from msaa_lint.experiments.study.outcome import SceneSummary, Study
-from msaa_lint.experiments.study.shading import Shading
+from msaa_lint.experiments.study.shading import Shading, missed
 
 from .escape import display
 from .study_tables import MARK, TIE, row_name
@@ -142,7 +142,8 @@ def _timing(study: Study) -> Iterator[str]:
         yield "± distance from the median to the farther bound of its 95 % interval"
     for shading in study.shadings:
         if shading.operations or shading.fetches:
-            yield f"{display(shading.name)}: {_work(shading)} per invocation{_full_screen(shading)}"
+            off = missed(shading)
+            yield f"{display(shading.name)}: {_work(shading)} per invocation{_full_screen(shading)}{'; ' if off else ''}{off}"
         elif shading.full_screen_ms:
             yield f"{display(shading.name)}: {shading.full_screen_ms:.3g} ms a full screen at 1x"
     for model in study.models:

@@ -110,12 +110,11 @@ def _shading(points: Sequence[_Compared], counts: Sequence[_Compared], measure: 
 
 
 def _supersampling(points: Sequence[_Compared], counts: Sequence[_Compared], measure: Measure) -> Iterator[tuple[str, str]]:
-    """SSAA grids against multisampling with the same number of samples; 3x3 is compared with 8."""
+    """SSAA grids against multisampling with the same number of samples; none has the nine of 3x3."""
     worse: list[tuple[_Compared, _Compared]] = []
     better: list[tuple[_Compared, _Compared]] = []
     for one in points:
-        samples = one.technique.samples
-        references = [count for count in counts if max(1, samples / 2) < count.technique.samples <= samples]
+        references = [count for count in counts if count.technique.samples == one.technique.samples > 1]
         if one.technique.kind != SSAA or not references or references[-1].error == 0:
             continue
         remaining = one.error / references[-1].error

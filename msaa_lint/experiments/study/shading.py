@@ -63,6 +63,18 @@ def target(name: str, size: tuple[int, int]) -> Target:
     return Target(Shading(canonical), number if unit == "ms" else number * 1e-12 * size[0] * size[1])
 
 
+MAX_OFF = 0.05
+"""The share of its time by which a level may miss it without a word."""
+
+
+def missed(shading: Shading) -> str:
+    """What share of a frame a level takes on the device that it was calibrated on, where that is not the one it stands for; else empty."""
+    share = SHARES.get(shading.name, 0.0)
+    if shading.full_screen_ms is None or not share or abs(shading.full_screen_ms / FRAME_MS - share) <= MAX_OFF * share:
+        return ""
+    return f"{shading.full_screen_ms / FRAME_MS:.1%} of a frame at 60 Hz, not {share:.1%}: no nearer cost was found on this device"
+
+
 def calibrated(shading: Shading, added_ms: float, size: tuple[int, int]) -> Shading:
     """The cost, where it adds a time to a full screen of a size in pixels."""
     added = max(added_ms, 0.0)

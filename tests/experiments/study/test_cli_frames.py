@@ -39,7 +39,7 @@ def forward(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
 
 
 def test_a_forward_frame_is_timed_as_it_is(forward: dict[str, Any]) -> None:
-    """What the scene draws with more samples takes more invocations, and shading adds time to the passes of the techniques alone."""
+    """A software driver's count of invocations is left out."""
     data = forward
     (scene,) = data["scenes"]
     priced = "bytes, power, and memory are those of the frame at its described size, 1080x2400, with a technique's sample count"
@@ -50,8 +50,7 @@ def test_a_forward_frame_is_timed_as_it_is(forward: dict[str, Any]) -> None:
     names = list(dict.fromkeys(point["name"] for point in data["points"]))
     assert names == ["1x", "4x", "4x, half of them shaded", "4x, each shaded", "SSAA 2x2", "SSAA 3x3", "SSAA 4x4"]
     assert all(point["time_ms"] > 0 for point in data["points"])
-    counted = {name: points[name, "none"]["invocations"] for name in names}
-    assert 0 < counted["1x"] <= counted["4x"] <= counted["4x, each shaded"] and counted["SSAA 2x2"] < counted["SSAA 4x4"]
+    assert {points[name, "none"]["invocations"] for name in names} == {None}
 
 
 def test_a_capture_is_timed_as_it_is(tmp_path: Path) -> None:
