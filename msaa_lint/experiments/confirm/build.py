@@ -131,6 +131,10 @@ class FrameObjects(DeviceObjects):
                 self.images[number] = made
         return self.images[number]
 
+    def has_usage(self, number: int, usage: int) -> bool:
+        """Whether an image was created with a usage."""
+        return bool((self.plan.images[number].usage | self.more_usage.get(number, 0)) & usage)
+
     def _alike(self, number: int) -> int:
         """The number of images before this one that have the same parameters."""
         images = [image._replace(name="") for image in self.plan.images[: number + 1]]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import struct
+from collections.abc import Sequence
 from typing import Any
 
 from . import parts
@@ -26,12 +27,15 @@ from .parts import (
     PassCommand,
     Step,
 )
-from .scene import BACKDROP, CLEARED, CLEARED_INTEGERS, CLEARED_STENCIL
+from .scene import BACKDROP, CLEARED, CLEARED_INTEGERS, CLEARED_STENCIL, POISON, POISON_DEPTH, POISON_INTEGER, POISON_STENCIL
 from .timed import Work
 from .workload import Workload
 
 PEAK, HDR_PEAK = 1.0, 8.0
 """The peak brightness of the scene."""
+
+READ_ONLY = (DEPTH_READ_LAYOUT, parts.DEPTH_ALONE_READ_LAYOUT, parts.EITHER_READ_LAYOUT)
+"""Layouts of attachments that are not written to."""
 
 ALL_LEVELS = 1000.0
 """VK_LOD_CLAMP_NONE."""
@@ -40,8 +44,9 @@ ALL_LEVELS = 1000.0
 class Recorder:
     """Records the steps of a plan in order, and tracks the layouts and contents of the images."""
 
-    def __init__(self, built: FrameObjects, work: tuple[Workload, Work] | None = None) -> None:
-        """`work` is what the built-in fragment shaders of `shaded` pipelines do."""
+    def __init__(self, built: FrameObjects, work: tuple[Workload, Work] | None = None, poisons: bool = False) -> None:
+        """`work` is what the built-in fragment shaders of `shaded` pipelines do. With `poisons`, contents that the frame makes undefined
+        are overwritten (scene.py)."""
         self.built = built
         self.work = work
         self.vk = built.vk
@@ -49,23 +54,92 @@ class Recorder:
         self.plan = built.plan
         self.layouts = Layouts(built)
         self.contents = Contents(self.plan, assumed=work is not None)
+        self.poisons = poisons
+        self.pending: set[tuple[int, int]] = set()
+        """What is to be overwritten when it is drawn to next, because no command can."""
 
     def step(self, buffer: Any, step: Step) -> None:
         """Records one step."""
         if step.kind == "begin":
             frame_pass = self.plan.passes[step.number]
+            self._poison_before(buffer, frame_pass, step)
             if frame_pass.kind == parts.RENDERING:
                 self._rendering(buffer, frame_pass, step)
             else:
                 self._render_pass(buffer, frame_pass, step)
             self.contents.begin(frame_pass, step)
+            self._poison_lost(buffer)
         elif step.kind == "barrier":
             self._barrier(buffer, step)
+            self.contents.transfer(step)
+            self._poison_lost(buffer)
+        elif step.illegal:
+            with self.built.opened.session.refused() as heard:
+                if heard:
+                    _TRANSFERS[step.kind](self, buffer, step)
         else:
             # Copies from and to buffers, which nothing else uses, and presenting, for which there is no screen, are not recorded.
             if step.kind in _TRANSFERS:
                 _TRANSFERS[step.kind](self, buffer, step)
             self.contents.transfer(step)
+
+    def _poison_before(self, buffer: Any, frame_pass: Pass, step: Step) -> None:
+        """Overwrites what the beginning of a pass makes undefined, or notes it for `_poison_within`."""
+        if not self.poisons:
+            return
+        for (number, aspect), whole in self.contents.lost_at_begin(frame_pass, step).items():
+            if whole:
+                self._poison(buffer, number, aspect)
+            else:
+                self.pending.add((number, aspect))
+
+    def _poison_lost(self, buffer: Any) -> None:
+        """Overwrites what the last step made undefined."""
+        if self.poisons:
+            for number, aspect in sorted(self.contents.lost):
+                self._poison(buffer, number, aspect)
+
+    def _poison(self, buffer: Any, number: int, aspect: int) -> None:
+        """Overwrites an aspect of an image with poison; if no command can, when it is drawn to next."""
+        vk, image = self.vk, self.plan.images[number]
+        if number not in self.built.images or not self.built.has_usage(number, parts.TRANSFER_TARGET):
+            self.pending.add((number, aspect))
+            return
+        self.pending.discard((number, aspect))
+        self.layouts.into(buffer, [(number, TARGET_LAYOUT, None)])
+        whole = vk.VkImageSubresourceRange(aspectMask=aspect, levelCount=image.levels, layerCount=image.layers)
+        if aspect == COLOR:
+            poison = self._poison_value(number)
+            vk.vkCmdClearColorImage(buffer, self.built.image(number), TARGET_LAYOUT, vk.ffi.addressof(poison.color), 1, [whole])
+        else:
+            vk.vkCmdClearDepthStencilImage(buffer, self.built.image(number), TARGET_LAYOUT, self._poison_depth(), 1, [whole])
+
+    def _poison_within(self, buffer: Any, frame_pass: Pass, step: Step, subpass: int) -> None:
+        """Overwrites what is pending of the attachments that a subpass draws to, in the render area."""
+        vk = self.vk
+        attached = [(number, COLOR, at) for at, number in enumerate(self._drawn(frame_pass, step, subpass))]
+        if frame_pass.kind == parts.RENDERING:
+            attached += [(r.image, DEPTH if r.role == "depth" else STENCIL, 0) for r in frame_pass.rendered if r.role != "color"]
+        else:
+            images = frame_pass.framebuffers[step.framebuffer].images
+            depths = [r for r in frame_pass.subpasses[subpass].depth_stencil if r.attachment != NONE and r.layout not in READ_ONLY]
+            attached += [(images[r.attachment], aspect, 0) for r in depths for aspect in (DEPTH, STENCIL)]
+        views = frame_pass.view_mask or any(each.view_mask for each in frame_pass.subpasses)
+        layers = 1 if views else self.built.layers(frame_pass, frame_pass.framebuffers[step.framebuffer])
+        rect = vk.VkClearRect(rect=self._rect(step.area), baseArrayLayer=0, layerCount=layers)
+        for number, aspect, at in attached:
+            if (number, aspect) in self.pending:
+                self.pending.discard((number, aspect))
+                value = self._poison_value(number) if aspect == COLOR else vk.VkClearValue(depthStencil=self._poison_depth())
+                clear = vk.VkClearAttachment(aspectMask=aspect, colorAttachment=at, clearValue=value)
+                vk.vkCmdClearAttachments(buffer, 1, [clear], 1, [rect])
+
+    def _poison_value(self, number: int) -> Any:
+        return self._color(number, POISON, (POISON_INTEGER,) * 4)
+
+    def _poison_depth(self) -> Any:
+        depth = 1.0 - POISON_DEPTH if self.plan.reversed else POISON_DEPTH
+        return self.vk.VkClearDepthStencilValue(depth, POISON_STENCIL)
 
     def _read(self, step: Step) -> list[int]:
         """The images that a pass reads, as far as they are readable."""
@@ -157,6 +231,8 @@ class Recorder:
         viewport = vk.VkViewport(width=framebuffer.width, height=framebuffer.height, minDepth=near, maxDepth=far)
         vk.vkCmdSetViewport(buffer, 0, 1, [viewport])
         vk.vkCmdSetScissor(buffer, 0, 1, [self._rect(step.area)])
+        if self.poisons and not frame_pass.flags & parts.RESUMING:
+            self._poison_within(buffer, frame_pass, step, subpass)
         images = [i.image for i in commands if i.kind == "read" and i.image in reads]
         filled = bool(images) and self._fill(buffer, step, subpass, list(dict.fromkeys(images)))
         count, rotation = 0, 0
@@ -300,10 +376,14 @@ class Recorder:
         vk, image = self.vk, self.plan.images[number]
         if not image.aspects & COLOR:
             return vk.VkClearValue(depthStencil=self._clear_depth())
+        return self._color(number, CLEARED, CLEARED_INTEGERS)
+
+    def _color(self, number: int, color: Sequence[float], integers: Sequence[int]) -> Any:
+        vk, image = self.vk, self.plan.images[number]
         if image.numeric in ("UINT", "SINT"):
             member = "uint32" if image.numeric == "UINT" else "int32"
-            return vk.VkClearValue(color=vk.VkClearColorValue(**{member: list(CLEARED_INTEGERS)}))
-        return vk.VkClearValue(color=vk.VkClearColorValue(float32=list(CLEARED)))
+            return vk.VkClearValue(color=vk.VkClearColorValue(**{member: list(integers)}))
+        return vk.VkClearValue(color=vk.VkClearColorValue(float32=list(color)))
 
     def _rect(self, area: tuple[int, ...]) -> Any:
         vk = self.vk

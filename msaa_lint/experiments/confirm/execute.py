@@ -10,7 +10,7 @@ from .build import FrameObjects
 from .devices import devices
 from .draw import Recorder
 from .opening import Emit, Session
-from .parts import SAMPLED, SUSPENDING, TRANSFER_SOURCE, TRANSIENT, Plan, Step, from_json
+from .parts import SAMPLED, SUSPENDING, TRANSFER_SOURCE, TRANSFER_TARGET, TRANSIENT, Plan, Step, from_json
 from .readback import bring_back, bring_samples
 from .resample import pictured, resized
 from .submit import Submitter
@@ -47,11 +47,11 @@ def run(session: Session, plan: Plan, passes: Sequence[int] | None, want: RunOpt
         images = list(plan.images)
         images[sampled] = images[sampled]._replace(usage=(images[sampled].usage | SAMPLED) & ~TRANSIENT)
         plan = plan._replace(images=tuple(images))
-    built = FrameObjects(opened, plan, _read_back(plan) if want.pixels is not None else {})
+    built = FrameObjects(opened, plan)
     submitter: Submitter | None = None
     at = -1
+    made: list[int] = []
     try:
-        made = []
         for at in going:
             emit({"event": "pass", "pass": at})
             session.at = at
@@ -64,7 +64,7 @@ def run(session: Session, plan: Plan, passes: Sequence[int] | None, want: RunOpt
             emit({"event": "created", "pass": at, "ok": True, "error": ""})
         submitter = Submitter(opened, want.repeats > 0)
         # Twice with the layer, so that it sees the transition from one frame to the next.
-        for turn in range(want.warmups + want.repeats if want.repeats else 2 if session.layer is not None else 1):
+        for turn in range(want.warmups + want.repeats if want.repeats else 2 if session.layer is not None else 0):
             recorder = Recorder(built)
             times: dict[int, float] = {}
             for at, steps in segments(plan, made):
@@ -75,11 +75,23 @@ def run(session: Session, plan: Plan, passes: Sequence[int] | None, want: RunOpt
             if want.repeats and turn >= want.warmups:
                 for number, time in times.items():
                     emit({"event": "time", "pass": number, "ms": round(time, 6), "source": submitter.source})
-        session.at = None
-        if want.pixels is not None:
-            bring_back(recorder, submitter, want.pixels, emit)
-            if sampled is not None and sampled in built.images:
-                bring_samples(recorder, submitter, sampled, want.pixels, emit)
+        if want.pixels is not None and not want.repeats:
+            # The layer has seen the frame as it is described: not with what follows.
+            submitter.close()
+            submitter = None
+            built.close()
+            with session.unheard():
+                built = FrameObjects(opened, plan, _more_usage(plan))
+                for at in made:
+                    built.create_pass(at)
+                submitter = Submitter(opened)
+                recorder = Recorder(built, poisons=True)
+                for at, steps in segments(plan, made):
+                    emit({"event": "pass", "pass": at})
+                    _drawn(recorder, submitter, steps)
+                bring_back(recorder, submitter, want.pixels, emit)
+                if sampled is not None and sampled in built.images:
+                    bring_samples(recorder, submitter, sampled, want.pixels, emit)
     except VulkanError as error:
         if at < 0:
             raise
@@ -98,10 +110,10 @@ def _sized(plan: Plan, want: RunOptions) -> Plan:
     return plan if want.repeats else pictured(plan)
 
 
-def _read_back(plan: Plan) -> dict[int, int]:
-    """The additional usage for reading back, by image."""
-    one = {n: image for n, image in enumerate(plan.images) if image.samples == 1 and not image.usage & TRANSIENT}
-    return {n: TRANSFER_SOURCE for n, image in one.items() if image.type == 1}
+def _more_usage(plan: Plan) -> dict[int, int]:
+    """The additional usage for overwriting images and reading them back, by image."""
+    kept = {n: image for n, image in enumerate(plan.images) if not image.usage & TRANSIENT}
+    return {n: TRANSFER_TARGET | (TRANSFER_SOURCE if image.samples == 1 and image.type == 1 else 0) for n, image in kept.items()}
 
 
 def segments(plan: Plan, made: Sequence[int]) -> Iterator[tuple[int, list[Step]]]:

@@ -36,6 +36,13 @@ EXPLANATIONS = (
         wrong=True,
     ),
     Explanation(
+        "non-transient-ms-image",
+        "image",
+        "image.samples > 1 && !image.is_render_target",
+        "nothing renders to the image, so that it cannot be a transient attachment",
+        wrong=True,
+    ),
+    Explanation(
         "should-be-transient",
         "image",
         "image.read || image.loaded",
@@ -119,6 +126,12 @@ EXPLANATIONS = (
     ),
     Explanation("amd-render-targets", "image", "!image.is_render_target", "nothing renders to the image", wrong=True),
     Explanation(
+        "layout-usage",
+        "image",
+        "image.samples == 1 || !image.is_render_target",
+        "the usage that a copy or a single-sampled attachment requires is outside the scope of multisampling rules",
+    ),
+    Explanation(
         "nvidia-linear-tiling",
         "image",
         'image.tiling == "LINEAR" && device.known && device.vendor != "nvidia"',
@@ -187,12 +200,7 @@ CONSEQUENCES = (
         "the resolve itself is the mistake",
     ),
     Consequence(
-        ("01208", "01209", "01212", "01213", "00895", "01758", "02842", "02844", "03094", "03096"),
-        ("image-usage-missing",),
-        "the layout of an attachment, or of what a command reads or writes, requires the same usage",
-    ),
-    Consequence(
-        ("resolving-image", "02003"),
+        ("resolving-image",),
         ("depth-resolved-by-command",),
         "without maintenance10, the target's format needs the features of a color attachment",
     ),
@@ -227,11 +235,13 @@ NOISE = (
     Noise(("TransitionUndefinedToReadOnly", "AvoidImageToImageCopy", "ClearAttachment-ClearImage"), _CALLS),
     Noise(("multiple-pipelines-caches", "multiple-pipelines-no-cache", "TooManyPipelines", "Pipeline-SortAndBind"), _CALLS),
     Noise(("MinimizeNumDynamicStates", "CreatePipelinesLayout-KeepLayoutSmall", "CreatePipelineLayout"), _CALLS),
+    Noise(("06193",), "the description begins with a resumed rendering: what it resumes is in a command buffer before"),
     Noise(("SpirvDeprecated_WorkgroupSize",), "it is about a built-in shader of confirm"),
     Noise(("redundant-attachment-on-tile", "depth-pre-pass-usage", "Zcull-LessGreaterRatio"), _SCENE),
     Noise(("small-indexed-drawcalls", "SwitchTessGeometryMesh"), _SCENE),
     Noise(("Shader-OutputNotConsumed", "Shader-InputNotProduced"), _SCENE),
     Noise(("ClearColor-NotCompressed", "ClearAttachment-FastClearValues", "ClearValueCountHigherThanAttachmentCount"), _VALUES),
+    Noise(("06662", "06663"), _OTHER),
     Noise(("CreateImage-Depth32Format", "depthbias-zero", "DepthBiasNoAttachment", "AvoidPrimitiveRestart"), _OTHER),
 )
 """By topic. Every other message that belongs to no family is reported as the layer's alone."""

@@ -64,6 +64,7 @@ _DEPTH_RESOLVE = r"VkSubpassDescriptionDepthStencilResolve\w*"
 _IMAGE = r"VkImageCreateInfo"
 _ATTACHMENT = r"VkAttachmentDescription2?"
 
+_DRAWN_LOAD = 'aspect.load == "LOAD" && attachment.drawn'
 _AMD = '"STORAGE" in image.usage || "MUTABLE_FORMAT" in image.flags'
 
 FAMILIES = (
@@ -103,6 +104,7 @@ FAMILIES = (
         "a multisampled image has mip levels, is not 2D, is cube compatible, has linear tiling, or else requires one sample",
         _IMAGE,
         r"([Mm]ulti-?sampl|samples).*(mips|mipLevels|VK_IMAGE_TYPE_2D|CUBE_COMPATIBLE)",
+        scope=CheckScope(instead="what an image is created with: confirm creates no swapchain, and no sparse image"),
     ),
     Family(
         "single-sampled-render",
@@ -208,14 +210,16 @@ FAMILIES = (
         "integers are resolved with a mode other than SAMPLE_ZERO, or other colors with a mode other than AVERAGE",
         rf"{_RENDERING}|{_RESOLVE}",
         r"[rR]esolve ?[mM]ode.*for (non-)?integer formats",
+        scope=CheckScope(instead="the modes of renderings; those of commands with VK_KHR_maintenance10, which confirm does not enable"),
     ),
     Family(
         "depth-resolve-command",
         ("depth-resolved-by-command",),
-        _ids("00266 10981 10986 10987 10988 10994"),
+        _ids("00266 02003 10981 10986 10987 10988 10994"),
         "a command resolves depth or stencil without maintenance10, or without a mode",
         rf"VkImageResolve2?|{_RESOLVE}",
         r"aspectMask.*(COLOR|maintenance10)|VkResolveImageModeInfoKHR",
+        scope=CheckScope(instead="resolves without VK_KHR_maintenance10, which confirm does not enable"),
     ),
     Family(
         "image-usage",
@@ -224,6 +228,14 @@ FAMILIES = (
         "an attachment, or an image of a resolve command, lacks the usage that this requires",
         rf"VkFramebufferCreateInfo|VkRenderingInfo|{_RESOLVE}",
         r"VK_IMAGE_USAGE_\w+",
+        scope=CheckScope(instead="framebuffers, renderings, and commands; resolve targets of renderings since 1.3.278"),
+    ),
+    Family(
+        "layout-usage",
+        ("image-usage-missing",),
+        _ids("01208 01209 01211 01212 01213 00895 01758 02842 02844 03094 03096"),
+        "an image is in a layout whose usage it lacks",
+        scope=CheckScope(instead="the layouts of barriers, some of which are those of confirm"),
     ),
     Family(
         "resolve-target-uses",
@@ -250,7 +262,7 @@ FAMILIES = (
         "a copy is between different sample counts, or a blit or a copy of a buffer has a multisampled image",
         r"(vkCmd|Vk)(Copy|Blit)\w*",
         r"SAMPLE_COUNT",
-        scope=CheckScope(instead="the copies that confirm records, whose sample counts are equal"),
+        scope=CheckScope(instead="copies and blits between images: confirm records none from or to buffers"),
     ),
     Family(
         "sample-shading-feature",
@@ -355,7 +367,7 @@ FAMILIES = (
         ("attachment-needs-readback",),
         "an attachment is loaded",
         scope=CheckScope(
-            passes=LEGACY, vendors=MOBILE, when=(("aspect", 'aspect.load == "LOAD"', "it checks loads, not clears and stores"),)
+            passes=LEGACY, vendors=MOBILE, when=(("aspect", _DRAWN_LOAD, "it checks loads of what is drawn to, not clears and stores"),)
         ),
         of_attachment=True,
     ),
@@ -412,7 +424,10 @@ FAMILIES = (
         ("resolve-outside-pass",),
         ("resolving-image",),
         "an image is resolved by vkCmdResolveImage",
-        scope=CheckScope(vendors=("arm",)),
+        scope=CheckScope(
+            vendors=("arm",),
+            when=(("resolve", 'resolve.aspect == "color"', "it checks color: confirm does not enable VK_KHR_maintenance10"),),
+        ),
     ),
     Family(
         "multisampled-blending",

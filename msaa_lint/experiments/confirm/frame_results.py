@@ -37,6 +37,7 @@ class PassOutcome(NamedTuple):
 class FrameRun(NamedTuple):
     """The outcome of a frame: each pass, messages about no pass in particular, and the images that were read back, by name.
 
+    `images` of which `defined` is false hold poison (scene.py), and `defined` are those with defined contents that were not read back.
     `whole` says whether all requested passes went through in one run; only then are the contents of the images meaningful. `failed` says
     why a pass, or the frame as a whole, failed inside this program.
     """
@@ -46,6 +47,7 @@ class FrameRun(NamedTuple):
     images: Mapping[str, Event] = {}
     whole: bool = True
     failed: str = ""
+    defined: frozenset[str] = frozenset()
 
 
 class RunCollector:
@@ -56,6 +58,7 @@ class RunCollector:
         self.failed = ""
         self.messages: list[Event] = []
         self.images: dict[str, Event] = {}
+        self.defined: set[str] = set()
         self._passes: dict[int, PassOutcome] = {}
 
     def outcome(self, number: int) -> PassOutcome:
@@ -70,6 +73,8 @@ class RunCollector:
         kind, number = event["event"], event.get("pass")
         if kind == "pixels":
             self.images[event["image"]] = event
+        elif kind == "defined":
+            self.defined.add(event["image"])
         elif kind == "sample":
             self.images[event["image"] + SAMPLES_OF] = event
         elif kind == "failed":

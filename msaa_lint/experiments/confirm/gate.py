@@ -33,6 +33,9 @@ OP_NONE = {1000400000: ("VK_EXT_load_store_op_none", "VK_KHR_load_store_op_none"
 STORE_OP_NONE = 1000301000
 STORING_NONE = ("VK_EXT_load_store_op_none", "VK_KHR_load_store_op_none", "VK_KHR_dynamic_rendering", "VK_QCOM_render_pass_store_ops")
 
+MAX_MODE = 8
+"""VK_RESOLVE_MODE_MAX_BIT, the greatest mode without extensions."""
+
 FIRST_VERSION_FORMATS = 185
 """The device was queried about formats below this number."""
 
@@ -221,6 +224,8 @@ def _images_of_attachments(plan: Plan, frame_pass: Pass, offered: DeviceSupport)
 
 def _resolves(plan: Plan, frame_pass: Pass, offered: DeviceSupport) -> Iterator[str]:
     """Resolves that crash drivers, and unsupported modes of depth and stencil."""
+    if any(r.mode > MAX_MODE for r in frame_pass.rendered):
+        yield "it resolves with the mode of an extension, which confirm does not enable"
     if not frame_pass.single_sampled and any(r.image != NONE and r.mode and r.resolve_image == NONE for r in frame_pass.rendered):
         yield "it resolves without an image to resolve to"
     for subpass in frame_pass.subpasses:

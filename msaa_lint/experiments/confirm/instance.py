@@ -56,6 +56,8 @@ class Instance:
         self.layers = tuple(layers)
         self.version = min(api, instance_version()[:2])
         self.sink_error: BaseException | None = None
+        self.refuses = False
+        """Whether the layer keeps commands that it reports an error about from the driver."""
         self._sink = on_message
         self._severities = sum(bit for bit, name in _SEVERITIES.items() if name in severities)
         self._extensions = dict.fromkeys(extensions)
@@ -127,7 +129,7 @@ class Instance:
             self._sink(agreement)
         except BaseException as error:
             self.sink_error = self.sink_error or error
-        return 0
+        return int(self.refuses and _SEVERITIES.get(severity) == "error")
 
     def physical_devices(self) -> list[Any]:
         """The handles of the physical devices. Unusable if there is none."""

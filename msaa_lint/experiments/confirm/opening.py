@@ -131,6 +131,16 @@ class Session:
             self._deaf = before
 
     @contextmanager
+    def refused(self) -> Iterator[bool]:
+        """A block whose commands the layer checks and, where it reports an error, does not pass to the driver. False if the layer is not
+        heard: nothing may be called then."""
+        self.instance.refuses = True
+        try:
+            yield self.layer is not None and not self._deaf
+        finally:
+            self.instance.refuses = False
+
+    @contextmanager
     def about(self, image: str) -> Iterator[None]:
         """A block in which messages are about an image."""
         self.image, before = image, self.image

@@ -86,11 +86,12 @@ class Verdict(NamedTuple):
     shown: tuple[ShownImage, ...] = ()
     rules: tuple[tuple[str, str], ...] = ()
 
-    def with_status(self, outcome: PassOutcome | None, fixed: PassOutcome | None, has_errors: bool) -> Verdict:
+    def with_status(self, outcome: PassOutcome | None, fixed: PassOutcome | None, has_errors: bool, left_out: str = "") -> Verdict:
         """The verdict with its status and reason, for a pass that the device supports.
 
         `outcome` and `fixed` are those of the pass as written and fixed, None where it did not run; `has_errors` says whether there is a
-        finding of severity error, which accounts for a failed creation.
+        finding of severity error, which accounts for a failed creation; `left_out` says which of its commands Vulkan forbids, so that
+        nothing confirms them.
         """
         if outcome is None:
             return self._replace(status=SKIPPED, reason=self.reason or "there is nothing to do")
@@ -113,13 +114,16 @@ class Verdict(NamedTuple):
         if self.pixels_equal is False:
             changed = next(image for image in self.images if image.equal is False)
             reasons.append(f"a fix that is marked safe changes the picture: {changed.image}: {changed.text}")
-        return verdict._replace(status=DISAGREES if reasons else CONFIRMED, reason="; ".join(reasons), agrees=not theirs)
+        status = DISAGREES if reasons else REFUSED if left_out else CONFIRMED
+        return verdict._replace(status=status, reason="; ".join([*reasons, *([left_out] if left_out else [])]), agrees=not theirs)
 
 
 def pixels_equal(comparisons: Sequence[ImageComparison]) -> bool | None:
-    """Whether the pictures of two versions are equal; None where none was compared."""
+    """Whether the pictures of two versions are equal; None where none was compared, or where one could not be."""
     results = [comparison.equal for comparison in comparisons if comparison.equal is not None]
-    return all(results) if results else None
+    if False in results:
+        return False
+    return True if results and not any(comparison.missing for comparison in comparisons) else None
 
 
 class DeviceInfo(NamedTuple):

@@ -301,8 +301,8 @@ class Pass(NamedTuple):
 
 class Step(NamedTuple):
     """A step of a frame: the `begin` of a pass with a framebuffer and a render area (x, y, width, height), or a command outside passes
-    (`resolve`, `copy`, `blit`, `clear`, `copyOut`, `copyIn`, `barrier`, `present`). `number` is the pass that it is reported with, and
-    `filter` the VkFilter of a blit."""
+    (`resolve`, `copy`, `blit`, `clear`, `copyOut`, `copyIn`, `barrier`, `present`, `read`). `number` is the pass that it is reported with,
+    and `filter` the VkFilter of a blit. The layer sees a command that is `illegal`, but not the driver."""
 
     kind: str
     number: int
@@ -314,12 +314,14 @@ class Step(NamedTuple):
     masks: tuple[int, ...] = ()
     layouts: tuple[tuple[int, int, int], ...] = ()
     filter: int = 0
+    illegal: bool = False
 
 
 class Plan(NamedTuple):
     """A frame. `steps` are recorded in order; `defaults` state in words what was assumed where the description is silent; `extensions` must
     be enabled and the features `without` must not; `reversed` says that greater depths are nearer. `vertices` is a file of triangles to
-    draw instead of the scene: x, y and depth in clip coordinates, 32-bit floats."""
+    draw instead of the scene: x, y and depth in clip coordinates, 32-bit floats. `left_out` are commands that Vulkan forbids, in words,
+    with the numbers of their passes; the driver is not given them."""
 
     file: str = ""
     images: tuple[Image, ...] = ()
@@ -331,6 +333,7 @@ class Plan(NamedTuple):
     reversed: bool = False
     hdr: bool = False
     vertices: str = ""
+    left_out: tuple[tuple[int, str], ...] = ()
 
 
 def from_json(data: Any) -> Plan:

@@ -4,24 +4,27 @@ from __future__ import annotations
 
 import math
 import struct
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from typing import NamedTuple
 
 from .texels import Texels, aspect_of, format_name, format_of, texel_bytes, texels
 
 
 class RawImage(NamedTuple):
-    """An image as read back."""
+    """An image as read back. If its contents are not `defined`, they are poison, or come from it; `discarded` ones are nothing but it."""
 
     format: int
     width: int
     height: int
     data: bytes
     aspect: str = ""
+    defined: bool = True
+    discarded: bool = False
 
 
 class ImageComparison(NamedTuple):
-    """The comparison of an image in both versions. `equal` is None if they were not compared, and `reason` says why.
+    """The comparison of an image in both versions. `equal` is None if they were not compared, and `reason` says why; `missing`, that it
+    should have been.
 
     `differing` of `pixels` differ; `first` is the first of them in row order. `greatest` is the greatest difference in steps of the format
     (codes of normalized and integer components, units in the last place of floats). `tolerance` is the number of steps that the
@@ -37,12 +40,15 @@ class ImageComparison(NamedTuple):
     tolerance: int = 0
     why: str = ""
     reason: str = ""
+    missing: bool = False
 
     @property
     def text(self) -> str:
         """A one-line summary."""
         if self.equal is None:
             return f"not compared: {self.reason}"
+        if self.reason:
+            return self.reason
         if not self.differing:
             return f"equal, {self.pixels} pixels"
         steps = "not a number" if math.isinf(self.greatest) else f"{self.greatest:.0f} step{'s' if self.greatest != 1 else ''}"
@@ -52,34 +58,45 @@ class ImageComparison(NamedTuple):
 
 
 def compare(
-    as_written: Mapping[str, RawImage], fixed: Mapping[str, RawImage], tolerances: Mapping[str, tuple[int, str]] | None = None
+    as_written: Mapping[str, RawImage],
+    fixed: Mapping[str, RawImage],
+    tolerances: Mapping[str, tuple[int, str]] | None = None,
+    *,
+    others: tuple[Collection[str], Collection[str]] = ((), ()),
+    read: Collection[str] = (),
 ) -> list[ImageComparison]:
-    """The comparisons of all images of both versions, ordered by name.
+    """The comparisons of the images of both versions that were read back, and of `others` with defined contents, ordered by name.
 
     `tolerances` are the steps by which two correct results may differ, and why: Vulkan does not specify how an average is rounded. An image
-    with defined contents in only one version is not compared.
+    whose contents are undefined as written may hold anything. If only the fixed version discards them, it differs if something may `read`
+    it afterwards; what reads it within the frame reads poison.
     """
     allowed = tolerances or {}
     out = []
-    for name in sorted({*as_written, *fixed}):
+    for name in sorted({*as_written, *others[0], *fixed}):
         before, after = as_written.get(name), fixed.get(name)
-        if before is None or after is None:
-            left = "the fixed version" if after is None else "the version as written"
-            out.append(ImageComparison(name, None, reason=f"its contents are undefined in {left}"))
-        else:
+        defined = name in others[1] or (after is not None and after.defined)
+        if name not in others[0] and (before is None or not before.defined):
+            if defined:
+                out.append(ImageComparison(name, None, reason="its contents are undefined in the version as written"))
+        elif not defined and name not in read and (after is None or after.discarded):
+            out.append(ImageComparison(name, None, reason="its contents are undefined in the fixed version, and nothing reads them"))
+        elif before is not None and after is not None:
             out.append(_compare(name, before, after, *allowed.get(name, (0, ""))))
+        elif not defined:
+            out.append(ImageComparison(name, False, reason="its contents are undefined in the fixed version, and something reads them"))
     return out
 
 
 def _compare(name: str, before: RawImage, after: RawImage, tolerance: int, why: str) -> ImageComparison:
     if (before.format, before.width, before.height) != (after.format, after.width, after.height):
-        return ImageComparison(name, None, reason="its format or size differs in the fixed version")
+        return ImageComparison(name, None, reason="its format or size differs in the fixed version", missing=True)
     form = format_of(format_name(before.format))
     size = texel_bytes(form, aspect_of(form, before.aspect)) if form is not None else 0
     if not size or not before.width:
-        return ImageComparison(name, None, reason="its format cannot be compared")
+        return ImageComparison(name, None, reason="its format cannot be compared", missing=True)
     if len(before.data) != len(after.data) or len(before.data) % (size * before.width):
-        return ImageComparison(name, None, reason="it was not read back completely")
+        return ImageComparison(name, None, reason="it was not read back completely", missing=True)
     count = len(before.data) // size
     one, other = _masked(before, form), _masked(after, form)
     if one == other:

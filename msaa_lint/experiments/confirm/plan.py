@@ -12,13 +12,13 @@ from msaa_lint.frame.facts.parts import Pass as DescribedPass
 from msaa_lint.frame.facts.pass_contents import covers_picture
 
 from . import parts
-from .parts import CLEAR, LOAD, NONE, Image, Pass, PassCommand, Pipeline, Plan, Step
+from .parts import CLEAR, COLOR, LOAD, NONE, Image, Pass, PassCommand, Pipeline, Plan, Step
 from .plan_images import Images
 from .plan_integers import layout, mask
 from .plan_passes import Passes
 from .plan_pipelines import GREATER, LESS, built_in, described
 from .plan_shaders import UnusableShader
-from .plan_transfers import TRANSFERS, clears, ignored_transfer
+from .plan_transfers import TRANSFERS, clears, forbidden_samples, ignored_transfer
 from .resample import resampled, resized
 
 MAX_STEPS = 4096
@@ -62,6 +62,7 @@ class _Plan:
         self.steps: list[Step] = []
         self.used: set[str] = set()
         self.failures: dict[int, str] = {}
+        self.left_out: list[tuple[int, str]] = []
 
     def build(self) -> Plan:
         if not self.images.sized and self.images.images:
@@ -86,6 +87,7 @@ class _Plan:
             for number, (frame_pass, pipelines) in enumerate(zip(passes, self.pipelines, strict=True))
         ]
         passes = _with_images(passes, self.steps, len(self.images.images))
+        self._presentable(passes)
         enabled = self.frame.description.enabled
         stated = enabled.features if enabled is not None else None
         scene = self.frame.description.scene
@@ -99,6 +101,7 @@ class _Plan:
             tuple(name for name in OPTIONAL if stated is not None and name not in stated),
             self.reversed,
             scene is not None and scene.color == "HDR",
+            left_out=tuple(self.left_out),
         )
 
     def _extensions(self) -> tuple[str, ...]:
@@ -139,6 +142,7 @@ class _Plan:
                 self._transfer(command, current)
             elif command.kind in ("readImage", "writeImage"):
                 self.notes.append(f"{command.kind} outside a pass is ignored")
+                self._read(command, current)
         if begin is not None and commands_within is not None:
             self._begin(passes[current], begin[0], current, begin[1], commands_within)
 
@@ -151,12 +155,43 @@ class _Plan:
         target = self.images.named(getattr(body, "dstImage", None) or getattr(body, "image", None))
         if (source, target) == (NONE, NONE) or (kind in ("resolve", "copy", "blit") and NONE in (source, target)):
             return
-        if kind in ("resolve", "copy", "blit"):
-            ignored = ignored_transfer(kind, self.images.images[source], self.images.images[target])
-            if ignored:
-                self.notes.append(f"{command.kind} {ignored} is ignored")
-                return
-        self.steps.append(Step(kind, current, source=source, target=target))
+        images = [self.images.images[number] for number in dict.fromkeys((source, target)) if number != NONE]
+        if kind in ("resolve", "copy", "blit") and source == target:
+            # Descriptions do not state the levels, layers, and regions of a transfer.
+            self.notes.append(f"{command.kind} from {images[0].name} to itself, between levels or layers that are not stated, is ignored")
+            return
+        forbidden = forbidden_samples(kind, images)
+        if forbidden and any(image.name in self.images.uncounted for image in images):
+            self.notes.append(f"{command.kind} {forbidden} is ignored")
+            return
+        if kind == "resolve" and not images[0].aspects & COLOR and self._has_maintenance10():
+            self.left_out.append((current, f"{command.kind} of {images[0].name} needs maintenance10, which confirm does not enable"))
+            return
+        ignored = forbidden or (ignored_transfer(kind, *images) if kind in ("resolve", "copy", "blit") else "")
+        if forbidden:
+            self.left_out.append((current, f"{command.kind} {forbidden} is forbidden by Vulkan and left out"))
+        elif ignored:
+            self.notes.append(f"{command.kind} {ignored} is ignored")
+        if not ignored or (forbidden and kind in ("copy", "blit")):
+            self.steps.append(Step(kind, current, source=source, target=target, illegal=bool(forbidden)))
+
+    def _has_maintenance10(self) -> bool:
+        enabled = self.frame.description.enabled
+        return enabled is not None and "maintenance10" in (enabled.features or ())
+
+    def _presentable(self, passes: Sequence[Pass]) -> None:
+        """Notes the images of a swapchain that are multisampled, which no swapchain has."""
+        for name, target in self.frame.targets.items():
+            number = self.images.named(name)
+            if target.image is not None and target.image.presentable and self.images.images[number].samples > 1:
+                using = [n for n, frame_pass in enumerate(passes) if number in frame_pass.images]
+                self.left_out += [(n, f"the presentable {name} is multisampled, which is forbidden by Vulkan") for n in using]
+
+    def _read(self, command: Command, current: int) -> None:
+        """Notes that a command reads an image, which is not drawn."""
+        image = self.images.named(getattr(command.body, "image", None))
+        if command.kind == "readImage" and image != NONE:
+            self.steps.append(Step("read", current, source=image))
 
     def _barrier(self, body: object, current: int) -> None:
         masks = tuple(
@@ -304,6 +339,8 @@ class _Plan:
                 image = self.images.named(getattr(body, "image", None))
                 if image != NONE and image not in attached and getattr(body, "stage", None) in (None, "FRAGMENT", "FRAGMENT_SHADER"):
                     reads.append(PassCommand("read", subpass, image=image))
+                else:
+                    self._read(command, number)
             elif command.kind == "pipelineBarrier":
                 self.notes.append("a barrier within a pass is ignored")
         if not any(frame_pass.kind == "draw" for frame_pass in draws):

@@ -80,6 +80,8 @@ class Images:
         for frame_pass in frame.passes:
             self._pass(frame_pass)
         self._commands()
+        self.uncounted: set[str] = set()
+        """The images whose sample counts are assumed."""
         self._settle()
         self.images = tuple(self._image(used) for used in self._used.values())
 
@@ -196,6 +198,7 @@ class Images:
                 beside = [other.samples for other in used.beside if other.samples is not None]
                 used.samples = 1 if used.resolved_to and not used.source else max(beside) if beside else 4 if used.source else 1
                 self.notes.append(f"no sample count is stated for {{}}: {used.samples} is assumed", used.name)
+                self.uncounted.add(used.name)
 
     def _image(self, used: _Used) -> Image:
         record = used.target.image
@@ -216,7 +219,9 @@ class Images:
             layers = record.arrayLayers or (6 if cube else layers)
             lazy = "LAZILY_ALLOCATED" in (record.memory or ())
             if record.usage is not None:
-                usage = mask("VkImageUsageFlagBits", record.usage) & USAGES
+                # Metal has no usage for copies.
+                copied = used.usage & (TRANSFER_SOURCE | TRANSFER_TARGET) if self.frame.document.metal is not None else 0
+                usage = mask("VkImageUsageFlagBits", record.usage) & USAGES | copied
                 self._left_out("usage", record.usage, "VkImageUsageFlagBits", USAGES, used.name)
             self._left_out("flag", record.flags or (), "VkImageCreateFlagBits", FLAGS, used.name)
             if cube:

@@ -2,28 +2,32 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import Any, NamedTuple
 
 from msaa_lint.frame.facts.frame import Frame
 
 from . import gate, plan, resolve_check, shader_support
 from .agreement import agreement
+from .defined_contents import aspect_name, read_later
 from .frame_results import FrameRun
 from .inputs import Input
 from .layer_scope import layer_scope, pass_kind
 from .messages import Message
 from .outcome import AgreementRow
-from .parts import RENDER_PASS, Pass, Plan
+from .parts import COLOR, DEPTH, RENDER_PASS, SAMPLED, STENCIL, STORAGE, TRANSFER_SOURCE, TRANSIENT, Pass, Plan
 from .session import Session
 
 
 class PlannedFrame(NamedTuple):
-    """A frame's plan, its passes, and the defaults that were assumed, in words."""
+    """A frame's plan, its passes, and the defaults that were assumed, in words; the commands that were left out because Vulkan forbids
+    them, by the number of their pass, in words; and the images, by the names of results, that something may read after the frame."""
 
     plan: Plan
     passes: Sequence[Pass]
     defaults: Sequence[str] = ()
+    left_out: Sequence[tuple[int, str]] = ()
+    read: Collection[str] = ()
 
 
 class Planner:
@@ -36,12 +40,14 @@ class Planner:
     def plan(self, frame: Frame, file: str, size: tuple[int, int] | None, samples: int | None) -> PlannedFrame:
         """The plan of a frame. It never raises for what the frame contains."""
         frame_plan = plan.plan(frame, file=file, size=size, samples=samples, api=self.api)
-        return PlannedFrame(frame_plan, frame_plan.passes, (*_metal_notes(frame), *frame_plan.defaults))
+        defaults = (*_metal_notes(frame), *frame_plan.defaults)
+        return PlannedFrame(frame_plan, frame_plan.passes, defaults, frame_plan.left_out, _read(frame, frame_plan))
 
     def supported(self, planned: PlannedFrame, device: Mapping[str, Any]) -> PlannedFrame:
         """A plan with built-in shaders in place of those that a device does not support."""
         found = shader_support.supported(planned.plan, device)
-        return PlannedFrame(found, found.passes, (*planned.defaults, *found.defaults[len(planned.plan.defaults) :]))
+        defaults = (*planned.defaults, *found.defaults[len(planned.plan.defaults) :])
+        return planned._replace(plan=found, passes=found.passes, defaults=defaults)
 
     def gate(self, planned: PlannedFrame, device: Mapping[str, Any]) -> dict[int, str]:
         """The passes that a device does not support, by number, and why."""
@@ -63,6 +69,21 @@ class Planner:
         scope = layer_scope(session.layer, session.device, kinds, session.vendors)
         findings, undecided = source.by_vulkan or ([*source.findings, *source.silenced], source.undecided)
         return agreement(source.frame, names, findings, messages, scope, undecided, source.device, source.subjects)
+
+
+def _read(frame: Frame, frame_plan: Plan) -> set[str]:
+    """The images whose contents something may read after the frame. Without commands, those are all whose usage allows it."""
+    names = {aspect_name(frame_plan.images[number], aspect) for number, aspect in read_later(frame_plan)}
+    for image in frame_plan.images if not frame.has_commands else ():
+        target = frame.targets.get(image.name)
+        stated = target.image.usage if target is not None and target.image is not None else None
+        if not image.usage & TRANSIENT and (stated is None or image.usage & READABLE):
+            names |= {aspect_name(image, aspect) for aspect in (COLOR, DEPTH, STENCIL) if image.aspects & aspect}
+    return names
+
+
+READABLE = SAMPLED | STORAGE | TRANSFER_SOURCE
+"""The usages of an image with which something may read it that is not a pass."""
 
 
 def _metal_notes(frame: Frame) -> list[str]:

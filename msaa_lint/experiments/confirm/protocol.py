@@ -15,7 +15,7 @@ MAX_LINE = 8 << 20
 """Maximum size of a line in bytes: a plan with many passes, or a long message of the layer."""
 
 EVENTS = frozenset(
-    {"opened", "devices", "failed", "pass", "created", "message", "pixels", "time", "sample", "warmed", "invocations", "done"}
+    {"opened", "devices", "failed", "pass", "created", "message", "pixels", "defined", "time", "sample", "warmed", "invocations", "done"}
 )
 """The child's answers. `opened` has the device and the layer; `failed` has the reason and its `kind` (`environment`, `memory`, `program`);
 the others come from `execute.run` and `interleaved.run`."""
@@ -69,7 +69,10 @@ _WELL_FORMED: dict[str, Callable[[Event], bool]] = {
         and isinstance(found.get("id"), str)
         and isinstance(found.get("text"), str)
     ),
-    "pixels": lambda found: _image(found, "format", "width", "height"),
+    "pixels": lambda found: (
+        _image(found, "format", "width", "height") and all(isinstance(found.get(name), bool) for name in ("defined", "discarded"))
+    ),
+    "defined": lambda found: isinstance(found.get("image"), str),
     "sample": lambda found: _image(found, "format", "width", "height", "samples"),
     "time": lambda found: _numbered(found) and isinstance(found.get("ms"), (int, float)) and 0 <= found["ms"] < 1e9,
     "warmed": lambda found: isinstance(found.get("stable"), bool),

@@ -6,6 +6,7 @@ import os
 from typing import Any
 
 from .build import FrameObjects
+from .defined_contents import aspect_name
 from .device_images import CACHED, COHERENT, HOST_VISIBLE
 from .draw import Recorder
 from .opening import Emit
@@ -59,15 +60,16 @@ def texel_bytes(image: Image, aspect: int) -> int:
 
 
 def bring_back(recorder: Recorder, submitter: Submitter, folder: str, emit: Emit) -> None:
-    """Writes every image with defined contents to a file and reports it. Nothing may use the images afterwards."""
+    """Writes every image with defined contents, or with poisoned ones, to a file and reports it; of other images with defined contents it
+    reports that. Nothing may use the images afterwards."""
     built, vk = recorder.built, recorder.vk
     taken: list[tuple[int, int, Buffer]] = []
     buffer = submitter.begin()
     recorder.layouts.fence(buffer)
-    for number, aspect in recorder.contents.outputs():
+    for number, aspect in recorder.contents.outputs(poisoned=True):
         image = built.plan.images[number]
         size = texel_bytes(image, aspect) * image.width * image.height * image.layers
-        if not size or size > MAX_BYTES or number not in built.images or not _source(built, number):
+        if not size or size > MAX_BYTES or number not in built.images or not built.has_usage(number, TRANSFER_SOURCE):
             continue
         target = Buffer(built, size, 2)
         taken.append((number, aspect, target))
@@ -78,16 +80,15 @@ def bring_back(recorder: Recorder, submitter: Submitter, folder: str, emit: Emit
     submitter.end()
     for number, aspect, target in taken:
         image = built.plan.images[number]
-        stencil = aspect == STENCIL and image.aspects != STENCIL
-        path = os.path.join(folder, f"{number}{'-stencil' if stencil else ''}.raw")
+        path = os.path.join(folder, f"{number}{'-stencil' if aspect == STENCIL else ''}.raw")
         target.write_to(path)
         target.close()
-        found = {"event": "pixels", "image": f"{image.name}:stencil" if stencil else image.name, "format": image.format}
-        emit({**found, "width": image.width, "height": image.height * image.layers, "path": path, "aspect": NAMES[aspect]})
-
-
-def _source(built: FrameObjects, number: int) -> bool:
-    return bool((built.plan.images[number].usage | built.more_usage.get(number, 0)) & TRANSFER_SOURCE)
+        found = {"event": "pixels", "image": aspect_name(image, aspect), "format": image.format, "path": path, "aspect": NAMES[aspect]}
+        contents, key = recorder.contents, (number, aspect)
+        states = {"defined": key in contents.known, "discarded": key in contents.discarded}
+        emit({**found, "width": image.width, "height": image.height * image.layers, **states})
+    for number, aspect in sorted(recorder.contents.known - {(number, aspect) for number, aspect, _ in taken}):
+        emit({"event": "defined", "image": aspect_name(built.plan.images[number], aspect)})
 
 
 def bring_samples(recorder: Recorder, submitter: Submitter, number: int, folder: str, emit: Emit) -> None:

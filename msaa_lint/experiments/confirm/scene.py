@@ -46,6 +46,12 @@ CLEARED_INTEGERS = (3, 5, 7, 11)
 CLEARED_STENCIL, DRAWN_STENCIL = 0, 1
 """The clear values of color attachments, of integer color attachments and of stencil, and the stencil value that the scene writes."""
 
+POISON = (0.8125, 0.0625, 0.6875, 0.0)
+POISON_INTEGER = 99
+POISON_DEPTH, POISON_STENCIL = 0.0, 0xA5
+"""What undefined contents are overwritten with: a purple that the scene neither draws nor clears to, the components of integer colors, the
+nearest depth (with reversed depth, 1 minus it), and stencil."""
+
 
 def vertices() -> bytes:
     """The vertices in the input format of shaders/scene.vert: the position in clip coordinates as three 32-bit floats."""

@@ -142,7 +142,8 @@ class Session:
                 if not collected.failed or guilty not in left:
                     whole = not done and not failed
                     done.update((number, collected.outcome(number)) for number in left)
-                    return FrameRun(done, tuple(collected.messages), collected.images if whole else {}, whole, failed)
+                    images = collected.images if whole else {}
+                    return FrameRun(done, tuple(collected.messages), images, whole, failed, frozenset(collected.defined if whole else ()))
                 done[guilty] = collected.outcome(guilty)
             left.remove(guilty)
             if sum(ran.end != "" for ran in done.values()) >= MAX_DEATHS:

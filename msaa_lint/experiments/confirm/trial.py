@@ -200,7 +200,8 @@ class DeviceTrial:
             fixed_number = after.number(planned.name) if after is not None else None
             fixed = after.run.passes.get(fixed_number) if after is not None and fixed_number is not None else None
             has_errors = any(finding.severity == "error" for finding in _findings(source, planned))
-            verdict = verdict.with_status(before.run.passes.get(number), fixed, has_errors)
+            left_out = "; ".join(dict.fromkeys(text for at, text in before.planned.left_out if at == number))
+            verdict = verdict.with_status(before.run.passes.get(number), fixed, has_errors, left_out)
             untimed = measured.failures.get(planned.name)
             if untimed is not None and verdict.status in (CONFIRMED, DISAGREES):
                 verdict = verdict._replace(status=end_status(untimed) or FAILED, reason=f"while it was timed: {untimed.reason}")
@@ -241,7 +242,8 @@ class DeviceTrial:
         resolves, fixed_resolves = _averages(source.frame), _averages(source.fixed) if source.fixed is not None else {}
         moved = {name for name, kinds in resolves.items() if fixed_resolves.get(name, kinds) != kinds}
         why = "each way of resolving rounds an average in its own way"
-        return compare(before.images, after.images, dict.fromkeys(moved, (1, why))), ""
+        others, tolerances = (before.run.defined, after.run.defined), dict.fromkeys(moved, (1, why))
+        return compare(before.images, after.images, tolerances, others=others, read=before.planned.read), ""
 
     def _pictures(
         self, source: Input, before: Version, after: Version | None, comparisons: Sequence[ImageComparison]
@@ -253,7 +255,7 @@ class DeviceTrial:
         first = {comparison.image: comparison.first for comparison in comparisons}
         stem = (source.file, *([str(source.number)] if source.many > 1 else ()))
         for name, raw in sorted(before.images.items()):
-            texels = read(raw)
+            texels = read(raw) if raw.defined else None
             fixed = after.images.get(name) if after is not None else None
             if texels is not None and texels.planes:
                 pictures = version_pictures(texels, read(fixed) if fixed is not None else None)
@@ -328,7 +330,8 @@ def _raw_images(images: Mapping[str, Event], folder: str) -> Iterator[tuple[str,
                 data = file.read(MAX_IMAGE)
         except OSError:
             continue
-        yield name, RawImage(event["format"], event["width"], event["height"], data, str(event.get("aspect") or ""))
+        size, aspect = (event["width"], event["height"]), str(event.get("aspect") or "")
+        yield name, RawImage(event["format"], *size, data, aspect, bool(event.get("defined")), bool(event.get("discarded")))
 
 
 def _model(source: Input) -> dict[str, dict[str, Any]]:

@@ -63,7 +63,8 @@ def run(session: Session, plan: dict[str, Any], passes: Sequence[int], want: Run
         path = os.path.join(want.pixels, "0.raw")
         with open(path, "wb") as file:
             file.write(bytes([plan.get("pixel", 0)]) + bytes(15))
-        tell({"event": "pixels", "image": "color", "format": 37, "width": 2, "height": 2, "path": path})
+        states = {"defined": True, "discarded": False}
+        tell({"event": "pixels", "image": "color", "format": 37, "width": 2, "height": 2, "path": path, **states})
     tell({"event": "done"})
 
 

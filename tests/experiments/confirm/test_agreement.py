@@ -49,6 +49,7 @@ ASIDE = {
     ("depth-resolve-unread", "VUID-VkSubpassDescriptionDepthStencilResolve-pDepthStencilResolveAttachment-03178"),  # likewise
     ("multisampled-image-not-transient", "VUID-VkImageCreateInfo-usage-00963"),  # why some images are excused
     ("sample-shading-feature-missing", "VUID-VkShaderModuleCreateInfo-pCode-08740"),  # of this capability only: its text tells
+    ("resolve-read-unsynchronised", "VUID-VkSubpassDependency-srcAccessMask-00868"),  # what must hold besides
     # How a program comes to its count, of which no device is asked.
     ("source-sample-count-maximum", "BestPractices-Arm-vkCreateImage-too-large-sample-count"),
     ("source-sample-count-maximum", "BestPractices-IMG-vkCreateImage-too-large-sample-count"),
@@ -465,3 +466,11 @@ def test_the_page_of_the_agreement_is_fresh() -> None:
     environment = {**os.environ, "PYTHONPATH": str(ROOT)}
     done = subprocess.run([sys.executable, str(ROOT / "docs" / "agreement.py"), "--check"], env=environment, check=False)
     assert done.returncode == 0, "stale: `PYTHONPATH=. python docs/agreement.py` writes docs/agreement.md anew"
+
+
+def test_an_error_of_the_layer_agrees_with_no_rule_about_what_is_allowed() -> None:
+    """Rules that report errors in some cases alone are named."""
+    errors = [family for family in FAMILIES if any(id.isdecimal() for id in family.ids)]
+    milder = {rule for family in errors for rule in family.rules if RULES[rule].severity != "error"}
+    assert milder == {"depth-averaged"}
+    assert BY_NAME["color-resolve-mode"].rules == ("color-resolve-mode-invalid",)

@@ -116,7 +116,6 @@ UNHEARD = {
     "depth-resolve-structure": "confirm enables depth-stencil resolve wherever it is there",
     "resolve-target-uses": "the layer does not look at what a resolve writes",
     "framebuffer-size": "confirm clips framebuffers and render areas to their images",
-    "copy-samples": "confirm leaves out what a copy does not allow",
     "resolve-mode-none": "the layer says it since 1.3.278",
     "alpha-to-coverage-output": "the shader that confirm draws with writes alpha",
 }

@@ -144,7 +144,7 @@ def kinds(events: list[Event]) -> list[tuple[str, int | None]]:
 def test_events_in_order(session: Session) -> None:
     plan = planned(INLINE + RENDERING.partition("commands:")[0].replace(IMAGES, ""))
     found = well(session, plan)
-    assert kinds(found.events) == [("pass", 0), ("created", 0), ("pass", 0), ("pixels", None), ("done", None)]
+    assert kinds(found.events) == [*(("pass", 0), ("created", 0)), *2 * [("pass", 0)], ("pixels", None), ("done", None)]
     assert found.events[-1] == {"event": "done"}
     assert found.events.index({"event": "pass", "pass": 0}) < found.events.index({"event": "created", "pass": 0, "ok": True, "error": ""})
 
@@ -152,7 +152,8 @@ def test_events_in_order(session: Session) -> None:
 def test_events_of_several_passes_are_told_pass_by_pass(plain: Session) -> None:
     plan = planned(TWO_PASSES)
     assert kinds(done(plain, plan).events) == [
-        *((kind, number) for number in (0, 1) for kind in ("pass", "created")), ("pass", 0), ("pass", 1), ("pixels", None), ("done", None)
+        *((kind, number) for number in (0, 1) for kind in ("pass", "created")), *2 * [("pass", 0), ("pass", 1)], ("pixels", None),
+        ("defined", None), ("done", None),
     ]  # fmt: skip
 
 
@@ -464,7 +465,12 @@ def test_samples_of_an_image(plain: Session) -> None:
     assert {key: event[key] for key in own} == own
     assert os.path.getsize(event["path"]) == SIDE * SIDE * 4 * 16
     assert found.run.images["color:samples"] == event
-    assert [each["event"] for each in found.events if each["event"] not in ("message", "pass", "created")] == ["pixels", "sample", "done"]
+    assert [each["event"] for each in found.events if each["event"] not in ("message", "pass", "created")] == [
+        "pixels",
+        "defined",
+        "sample",
+        "done",
+    ]
 
 
 def test_samples_of_a_transient_image_are_read_all_the_same(plain: Session) -> None:
