@@ -37,7 +37,7 @@ from .common import (
 from .options import CHECK_FORMATS, Arguments
 from .progress import input_progress, shows_progress
 from .report.by_input import RENDERERS
-from .report.summary import plural
+from .report.summary import ON_TILER, plural
 from .table_outputs import check_table, paths_of, write_tables
 
 EXAMPLE = "sarif=findings.sarif"
@@ -180,7 +180,8 @@ def _over_budget(outcome: Outcome) -> list[str]:
         safe, everything = (figure(saving.price, limit) if saving.price is not None else 0.0 for saving in (savings.safe, savings.all))
         if everything >= limit.most:
             alone = f" ({safe:g} {limit.unit} with --fix alone)" if safe < everything else ""
-            lines.append(f"{file}: fixes save {everything:g} {limit.unit}{alone}, which reaches --fail-on-cost {limit.text}")
+            on_tiler = "," + ON_TILER if savings.all.assumes_tiler else ""
+            lines.append(f"{file}: fixes save {everything:g} {limit.unit}{alone}, which reaches --fail-on-cost {limit.text}{on_tiler}")
     return lines
 
 

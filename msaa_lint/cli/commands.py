@@ -108,7 +108,7 @@ COMMANDS = {
                 Option("milliwatts_per_gbps", "decimal", "Power per GB/s of traffic.", "MW", default="the device's, else 100"),
             ),
             "Comparison": (
-                Option("budget", "text", "Power budget to compare with, as in 2500mW.", "POWER", default="2.5W"),
+                Option("budget", "text", "Power budget to compare with, as in 2500mW.", "POWER", default="2.5W for a tile-based GPU"),
                 Option("samples", "text", "Other sample counts to estimate.", "N,...", default="1,2,4,8", values="cost_samples"),
                 Option("each", "flag", "Show two inputs one after the other instead of comparing them."),
             ),

@@ -99,7 +99,7 @@ def parse_terms(arguments: Arguments) -> Terms:
         width=width,
         height=height,
         milliwatts_per_gbps=arguments.get("milliwatts_per_gbps"),
-        budget_milliwatts=_parse_power(arguments["budget"]) if "budget" in arguments else Terms().budget_milliwatts,
+        budget_milliwatts=_parse_power(arguments["budget"]) if "budget" in arguments else None,
     )
 
 

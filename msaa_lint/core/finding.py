@@ -43,10 +43,14 @@ class Price(NamedTuple):
 
 
 class Saving(NamedTuple):
-    """The number of findings that fixes remove, and the cost of the input before them minus its cost after; None if that is unknown."""
+    """The number of findings that fixes remove, and the cost of the input before them minus its cost after; None if that is unknown.
+
+    `assumes_tiler`: some of the price is that on a tile-based GPU, since the input names no device that is known to be one or not.
+    """
 
     findings: int = 0
     price: Price | None = None
+    assumes_tiler: bool = False
 
 
 class Savings(NamedTuple):
@@ -78,7 +82,8 @@ class Finding(NamedTuple):
 
     `span` is None if the input has no text (binary captures) or could not be decoded. `subject` is the structural path of the object that
     the finding is about, such as `renderPasses.forward.attachments.color`; `images` are the names of the images that it concerns.
-    `context` is the beginning of the message, which names the debug labels of its pass.
+    `context` is the beginning of the message, which names the debug labels of its pass. `assumes_tiler`: the price is that on a tile-based
+    GPU, since the input names no device that is known to be one or not.
     """
 
     code: str
@@ -97,6 +102,7 @@ class Finding(NamedTuple):
     capture_location: CaptureLocation | None = None
     images: frozenset[str] = frozenset()
     context: str = ""
+    assumes_tiler: bool = False
 
     @property
     def fatal(self) -> bool:

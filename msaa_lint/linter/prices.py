@@ -22,7 +22,7 @@ from .fixes.changes import Change, NoFix, StructuralChange, apply_temporarily
 from .fixes.document_fixes import DocumentFixes
 from .fixes.references import nested_records
 from .rules.rule_runner import Key, finding_key
-from .savings import difference
+from .savings import assumes_tiler, difference
 
 MAX_REREAD = 1 << 19
 """Characters that are read again for the prices of one input's fixes: a structural one is priced by reading the text that it gives."""
@@ -268,4 +268,7 @@ def _priced(fixes: DocumentFixes, prices: Prices, finding: Finding) -> Finding:
         return finding
     except NotPriced:
         return finding._replace(notes=(*finding.notes, NOT_PRICED))
-    return finding if price is None else finding._replace(price=price, notes=(*finding.notes, *prices.notes(price)))
+    if price is None:
+        return finding
+    notes = (*finding.notes, *prices.notes(price))
+    return finding._replace(price=price, notes=notes, assumes_tiler=any(price) and assumes_tiler(fixes.result.device))

@@ -9,6 +9,7 @@ from msaa_lint.core.finding import Finding, Price, Saving, Savings
 from msaa_lint.frame.cost.amounts import Terms
 from msaa_lint.frame.cost.input_cost import InputTotal, input_total
 from msaa_lint.frame.cost.model import frame_cost
+from msaa_lint.frame.devices import DeviceProfile
 from msaa_lint.frame.facts.frame import Frame
 
 from .fixes.fixer import FixResult, Lint, fix_text
@@ -49,7 +50,14 @@ def _saving(fixes: FixResult, before: InputTotal | None, converted: bool) -> Sav
     findings = merge(fixes.fixed_findings, fixes.result.documents)
     # The parts of source code share findings.
     count = len({(finding_kind(finding), finding.message) for finding in findings} if converted else findings)
-    return Saving(count, difference(before, total(fixes.result)) if before is not None and count else None)
+    price = difference(before, total(fixes.result)) if before is not None and count else None
+    on_tiler = price is not None and any(price) and any(assumes_tiler(document.device) for document in fixes.result.documents)
+    return Saving(count, price, on_tiler)
+
+
+def assumes_tiler(device: DeviceProfile | None) -> bool:
+    """Whether the cost model takes a device for a tile-based GPU without knowing that it is one."""
+    return device is None or device.tiler is None
 
 
 def total(result: FileResult, terms: Terms | None = None) -> InputTotal:

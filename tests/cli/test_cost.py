@@ -79,7 +79,7 @@ def test_table_in_a_pipe(folder: Path) -> None:
     done = run(folder, "cost", "a.msaa.yaml")
     assert (done.returncode, done.stderr) == (0, "")
     lines = done.stdout.splitlines()
-    assert lines[0] == "a.msaa.yaml: 100 frames per second on no device, 100 mW per GB/s, budget 2500 mW"
+    assert lines[0] == "a.msaa.yaml: 100 frames per second on no device (on a tile-based GPU), 100 mW per GB/s, budget 2500 mW"
     total = next(line for line in lines if line.startswith("total"))
     assert total.split() == ["total", "0.00", "20.00", "0.19", "2.0", "0.1%"]
     assert "\x1b" not in done.stdout

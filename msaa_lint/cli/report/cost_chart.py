@@ -71,7 +71,8 @@ def chart(bars: Sequence[Bar], heading: str, subheading: str, cost: FrameCost) -
         for row, bar in zip(rows, bars, strict=True)
     ]
     longest = max((bar.read + bar.write for bar in bars), default=0.0) or 1.0
-    units = f"traffic with external memory, MB/s (share of {cost.budget_milliwatts:g} mW in parentheses)"
+    share = "" if cost.budget_milliwatts is None else f" (share of {cost.budget_milliwatts:g} mW in parentheses)"
+    units = f"traffic with external memory, MB/s{share}"
     # Names can be equal, so that the vertical axis is of rows.
     y = altair.Y("row:O", axis=None, scale=altair.Scale(domain=list(range(rows[-1] + 1 if rows else 1)), paddingInner=0.25))
 
@@ -97,8 +98,8 @@ def chart(bars: Sequence[Bar], heading: str, subheading: str, cost: FrameCost) -
 
 
 def _text(bar: Bar, cost: FrameCost) -> str:
-    share = 100 * bar.milliwatts / cost.budget_milliwatts
-    return f"{bar.read + bar.write:.0f} MB/s, {bar.milliwatts:.0f} mW ({share:.1f} %)"
+    share = "" if cost.budget_milliwatts is None else f" ({100 * bar.milliwatts / cost.budget_milliwatts:.1f} %)"
+    return f"{bar.read + bar.write:.0f} MB/s, {bar.milliwatts:.0f} mW{share}"
 
 
 def _rows(bars: Sequence[Bar]) -> list[int]:

@@ -61,7 +61,7 @@ def _inputs(frames: Sequence[CostedFrame], errors: Result, options: Options) -> 
     )
     if len(frames) == 1:
         return {**_frame(frames[0], errors, options), "passes": passes, "frames": details}
-    total = {**_amount(inputs_total(frames)), "corrected": _optional([frame.cost.corrected for frame in frames])}
+    total = {**_amount(inputs_total(frames)), **_corrected(*([getattr(frame.cost, name) for frame in frames] for name in CORRECTED))}
     return {"passes": passes, "total": total, "frames": details}
 
 
@@ -91,7 +91,7 @@ def _frame(frame: CostedFrame, errors: Result, options: Options) -> Json:
         "variants": _variants(frame.variants),
         "fixed_variants": _variants(frame.fixed_variants),
         "images": [{**image._asdict(), "name": text(image.name)} for image in cost.images],
-        "assumed": list(map(text, cost.assumed)),
+        "assumed": [*(["the traffic is that on a tile-based GPU"] if cost.device is None else []), *map(text, cost.assumed)],
         "unknown": list(map(text, cost.unknown)),
     }
 
@@ -113,7 +113,7 @@ def _pass(cost: PassCost, frame: CostedFrame, errors: Result) -> Json:
         "width": cost.width,
         "height": cost.height,
         **_amount(cost.amount),
-        "corrected": None if cost.corrected is None else _amount(cost.corrected),
+        **_corrected([cost.corrected], [cost.corrected_most]),
         "lines": [_line(line, rates, frame.file, errors) for line in cost.lines],
         "shading": None if cost.shading is None else _shading(cost.shading),
         "tile": None if cost.tile is None else cost.tile._asdict(),
@@ -124,7 +124,9 @@ def _pass(cost: PassCost, frame: CostedFrame, errors: Result) -> Json:
 def _line(line: Line, rates: Rates, file: str, errors: Result) -> Json:
     read = line.direction == "read"
     amount = rates.amount(line.bytes if read else 0, 0 if read else line.bytes, 0)
-    corrected = None if line.corrected is None else rates.amount(line.corrected, 0, 0)
+    low, high = (
+        None if each is None else rounded(rates.amount(each, 0, 0).traffic_mb_per_s) for each in (line.corrected, line.corrected_most)
+    )
     return {
         "attachment": text(line.attachment),
         "image": text(line.image),
@@ -135,7 +137,8 @@ def _line(line: Line, rates: Rates, file: str, errors: Result) -> Json:
         "bytes": line.bytes,
         "mb_per_s": rounded(amount.traffic_mb_per_s),
         "milliwatts": rounded(amount.milliwatts),
-        "corrected_mb_per_s": None if corrected is None else rounded(corrected.traffic_mb_per_s),
+        "corrected_mb_per_s": low,
+        "corrected_most_mb_per_s": high,
         **start(errors, file, line.place),
     }
 
@@ -145,7 +148,15 @@ def _shading(shading: Shading) -> Json:
 
 
 def _total(cost: FrameCost) -> Json:
-    return {**_amount(cost.total), "corrected": None if cost.corrected is None else _amount(cost.corrected)}
+    return {**_amount(cost.total), **_corrected([cost.corrected], [cost.corrected_most])}
+
+
+CORRECTED = ("corrected", "corrected_most")
+
+
+def _corrected(*amounts: Sequence[Amount | None]) -> Json:
+    """What the device compresses, at least and at most."""
+    return dict(zip(CORRECTED, map(_optional, amounts), strict=True))
 
 
 def _change(change: Change) -> Json:

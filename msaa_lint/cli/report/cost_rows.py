@@ -87,7 +87,8 @@ def rows(cost: FrameCost) -> Iterator[Row]:
     memory = {image.name: image.committed for image in cost.images}
     for pass_cost in cost.passes:
         times = f", {pass_cost.times} times" if pass_cost.times != 1 else ""
-        figures = _figures(pass_cost.amount, pass_cost.corrected, cost.budget_milliwatts, bool(pass_cost.unknown))
+        corrected = (pass_cost.corrected, pass_cost.corrected_most)
+        figures = _figures(pass_cost.amount, corrected, cost.budget_milliwatts, bool(pass_cost.unknown))
         yield Row(PASS, (title(pass_cost) + times, "", "", ""), figures)
         images: set[str] = set()
         for line in pass_cost.lines:
@@ -97,14 +98,14 @@ def rows(cost: FrameCost) -> Iterator[Row]:
     yield Row(TOTAL, ("total", "", "", ""), _of_frame(cost))
 
 
-def _line(line: Line, rates: Rates, committed: int | None, budget: float) -> Row:
+def _line(line: Line, rates: Rates, committed: int | None, budget: float | None) -> Row:
     read = line.direction == "read"
     amount = rates.amount(line.bytes if read else 0, 0 if read else line.bytes, committed or 0)
-    corrected = rates.amount(line.corrected, 0, 0).read_mb_per_s if line.corrected is not None else None
+    corrected = [rates.amount(each, 0, 0).read_mb_per_s for each in (line.corrected, line.corrected_most) if each is not None]
     figures = (
         figure(amount.read_mb_per_s) if read else "",
         "" if read else figure(amount.write_mb_per_s),
-        "" if corrected is None else figure(corrected),
+        _range(corrected),
         "" if committed is None else figure(amount.memory_mib),
         figure(amount.milliwatts, 1),
         _share(amount, budget),
@@ -115,26 +116,37 @@ def _line(line: Line, rates: Rates, committed: int | None, budget: float) -> Row
 def _of_frame(cost: FrameCost) -> tuple[str, ...]:
     unknown_traffic = any(pass_cost.unknown for pass_cost in cost.passes)
     unknown_memory = any(image.bytes is None for image in cost.images)
-    return _figures(cost.total, cost.corrected, cost.budget_milliwatts, unknown_traffic, unknown_memory)
+    corrected = (cost.corrected, cost.corrected_most)
+    return _figures(cost.total, corrected, cost.budget_milliwatts, unknown_traffic, unknown_memory)
 
 
 def _figures(
-    amount: Amount, corrected: Amount | None, budget: float, unknown_traffic: bool = False, unknown_memory: bool = False
+    amount: Amount,
+    corrected: Sequence[Amount | None],
+    budget: float | None,
+    unknown_traffic: bool = False,
+    unknown_memory: bool = False,
 ) -> tuple[str, ...]:
     """The figures of a pass or a frame, marked as lower bounds if some traffic or memory is unknown."""
+    compressed = _range([each.traffic_mb_per_s for each in corrected if each is not None])
     least, least_memory = (AT_LEAST if unknown else "" for unknown in (unknown_traffic, unknown_memory))
     return (
         least + figure(amount.read_mb_per_s),
         least + figure(amount.write_mb_per_s),
-        "" if corrected is None else least + figure(corrected.traffic_mb_per_s),
+        least + compressed if compressed else "",
         least_memory + figure(amount.memory_mib),
         least + figure(amount.milliwatts, 1),
-        least + _share(amount, budget),
+        least + _share(amount, budget) if budget is not None else "",
     )
 
 
-def _share(amount: Amount, budget: float) -> str:
-    return f"{figure(100 * amount.milliwatts / budget, 1)} %"
+def _range(values: Sequence[float]) -> str:
+    """`265.59–603.61`; one figure if the least and the most are equal, none without them."""
+    return "–".join(dict.fromkeys(map(figure, values)))
+
+
+def _share(amount: Amount, budget: float | None) -> str:
+    return "" if budget is None else f"{figure(100 * amount.milliwatts / budget, 1)} %"
 
 
 def alternatives(frame: CostedFrame) -> list[Row]:
@@ -233,25 +245,26 @@ def _change(change: Change) -> Row:
     )
 
 
-def sentence(comparison: Comparison, budget: float) -> str:
-    """`This change: +2247.78 MB/s read, ..., +449.6 mW (+18.0 % of 2500 mW)`."""
+def sentence(comparison: Comparison, budget: float | None) -> str:
+    """`This change: +2247.78 MB/s read, ..., +449.6 mW (+18.0 % of 2500 mW)`; without a budget, without the share."""
     if comparison.total.status == SAME:
         return "This change costs nothing"
     difference = comparison.total.difference
-    share = figure(100 * difference.milliwatts / budget, 1, sign=True)
+    share = "" if budget is None else f" ({figure(100 * difference.milliwatts / budget, 1, sign=True)} % of {budget:g} mW)"
     parts = (
         f"{figure(difference.read_mb_per_s, sign=True)} MB/s read",
         f"{figure(difference.write_mb_per_s, sign=True)} MB/s written",
         f"{figure(difference.memory_mib, sign=True)} MiB",
-        f"{figure(difference.milliwatts, 1, sign=True)} mW ({share} % of {budget:g} mW)",
+        f"{figure(difference.milliwatts, 1, sign=True)} mW{share}",
     )
     return f"This change: {', '.join(parts)}"
 
 
 def head(cost: FrameCost) -> str:
     """The terms of an estimate. A fixed word comes first, so that no line begins with text from an input."""
-    device = cost.device if cost.device is not None else "no device"
-    return f"{cost.fps:g} frames per second on {device}, {cost.milliwatts_per_gbps:g} mW per GB/s, budget {cost.budget_milliwatts:g} mW"
+    device = cost.device if cost.device is not None else "no device (on a tile-based GPU)"
+    budget = "" if cost.budget_milliwatts is None else f", budget {cost.budget_milliwatts:g} mW"
+    return f"{cost.fps:g} frames per second on {device}, {cost.milliwatts_per_gbps:g} mW per GB/s{budget}"
 
 
 def remarks(cost: FrameCost) -> list[tuple[str, str]]:
@@ -275,6 +288,6 @@ def comparison_remarks(compared: CostComparison, number: int) -> list[tuple[str,
     return lines
 
 
-def budget_of(compared: CostComparison) -> float:
-    """The power budget of a comparison, in mW."""
+def budget_of(compared: CostComparison) -> float | None:
+    """The power budget of a comparison, in mW; None if its device has none."""
     return next(frame.cost.budget_milliwatts for frame in (*compared.new, *compared.old))

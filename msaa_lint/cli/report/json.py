@@ -14,7 +14,7 @@ from .escape import escape_surrogates
 from .inputs import COUNTS
 from .paths import relative
 from .place import Place, place
-from .summary import converted_saving, tally, usable_price
+from .summary import converted_saving, notes_of, tally, usable_price
 
 SCHEMA = "msaa-lint/json-v1"
 _COUNTS = (
@@ -68,7 +68,7 @@ def _finding(finding: Finding, result: Result, options: Options) -> Json:
         "fix": _fix(fix) if fix else None,
         "price": price._asdict() if price else None,
         "labels": [_label(label, finding, result, options) for label in finding.labels],
-        "notes": [text(note) for note in finding.notes],
+        "notes": [text(note) for note in notes_of(finding)],
         "help": text(finding.help),
         "seen": {**finding.capture_location._asdict(), "by": text(finding.capture_location.by)} if finding.capture_location else None,
     }

@@ -19,7 +19,7 @@ from .fingerprint import fingerprints
 from .inputs import checked
 from .paths import uri
 from .place import place
-from .summary import files_saving, is_choice, summary_line, usable_price
+from .summary import files_saving, is_choice, notes_of, summary_line, usable_price
 
 SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
 
@@ -204,8 +204,9 @@ def _result(
         properties["price"] = price._asdict()
     if is_choice(finding):
         properties["choice"] = True
-    if finding.notes:
-        properties["notes"] = [display(note) for note in finding.notes]
+    notes = notes_of(finding)
+    if notes:
+        properties["notes"] = [display(note) for note in notes]
     sarif: dict[str, object] = {
         "ruleId": display(finding.code),
         "ruleIndex": index[finding.code],

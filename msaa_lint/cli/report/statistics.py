@@ -10,7 +10,7 @@ from msaa_lint.core.finding import Finding, Price, Result, rank
 
 from . import Options, Write
 from .escape import display
-from .summary import converted_saving, files_saving, is_summed, usable_price
+from .summary import ON_TILER, converted_saving, files_saving, is_summed, usable_price
 from .tables import FIGURE, NAME, TEXT, Column, Table, print_tables
 
 UNITS = ("MB/s", "MiB", "mW")
@@ -35,7 +35,8 @@ def render(result: Result, out: Write, options: Options) -> None:
     for savings, words in ((files_saving(result), "saved by "), (converted_saving(result), "converted, by ")):
         for saving, option in ((savings.safe, "--fix"), (savings.all, "--unsafe-fixes")):
             if saving.price is not None:
-                cells.append([str(saving.findings), "", words + option, "", *_figures(saving.price)])
+                title = words + option + (ON_TILER if saving.assumes_tiler else "")
+                cells.append([str(saving.findings), "", title, "", *_figures(saving.price)])
     if all(cell == "" for row in cells[1:] for cell in row[4:]):
         cells = [row[:4] for row in cells]
     # The count comes first, so that no line begins with text from an input.

@@ -124,16 +124,20 @@ def _fixable(savings: Savings, words: str) -> list[str]:
     options = [(everything, "--fix --unsafe-fixes")] if saves_more else []
     if safe.findings:
         options.insert(0, (safe, "--fix"))
-    return [f"{saving.findings} {words} {option}{_saved(saving.price)}" for saving, option in options]
+    return [f"{saving.findings} {words} {option}{_saved(saving)}" for saving, option in options]
 
 
-def _saved(price: Price | None) -> str:
+ON_TILER = " on a tile-based GPU"
+"""After the price of what names no device."""
+
+
+def _saved(saving: Saving) -> str:
     """`: saves 2248 MB/s written, 225 mW; adds 3 MiB of memory`; empty if there is no price or it is zero."""
-    figures = figures_of(price)
+    figures = figures_of(saving.price)
     saved = ", ".join(f"{_number(value)} {unit}" for value, unit in figures if value > 0)
     added = ", ".join(f"{_number(-value)} {unit}" for value, unit in figures if value < 0)
     text = "; ".join(f"{verb} {amounts}" for verb, amounts in (("saves", saved), ("adds", added)) if amounts)
-    return f": {text}" if text else ""
+    return f": {text}{ON_TILER if saving.assumes_tiler else ''}" if text else ""
 
 
 def files_saving(result: Result) -> Savings:
@@ -157,7 +161,7 @@ def _both(one: Saving, other: Saving) -> Saving:
     price = one.price
     if other.price is not None and _is_usable(other.price):
         price = Price(*map(add, price or Price(0.0, 0.0, 0.0, 0.0), other.price))
-    return Saving(one.findings + other.findings, price)
+    return Saving(one.findings + other.findings, price, one.assumes_tiler or other.assumes_tiler)
 
 
 def usable_price(finding: Finding) -> Price | None:
@@ -166,19 +170,25 @@ def usable_price(finding: Finding) -> Price | None:
     return price if price is not None and _is_usable(price) else None
 
 
+def notes_of(finding: Finding) -> list[str]:
+    """The notes of a finding, and what its price assumes, for outputs that have the figures alone."""
+    return [*finding.notes, f"the price is that{ON_TILER}"] if finding.assumes_tiler else [*finding.notes]
+
+
 def _is_usable(price: Price) -> bool:
     limit = 1e300
     return all(-limit < figure < limit for figure in price)
 
 
 def price_text(finding: Finding) -> str:
-    """`+2248 MB/s written, +31.6 MiB of memory`; empty if there is no price or it is zero.
+    """`+2248 MB/s written, +31.6 MiB of memory`, `on a tile-based GPU` if no device is named; empty if there is no price or it is zero.
 
     The price of a choice begins with `if chosen: `, and has the signs of the change that it makes.
     """
     choice = is_choice(finding)
     figures = [(-value if choice else value, unit) for value, unit in figures_of(usable_price(finding))]
     text = ", ".join(f"{'+' if value > 0 else ''}{_number(value)} {unit}" for value, unit in figures)
+    text += ON_TILER if text and finding.assumes_tiler else ""
     return f"if chosen: {text}" if text and choice else text
 
 

@@ -1,7 +1,7 @@
 """The results of the cost model. MB is 10^6 bytes, MiB 2^20 bytes; a frame is one round of the description's commands.
 
 Every figure is given twice: by plain arithmetic, `width * height * bytes * samples * fps`, and corrected by the device's measured
-compression.
+compression, which is a range: `corrected` at least, `corrected_most` at most.
 """
 
 from typing import NamedTuple
@@ -27,8 +27,9 @@ class Amount(NamedTuple):
 class Line(NamedTuple):
     """One cause of traffic per frame: an aspect of an attachment, or of a command's image, that is read or written.
 
-    `action` is `load`, `store`, `resolve`, `resolve command`, `copy`, `clear`, `read`, `write` or `input`; `direction` is `read` or
-    `write`. `bytes` are those of a frame by plain arithmetic, exact; `corrected` by the device's compression, None where none is known.
+    `action` is `load`, `store`, `resolve`, `resolve command`, `copy`, `clear`, `read`, `write` (by a shader; on an immediate-mode GPU also
+    what a pass draws) or `input`; `direction` is `read` or `write`. `bytes` are those of a frame by plain arithmetic, exact;
+    `corrected` is the least and `corrected_most` the most that the device's compression leaves of them, None where none is known.
     `samples` is the number of samples moved per pixel. `place` is where the input states it.
     """
 
@@ -41,6 +42,7 @@ class Line(NamedTuple):
     bytes: int
     corrected: float | None
     place: Span | None
+    corrected_most: float | None = None
 
 
 class Shading(NamedTuple):
@@ -80,6 +82,7 @@ class PassCost(NamedTuple):
     shading: Shading | None
     tile: TileUse | None
     unknown: tuple[str, ...]
+    corrected_most: Amount | None = None
 
 
 class ImageMemory(NamedTuple):
@@ -99,6 +102,8 @@ class FrameCost(NamedTuple):
     """A whole frame. `total` counts each image's memory once. `assumed` lists the assumptions (60 fps, a size).
 
     `share` is the fraction of a program's frames that are like this one, by which its traffic is weighted; None if it is not stated.
+    `budget_milliwatts` is None where power has no budget to be set against. `tiler` is the device's, by which the model is chosen: if it is
+    None, the figures are those on a tile-based GPU.
     """
 
     passes: tuple[PassCost, ...]
@@ -110,24 +115,26 @@ class FrameCost(NamedTuple):
     assumed: tuple[str, ...]
     unknown: tuple[str, ...]
     milliwatts_per_gbps: float = 100.0
-    budget_milliwatts: float = 2500.0
+    budget_milliwatts: float | None = 2500.0
     share: float | None = None
+    tiler: bool | None = None
+    corrected_most: Amount | None = None
 
     @property
-    def budget_share(self) -> float:
-        """The share of the power budget that the traffic takes by plain arithmetic; 1 is all of it."""
-        return self.total.milliwatts / self.budget_milliwatts
+    def budget_share(self) -> float | None:
+        """The share of the power budget that the traffic takes by plain arithmetic; 1 is all of it. None without a budget."""
+        return None if self.budget_milliwatts is None else self.total.milliwatts / self.budget_milliwatts
 
 
 class Terms(NamedTuple):
     """The terms of an estimate that a caller may set; None takes the description's, then the device's, then the default.
 
     `milliwatts_per_gbps` is the power of 10^9 bytes a second (default 100, Arm's figure for LPDDR4-class memory), `budget_milliwatts` what
-    it is set against (default 2500, a phone's sustained budget by the same source).
+    it is set against (default 2500, a phone's sustained budget by the same source, unless the device is not known to be tile-based).
     """
 
     fps: float | None = None
     width: int | None = None
     height: int | None = None
     milliwatts_per_gbps: float | None = None
-    budget_milliwatts: float = 2500.0
+    budget_milliwatts: float | None = None

@@ -17,7 +17,7 @@ class Change(NamedTuple):
     """A pass, or all of a frame, before and after; None on the side where there is none.
 
     `status` is `same`, `changed`, `added` or `removed`; `difference` is what the new one costs more, negative where it costs less;
-    `corrected` the same as the device compresses, None where that is not known of one of the two.
+    `corrected` the same as the device compresses, None where that is not known of one of the two, or is a range.
     """
 
     name: str
@@ -107,7 +107,8 @@ Amounts = tuple[Amount | None, Amount | None]
 def _amounts(cost: PassCost | FrameCost | None) -> Amounts:
     if cost is None:
         return None, NOTHING
-    return cost.amount if isinstance(cost, PassCost) else cost.total, cost.corrected
+    corrected = cost.corrected if cost.corrected_most in (None, cost.corrected) else None
+    return cost.amount if isinstance(cost, PassCost) else cost.total, corrected
 
 
 def _between(name: str, kind: str, before: Amounts, after: Amounts) -> Change:

@@ -32,7 +32,8 @@ def images_memory(frame: Frame, sizes: Sizes, device: DeviceProfile | None) -> t
     """What each image of `images` takes, in their order, and what was taken for granted.
 
     An image commits nothing where it is TRANSIENT_ATTACHMENT and its memory LAZILY_ALLOCATED. Where its memory is not stated, it is taken
-    to be lazily allocated if the device is known to offer that.
+    to be lazily allocated if the device is known to offer that. A device that offers none, and an immediate-mode GPU of which that is not
+    known, commits all of it.
     """
     used = _moved(frame)
     found, assumed = [], []
@@ -41,13 +42,20 @@ def images_memory(frame: Frame, sizes: Sizes, device: DeviceProfile | None) -> t
         assert image is not None
         full = image_bytes(target, sizes)
         transient = "TRANSIENT_ATTACHMENT" in (image.usage or ())
-        lazy = transient and image.memory is not None and "LAZILY_ALLOCATED" in image.memory
+        lazy = transient and image.memory is not None and "LAZILY_ALLOCATED" in image.memory and not lacks_lazy_memory(device)
         if transient and image.memory is None and offers_lazy_memory(device):
             lazy = True
             assumed.append(f"`{name}` is bound to lazily allocated memory, which the device offers")
         committed = None if full is None else 0 if lazy else full
         found.append(ImageMemory(name, full, committed, lazy and name in used))
     return found, assumed
+
+
+def lacks_lazy_memory(device: DeviceProfile | None) -> bool:
+    """Whether a device is known, or as an immediate-mode GPU is taken, not to offer LAZILY_ALLOCATED memory."""
+    if device is None or device.minimum or offers_lazy_memory(device):
+        return False
+    return device.memory_types is not None or device.tiler is False
 
 
 def offers_lazy_memory(device: DeviceProfile | None) -> bool:

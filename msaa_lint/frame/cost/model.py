@@ -10,8 +10,9 @@ from msaa_lint.frame.facts.subpass import tile_targets
 from msaa_lint.frame.facts.walk import Walk
 
 from .amounts import Amount, FrameCost, ImageMemory, Line, PassCost, Terms
+from .immediate_mode import ASSUMED, immediate_lines
 from .memory import images_memory
-from .power import ASSUMED_FPS, MAX_RATE, Rates, rates
+from .power import ASSUMED_FPS, BUDGET_MILLIWATTS, MAX_RATE, MILLIWATTS_PER_GBPS, Rates, rates
 from .shading import pass_shading
 from .sizes import Area, Sizes
 from .traffic import MOVING, Lines, command_lines, pass_lines
@@ -31,7 +32,7 @@ def frame_cost(frame: Frame, device: DeviceProfile | None, terms: Terms | None =
     costs: list[PassCost] = []
     entries, unknown = _entries(frame, device, sizes, frame_rates)
     read = written = 0
-    corrected: tuple[float, float] | None = (0.0, 0.0) if device is not None and device.compression is not None else None
+    corrected: Moved | None = ((0.0, 0.0), (0.0, 0.0)) if device is not None and device.compression is not None else None
     taken: dict[str, None] = {}
     for name, path, kind, each, area, lines in entries:
         used = dict.fromkeys(line.image for line in lines.found)
@@ -49,14 +50,15 @@ def frame_cost(frame: Frame, device: DeviceProfile | None, terms: Terms | None =
             area.height,
             tuple(lines.found),
             frame_rates.amount(reads, writes, memory),
-            None if measured is None else frame_rates.amount(*measured, memory),
+            None if measured is None else frame_rates.amount(*measured[0], memory),
             pass_shading(each, area, frame) if each is not None else None,
             _tile(each, device) if each is not None else None,
             tuple(lines.unknown),
+            None if measured is None else frame_rates.amount(*measured[1], memory),
         )
         costs.append(cost)
         read, written = read + reads, written + writes
-        corrected = None if corrected is None or measured is None else (corrected[0] + measured[0], corrected[1] + measured[1])
+        corrected = None if corrected is None or measured is None else _sum(corrected, measured)
         unknown += [f"`{name}`: {text}" for text in lines.unknown]
         taken.update(lines.assumed)
     everything = sum(committed.values())
@@ -65,14 +67,16 @@ def frame_cost(frame: Frame, device: DeviceProfile | None, terms: Terms | None =
         tuple(costs),
         tuple(images),
         frame_rates.amount(read, written, everything),
-        None if corrected is None else frame_rates.amount(*corrected, everything),
+        None if corrected is None else frame_rates.amount(*corrected[0], everything),
         frame_rates.fps,
         device.name if device is not None else None,
         (*_assumed(frame, device, terms, frame_rates), *taken, *assumed),
         tuple(dict.fromkeys(unknown)),
         frame_rates.milliwatts_per_gbps,
-        terms.budget_milliwatts,
+        terms.budget_milliwatts or (BUDGET_MILLIWATTS if device is None or device.tiler else None),
         frame.description.frame.share if frame.description.frame is not None else None,
+        device.tiler if device is not None else None,
+        None if corrected is None else frame_rates.amount(*corrected[1], everything),
     )
 
 
@@ -116,7 +120,10 @@ def _attached_images(render_pass: Pass) -> set[str]:
 
 def _pass_entry(each: Pass, device: DeviceProfile | None, sizes: Sizes) -> Entry:
     area = sizes.area(each)
-    lines = pass_lines(each, area, device)
+    if device is not None and device.tiler is False:
+        lines = immediate_lines(each, area, device)
+    else:
+        lines = pass_lines(each, area, device)
     lines.assumed.update(dict.fromkeys(area.assumed))
     return each.name, each.path, each.kind, each, area, lines
 
@@ -140,19 +147,26 @@ def _bytes(lines: list[Line]) -> tuple[int, int]:
     return sum(line.bytes for line in lines if line.direction == "read"), sum(line.bytes for line in lines if line.direction == "write")
 
 
-def _corrected(lines: list[Line], device: DeviceProfile | None) -> tuple[float, float] | None:
+Moved = tuple[tuple[float, float], tuple[float, float]]
+"""Read and written bytes, at least and at most."""
+
+
+def _corrected(lines: list[Line], device: DeviceProfile | None) -> Moved | None:
     """Read and written bytes as the device compresses; None where that is not known of one of the lines."""
     if device is None or device.compression is None:
         return None
-    read = written = 0.0
+    moved: Moved = ((0.0, 0.0), (0.0, 0.0))
     for line in lines:
-        if line.corrected is None:
+        low, high = line.corrected, line.corrected_most
+        if low is None or high is None:
             return None
-        if line.direction == "read":
-            read += line.corrected
-        else:
-            written += line.corrected
-    return read, written
+        moved = _sum(moved, ((low, 0.0), (high, 0.0)) if line.direction == "read" else ((0.0, low), (0.0, high)))
+    return moved
+
+
+def _sum(one: Moved, other: Moved) -> Moved:
+    (a, b), (c, d) = one, other
+    return (a[0] + c[0], a[1] + c[1]), (b[0] + d[0], b[1] + d[1])
 
 
 def _assumed(frame: Frame, device: DeviceProfile | None, terms: Terms, frame_rates: Rates) -> list[str]:
@@ -163,8 +177,12 @@ def _assumed(frame: Frame, device: DeviceProfile | None, terms: Terms, frame_rat
         found.append(f"{ASSUMED_FPS:g} frames a second")
     if MAX_RATE in frame_rates:
         found.append(f"rates above {MAX_RATE:g} are taken for that")
+    if device is not None and device.tiler is None:
+        found.append(f"{device.name} may be a tile-based GPU or not: the traffic is that on a tile-based GPU")
     if device is not None and device.tiler is False:
-        found.append(f"{device.name} renders to memory at once: the traffic is that of a tile-based GPU with the same frame")
+        found.append(ASSUMED.format(device.name))
+        if terms.milliwatts_per_gbps is None and device.milliwatts_per_gbps is None:
+            found.append(f"{MILLIWATTS_PER_GBPS:g} mW per GB/s is Arm's figure for a phone's memory")
     return found
 
 

@@ -12,6 +12,10 @@ from .amounts import Amount, Terms
 MILLIWATTS_PER_GBPS = 100.0
 """Milliwatts for 10^9 bytes per second of external memory: Arm, "Understanding render passes"; the Khronos MSAA sample uses it too."""
 
+BUDGET_MILLIWATTS = 2500.0
+"""A phone's sustained power budget, by the same source: Arm, "Understanding render passes". It applies to devices that are
+known to be tile-based, and where none is named."""
+
 ASSUMED_FPS = 60.0
 MAX_RATE = 1e9
 """The upper bound of frames per second and of milliwatts per GB/s, so that every sum stays finite."""

@@ -2,13 +2,13 @@
 
 The model is a tile-based GPU: it reads an attachment where the pass loads it, writes it where the pass stores it, and resolves on the tile,
 so that a resolve writes one sample. Input attachments and vkCmdClearAttachments stay on the tile. An attachment that no subpass uses
-moves nothing, whatever its operations (VkAttachmentDescription).
+moves nothing, whatever its operations (VkAttachmentDescription). `immediate_mode.py` has the passes of immediate-mode GPUs.
 """
 
-from __future__ import annotations
+from typing import NamedTuple
 
 from msaa_lint.core.text.span import Span
-from msaa_lint.frame.description.models import Command, ReadImage
+from msaa_lint.frame.description.models import Command, Image, ReadImage
 from msaa_lint.frame.devices import DeviceProfile
 from msaa_lint.frame.facts.commands import (
     CLEAR,
@@ -21,6 +21,7 @@ from msaa_lint.frame.facts.commands import (
     RESOLVE_WRITE,
     WRITE,
 )
+from msaa_lint.frame.facts.compression import compresses
 from msaa_lint.frame.facts.frame import Frame
 from msaa_lint.frame.facts.parts import RENDERING, Attachment, Pass, Target
 from msaa_lint.frame.vulkan.formats import Format
@@ -36,7 +37,7 @@ MOVING = frozenset(COMMANDS) - {"present"}
 """The commands outside of begin and end that move texels. A present moves none: scanning out is the display's."""
 
 
-_NOT_STATED = {
+NOT_STATED = {
     "format": "its format is not stated: write `format`",
     "samples": "its sample count is not stated: write `samples`",
     "extent": "its size is not stated: write `extent`",
@@ -56,6 +57,29 @@ def aspect_bytes(format: Format, aspect: str) -> int | None:
     return format.bytes - format.stencil_bytes if aspect == "depth" else format.bytes
 
 
+class Stored(NamedTuple):
+    """How an image is kept in memory: its format, how many samples a texel has, and what is stated of it."""
+
+    format: Format | None
+    samples: int
+    image: Image | None
+
+
+def _ratios(device: DeviceProfile, writes: bool, stored: Stored) -> tuple[float, float] | None:
+    """The least and the most that moving an image takes of plain arithmetic; None where the device's compression is not known.
+
+    A ratio is an average over pictures: 1 means that nothing is compressed, above 1 that more moves than the texels. Where the device does
+    not compress the image, it is not below 1.
+    """
+    measured = device.compression.get(stored.samples) if device.compression is not None else None
+    if measured is None:
+        return None
+    least = measured[writes]
+    most = least if device.compression_most is None else max(least, device.compression_most[writes])
+    compressible = compresses(device, stored.format, stored.samples, stored.image)
+    return (max(least, 1.0) if compressible is False else least, most if compressible else max(most, 1.0))
+
+
 class Lines:
     """The lines of one pass or command, and what could not be counted."""
 
@@ -68,16 +92,21 @@ class Lines:
         self.assumed: dict[str, None] = {}
 
     def add(
-        self, attachment: str, image: str, aspect: str, samples: int, kept: int, action: str, direction: str, size: int, place: Span | None
+        self,
+        attachment: str,
+        image: str,
+        aspect: str,
+        samples: int,
+        action: str,
+        direction: str,
+        size: int,
+        place: Span | None,
+        stored: Stored,
     ) -> None:
-        """A line; `kept` is how many samples a texel the image has, which decides how it is compressed.
-
-        A device's compression is an average over pictures: 1 means that nothing is compressed, above 1 that more moves than the texels.
-        """
-        compression = self.device.compression if self.device is not None else None
-        ratios = compression.get(kept) if compression is not None else None
-        corrected = size * ratios[direction == "write"] if ratios is not None else None
-        self.found.append(Line(attachment, image, aspect, samples, action, direction, size, corrected, place))
+        """A line; `stored` is how the image is kept in memory, which decides how it is compressed."""
+        ratios = _ratios(self.device, direction == "write", stored) if self.device is not None else None
+        least, most = (size * ratios[0], size * ratios[1]) if ratios is not None else (None, None)
+        self.found.append(Line(attachment, image, aspect, samples, action, direction, size, least, place, most))
 
     def missing(self, text: str) -> None:
         """Says of something that it is not counted, and why."""
@@ -102,7 +131,7 @@ def pass_lines(render_pass: Pass, area: Area, device: DeviceProfile | None) -> L
 def _attachment(lines: Lines, render_pass: Pass, attachment: Attachment, area: Area) -> None:
     target = attachment.targets[0] if attachment.targets else None
     image = target.name if target is not None and target.image is not None else ""
-    pixels: int | None = _pixels(render_pass, attachment, area)
+    pixels: int | None = pass_pixels(render_pass, attachment, area)
     if attachment.only_rate:
         # A texel of it is for a block of pixels: the extent alone says how many it has.
         extent = target.image.extent if target is not None and target.image is not None else None
@@ -122,11 +151,8 @@ def _attachment(lines: Lines, render_pass: Pass, attachment: Attachment, area: A
             causes.append(("resolve" if name in over else "store", "write", record.place(aspect.store_member)))
         elif aspect.store is None:
             lines.missing(f"whether `{attachment.title}` is stored: {aspect.store_member} is not stated")
-        if attachment.input:
-            if lines.device is None or lines.device.tiler is None:
-                lines.assumed["input attachments are read on the tile"] = None
-            elif lines.device.tiler is False:
-                causes.append(("input", "read", record.head))
+        if attachment.input and (lines.device is None or lines.device.tiler is None):
+            lines.assumed["input attachments are read on the tile"] = None
         if not causes:
             continue
         texel = aspect_bytes(attachment.format, name) if attachment.format is not None else None
@@ -134,10 +160,11 @@ def _attachment(lines: Lines, render_pass: Pass, attachment: Attachment, area: A
             lines.missing(f"`{attachment.title}`: its size is not stated: write `extent`")
             continue
         if texel is None or samples is None:
-            lines.missing(f"`{attachment.title}`: {_NOT_STATED['format' if texel is None else 'samples']}")
+            lines.missing(f"`{attachment.title}`: {NOT_STATED['format' if texel is None else 'samples']}")
             continue
+        stored = Stored(attachment.format, samples, target.image if target is not None else None)
         for action, direction, place in causes:
-            lines.add(attachment.name, image, name, samples, samples, action, direction, pixels * texel * samples, place)
+            lines.add(attachment.name, image, name, samples, action, direction, pixels * texel * samples, place, stored)
 
 
 def _rendering_resolves(lines: Lines, render_pass: Pass, area: Area) -> None:
@@ -152,13 +179,15 @@ def _rendering_resolves(lines: Lines, render_pass: Pass, area: Area) -> None:
         format = target.format or source.format
         texel = aspect_bytes(format, resolve.aspect) if format is not None else None
         if texel is None:
-            lines.missing(f"`{target.title}`: {_NOT_STATED['format']}")
+            lines.missing(f"`{target.title}`: {NOT_STATED['format']}")
             continue
-        size = _pixels(render_pass, source, area) * texel
-        lines.add(target.name, target.name, resolve.aspect, 1, 1, "resolve", "write", size, resolve.target_at)
+        size = pass_pixels(render_pass, source, area) * texel
+        stored = Stored(format, 1, target.image)
+        lines.add(target.name, target.name, resolve.aspect, 1, "resolve", "write", size, resolve.target_at, stored)
 
 
-def _pixels(render_pass: Pass, attachment: Attachment, area: Area) -> int:
+def pass_pixels(render_pass: Pass, attachment: Attachment, area: Area) -> int:
+    """The pixels of an attachment in every view or layer that a pass renders."""
     views = views_of(render_pass, attachment)
     return area.pixels * views if views else area.layered
 
@@ -169,6 +198,9 @@ def command_lines(lines: Lines, command: Command, frame: Frame, sizes: Sizes) ->
     images = [image for access in accesses if (image := frame.target(getattr(body, access.member, None))) is not None]
     if len(images) < len(accesses):
         lines.missing(_NO_IMAGE.get(command.kind, f"what {command.kind} names: the image is not stated"))
+        return
+    if lines.device is not None and lines.device.tiler is False and accesses[0].effect == CLEAR:
+        # An immediate-mode GPU may clear by its compression's metadata alone: unknown, as for load operations.
         return
     if isinstance(body, ReadImage):
         _read(lines, command, body, images[0], sizes)
@@ -184,7 +216,9 @@ def command_lines(lines: Lines, command: Command, frame: Frame, sizes: Sizes) ->
     if command.kind in ("copyImageToBuffer", "copyBufferToImage"):
         for line in lines.found[start:]:
             opposite = "write" if line.direction == "read" else "read"
-            lines.found.append(line._replace(attachment="buffer", image="", direction=opposite, corrected=_plain(line)))
+            plain = _plain(line)
+            buffer = line._replace(attachment="buffer", image="", direction=opposite, corrected=plain, corrected_most=plain)
+            lines.found.append(buffer)
 
 
 def _plain(line: Line) -> float | None:
@@ -224,10 +258,11 @@ def _move(
     blocks = texels(image, sizes) if blocks is None else blocks
     if format is None or kept is None or blocks is None:
         lacking = "format" if format is None else "samples" if kept is None else "extent"
-        lines.missing(f"`{image.title}`: {_NOT_STATED[lacking]}")
+        lines.missing(f"`{image.title}`: {NOT_STATED[lacking]}")
         return
     aspects = format.aspects[:1] if action == "read" else format.aspects
     moved = kept if samples is None else samples
     for aspect in aspects:
         size = blocks * (aspect_bytes(format, aspect) or 0) * moved
-        lines.add(image.name, image.name, aspect, moved, kept, action, direction, size, command.head)
+        stored = Stored(format, kept, image.image)
+        lines.add(image.name, image.name, aspect, moved, action, direction, size, command.head, stored)

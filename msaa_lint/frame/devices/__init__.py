@@ -14,6 +14,7 @@ class DeviceProfile(NamedTuple):
     marks a class of devices: the profile has what all of them guarantee, and what it does not list is not guaranteed.
 
     `tile` is the model of its tile sizes, `compression` the measured traffic relative to plain arithmetic by sample count (reads, writes),
+    of images that it may compress; `compression_most` what was measured at most of any image, None where `compression` is no range;
     `milliwatts_per_gbps` the power of 10^9 bytes per second of external memory traffic, `source` the origin of the facts.
     `builtin_profiles.py` says which features and extensions built-in profiles record.
     """
@@ -38,6 +39,7 @@ class DeviceProfile(NamedTuple):
     source: str = ""
     tile: "TileModel | None" = None
     compression: dict[int, tuple[float, float]] | None = None
+    compression_most: tuple[float, float] | None = None
     milliwatts_per_gbps: float | None = None
 
 
@@ -94,4 +96,5 @@ def _profile(name: str) -> DeviceProfile:
         source=row["source"] + EFFICIENT.get(vendor, "") + row.get("hardware", ""),
         tile=MODELS.get(row.get("tile", "")),
         compression=row.get("compression"),
+        compression_most=row.get("compression_most"),
     )

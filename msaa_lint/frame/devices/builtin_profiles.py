@@ -32,8 +32,11 @@ NV_MIXED = (*RENDERING, "VK_NV_framebuffer_mixed_samples")
 
 
 COMPRESSION_G76 = (
-    "; compression: fitted to the counters of the Khronos MSAA sample (docs/cost.md); above one sample none: AFBC is for"
-    " single-sampled images (Vulkan-Samples, afbc)"
+    "; compression: from the ratios fitted to the counters of the Khronos MSAA sample up to those of its render pass sample (docs/cost.md);"
+    " above one sample none: AFBC is for single-sampled images (Arm GPU Best Practices 9.8)"
+)
+TILER_XCLIPSE = (
+    "; not tile-based: likely, since its architecture is AMD's RDNA and the report has no lazily allocated memory; neither vendor states it"
 )
 TILE_A15 = "; tile: that of M2, of the same generation, which Mesa sizes as M1's"
 TILE_POWERVR = "; tile: Imagination's guide for all PowerVR GPUs, the chip's own is not published"
@@ -61,6 +64,7 @@ class Row(TypedDict, total=False):
     minimum: bool
     tile: str
     compression: dict[int, tuple[float, float]]
+    compression_most: tuple[float, float]
     source: str
     hardware: str
 
@@ -76,6 +80,7 @@ PROFILES: dict[str, Row] = {
         "api": "1.1.213",
         "tile": "mali-g76",
         "compression": {1: (0.484, 0.462), 2: (1.0, 1.0), 4: (1.0, 1.0), 8: (1.0, 1.0), 16: (1.0, 1.0)},
+        "compression_most": (1.1, 1.07),
         "source": REPORT.format(38559, "Mali-G76, driver r38p1") + SAMPLE_RATE_SHADING.format("VP_ANDROID_baseline_2022"),
         "hardware": COMPRESSION_G76,
     },
@@ -169,7 +174,6 @@ PROFILES: dict[str, Row] = {
         "source": REPORT.format(38811, "V3D 7.1.7 of a Raspberry Pi 5, Mesa 25.0.4"),
     },
     "samsung-xclipse": {
-        # `tiler` is unknown: the vendor says nothing of it. It offers no lazily allocated memory, and its architecture is AMD's.
         "name": "Xclipse 940",
         "vendor": "samsung",
         "counts": (7, 7, 7, 15),
@@ -178,6 +182,7 @@ PROFILES: dict[str, Row] = {
         "extensions": AMD_MIXED,
         "api": "1.3.279",
         "source": REPORT.format(38664, "Samsung Xclipse 940, driver 24.3.9"),
+        "hardware": TILER_XCLIPSE,
     },
     "nvidia": {
         "name": "GeForce RTX 4070",

@@ -8,6 +8,7 @@ from . import DeviceProfile, builtin
 from .msaa_features import EXTENSIONS, FEATURES
 from .offer import Offer, tile_model
 from .paths import is_path
+from .tile_models import MOST
 
 WIDTH = 120
 
@@ -35,6 +36,7 @@ def _members(profile: DeviceProfile) -> dict[str, object]:
     }
     compression = (profile.compression or {}).items()
     ratios = {f"{count} {way}": ratio for count, pair in compression for way, ratio in zip(("read", "write"), pair, strict=True)}
+    ratios |= dict(zip(MOST, profile.compression_most or (), strict=False))
     features, extensions = profile.features, profile.extensions
     return {
         "name": _text(profile.name),

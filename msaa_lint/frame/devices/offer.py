@@ -146,6 +146,7 @@ def record(offer: Offer) -> dict[str, object]:
         "compression": {count: {"read": pair[0], "write": pair[1]} for count, pair in profile.compression.items()}
         if profile.compression is not None
         else None,
+        "compression_most": dict(zip(("read", "write"), profile.compression_most, strict=True)) if profile.compression_most else None,
         "shares": shares(profile),
         "source": profile.source,
         "notes": offer.report.notes,

@@ -6,6 +6,7 @@ from typing import NamedTuple
 from msaa_lint.core.suggestions import did_you_mean
 
 PANFROST = "Mesa, Panfrost (pan_desc.c, pan_props.h, pan_model.c)"
+DATASHEET = "Arm GPU Datasheet 102849, version 7: 256 bits a pixel of G31, G51 and G52; depth: " + PANFROST
 ASAHI = "Mesa, Asahi (agx_tilebuffer.c): 32767 bytes a tile, 64 bytes a sample, of G13"
 V3D = "Mesa, V3D (v3d_util.c, v3d_choose_tile_size)"
 IMAGINATION = (
@@ -22,6 +23,7 @@ class TileModel(NamedTuple):
     `kind` is the formula: `mali`, `apple`, `v3d4`, `v3d7`, `powervr` or `adreno`. `color_bytes` is what colour may take of a tile,
     `depth_bytes` what depth may, `max_pixels` the largest tile; `limit_bytes` what colour may take where less than the smallest tile would
     be left otherwise (a Mali keeps half of its memory for the next tile, and gives that up). An Adreno's `color_bytes` is its whole GMEM.
+    `promotes`: 2 samples a pixel are kept as 4.
     """
 
     kind: str
@@ -30,19 +32,23 @@ class TileModel(NamedTuple):
     max_pixels: int = 0
     limit_bytes: int = 0
     source: str = ""
+    promotes: bool = False
 
 
 def _mali(color: int, depth: int, most: int, halved: bool) -> TileModel:
-    """By the sizes of the tile buffers; half of each is kept for the next tile, but on architectures 4 and 6."""
+    """By the sizes of the tile buffers; half of each is kept for the next tile, but on architectures 4 and 6.
+
+    From G71 on and before the fifth generation, whose tiles are larger, 2 samples are promoted to 4 (Arm GPU Datasheet 102849, version 7).
+    """
     share = 2 if halved else 1
-    return TileModel("mali", color // share, depth // share, most, color, PANFROST)
+    return TileModel("mali", color // share, depth // share, most, color, PANFROST, most < 4096)
 
 
 MODELS: dict[str, TileModel] = {
-    "mali-t760": _mali(8192, 8192, 256, True),
+    "mali-t760": _mali(8192, 8192, 256, True)._replace(promotes=False),
     "mali-g71": _mali(4096, 4096, 256, False),
     "mali-g72": _mali(8192, 4096, 256, False),
-    "mali-g51": _mali(8192, 8192, 256, True),
+    "mali-g51": TileModel("mali", 8192, 4096, 256, 8192, DATASHEET, True),
     "mali-g76": _mali(16384, 8192, 256, True),
     "mali-g610": _mali(32768, 16384, 1024, True),
     "mali-g720": _mali(65536, 32768, 4096, True),
@@ -117,15 +123,27 @@ COUNTS = ("1", "2", "4", "8", "16", "32", "64")
 MAX_RATIO = 16
 
 
+MOST = ("most read", "most write")
+"""Keys beside those of sample counts: what was measured at most of any image, where the other ratios are the least."""
+
+
+def stated_most(mapping: Mapping[str, float | None] | None) -> tuple[float, float] | None:
+    """The most that a device mapping's `compression` states for reads and writes; None unless it states both."""
+    read, write = ((mapping or {}).get(key) for key in MOST)
+    return None if read is None or write is None else (read, write)
+
+
 def stated_compression(mapping: Mapping[str, float | None] | None) -> Compression | Misstated | None:
     """The compression that a device mapping's `compression` states: by sample count, one ratio or separate ratios for reads and writes.
 
-    `{1: 0.5, 4: 1.0}`, or `{1 read: 0.48, 1 write: 0.46, 4: 1.0}`.
+    `{1: 0.5, 4: 1.0}`, or `{1 read: 0.48, 1 write: 0.46, 4: 1.0}`. `stated_most` reads the two keys of MOST.
     """
     if mapping is None:
         return None
     found: dict[int, list[float | None]] = {}
     for key, value in mapping.items():
+        if key in MOST and value is not None and 0 < value <= MAX_RATIO:
+            continue
         text, _, direction = key.partition(" ")
         if text not in COUNTS or direction not in ("", "read", "write"):
             return Misstated(

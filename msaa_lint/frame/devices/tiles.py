@@ -51,8 +51,13 @@ def tile_use(model: TileModel, colors: Targets, depth: tuple[Format, int] | None
 
 
 def _mali(model: TileModel, colors: Targets, depth: tuple[Format, int] | None, samples: int) -> tuple[int, int]:
-    """The largest power of two that fits in the budgets. Blendable formats take 4 bytes, others their size rounded up to a power of two."""
-    size = sum((4 if _blendable(format) else _power_of_two(format.bytes)) * samples for format, samples in colors)
+    """The largest power of two that fits in the budgets; 2 samples take what 4 do where they are promoted.
+
+    Blendable formats take 4 bytes, others their size rounded up to a power of two.
+    """
+    promoted = {2: 4} if model.promotes else {}
+    samples = promoted.get(samples, samples)
+    size = sum((4 if _blendable(format) else _power_of_two(format.bytes)) * promoted.get(count, count) for format, count in colors)
     pixels = model.max_pixels
     if size:
         fitting = model.color_bytes // _power_of_two(size)

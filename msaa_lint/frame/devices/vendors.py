@@ -18,17 +18,19 @@ VENDORS = {
 """VkPhysicalDeviceProperties::vendorID, and the name that a description has for the vendor."""
 
 TILERS = ("apple", "arm", "broadcom", "huawei", "img", "qualcomm", "samsung")
-"""Vendors of mobile GPUs, whose devices are counted as tile-based."""
+"""Vendors of mobile GPUs, whose devices the shares count as tile-based, Samsung's four of 191 among them."""
 
 
-_NOT_TILERS = ("amd", "nvidia", "intel")
+_NOT_TILERS = ("amd", "nvidia", "intel", "samsung")
+"""Samsung's Xclipse is AMD's RDNA, and none of its four reports at gpuinfo.org has lazily allocated memory: it counts as AMD's other GPUs.
+Neither vendor states that it renders at once, which is therefore likely, not certain."""
 
 
 def is_tiler(vendor: str | None) -> bool | None:
-    """Whether a vendor's GPUs are tile-based; unknown for Samsung's, whose architecture is AMD's, and for Mesa's own, which vary."""
+    """Whether a vendor's GPUs are tile-based; unknown for Mesa's own, which vary."""
     if vendor in _NOT_TILERS:
         return False
-    return True if vendor in TILERS and vendor != "samsung" else None
+    return True if vendor in TILERS else None
 
 
 def vendor_of(vendor_id: int) -> str | None:

@@ -109,7 +109,9 @@ def _rows(offer: Offer) -> Iterator[Row]:
     if profile.tile is not None:
         yield "tiles", f"source: {profile.tile.source}"
     if profile.compression is not None:
-        yield "compression", _compression(profile.compression)
+        most = profile.compression_most
+        at_most = "" if most is None else f", at least; at most reads {most[0]:g}, writes {most[1]:g}"
+        yield "compression", _compression(profile.compression) + at_most
     yield "source", profile.source
     for note in offer.report.notes:
         yield "note", note

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from msaa_lint.frame.description.models import Description, Device
 from msaa_lint.frame.devices import DeviceProfile, builtin
+from msaa_lint.frame.devices.vendors import is_tiler
 
+from .compression import is_valhall_or_later
 from .facts import Facts
 
 MIXED_SAMPLES = frozenset({"VK_AMD_mixed_attachment_samples", "VK_NV_framebuffer_mixed_samples"})
@@ -46,17 +48,18 @@ def of_family(description: Description) -> DeviceProfile | None:
 def described(device: Device) -> DeviceProfile:
     """A device mapping as a profile. What its `tile` or `compression` misstates is a problem of the description, and unknown here."""
     counts = device.sampleCounts
-    tile, compression = None, None
+    tile, compression, most = None, None, None
     if device.tile is not None or device.compression is not None:
-        from msaa_lint.frame.devices.tile_models import Misstated, stated_compression, stated_tile
+        from msaa_lint.frame.devices.tile_models import Misstated, stated_compression, stated_most, stated_tile
 
         stated = stated_tile(device.tile), stated_compression(device.compression)
         tile = None if isinstance(stated[0], Misstated) else stated[0]
         compression = None if isinstance(stated[1], Misstated) else stated[1]
+        most = None if compression is None else stated_most(device.compression)
     return DeviceProfile(
         name=device.name or "the described device",
         vendor=device.vendor,
-        tiler=device.tiler,
+        tiler=device.tiler if device.tiler is not None else is_tiler(device.vendor),
         color_samples=counts.color if counts is not None else None,
         depth_samples=counts.depth if counts is not None else None,
         stencil_samples=counts.stencil if counts is not None else None,
@@ -72,6 +75,7 @@ def described(device: Device) -> DeviceProfile:
         max_efficient_samples=device.maxEfficientSamples,
         tile=tile,
         compression=compression,
+        compression_most=most,
         milliwatts_per_gbps=device.milliwattsPerGBps,
     )
 
@@ -106,6 +110,7 @@ def _device(facts: Facts, device: DeviceProfile | None) -> None:
     facts.put("device.minimum", device is not None and device.minimum)
     efficient = device.max_efficient_samples if device is not None else None
     facts.put("device.max_efficient_samples", efficient if efficient is not None else DEFAULT_EFFICIENT_SAMPLES)
+    facts.put("device.accelerates_float_blending", is_valhall_or_later(device) is True)
     facts.put("device.immediate_mode", device is not None and device.tiler is False)
     if device is None:
         facts.put("device.lazy_memory_known", False)

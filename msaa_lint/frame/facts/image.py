@@ -10,6 +10,7 @@ from msaa_lint.frame.devices.shares import sample_count_share
 from msaa_lint.frame.vulkan.formats import Format
 
 from .commands import PRESENT, accesses, image_of
+from .compression import is_valhall_or_later
 from .facts import Facts
 from .frame import Frame
 from .parts import RENDER_PASS, RENDERING, Attachment, Target
@@ -23,7 +24,8 @@ COMPRESSION_BLOCKERS = {
     "arm": ("STORAGE", "MUTABLE_FORMAT", "LINEAR"),
     "nvidia": ("LINEAR",),
 }
-"""What keeps a vendor's GPUs from compressing a render target: the validation layer's advice for AMD and NVIDIA, Arm's for AFBC."""
+"""What keeps a vendor's GPUs from compressing a render target: the validation layer's advice for AMD and NVIDIA, Arm's for AFBC,
+which MUTABLE_FORMAT rules out before Valhall alone."""
 
 RENDER_TO_SINGLE_SAMPLED = "MULTISAMPLED_RENDER_TO_SINGLE_SAMPLED_EXT"
 """The creation flag of images that VK_EXT_multisampled_render_to_single_sampled renders to."""
@@ -286,6 +288,8 @@ def _compression_blockers(image: Image, device: DeviceProfile | None) -> list[tu
     if image.tiling == "LINEAR":
         stated.append(("LINEAR", image.place("tiling")))
     names = COMPRESSION_BLOCKERS.get(device.vendor or "") if device is not None else None
+    if names is not None and device is not None and device.vendor == "arm" and is_valhall_or_later(device) is not False:
+        names = tuple(name for name in names if name != "MUTABLE_FORMAT")
     return stated if names is None else [(name, at) for name, at in stated if name in names]
 
 

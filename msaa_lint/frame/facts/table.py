@@ -21,6 +21,11 @@ GLOBAL = (
     Fact("device.name", "STRING", "name of the device"),
     Fact("device.vendor", "STRING", "vendor of the device", "vendor"),
     Fact("device.tiler", "BOOL", "it is a tile-based renderer"),
+    Fact(
+        "device.accelerates_float_blending",
+        "BOOL",
+        "it is a Mali GPU of the Valhall generation or later, by its name, which blends 16-bit floats in hardware; never unknown",
+    ),
     Fact("device.immediate_mode", "BOOL", "it is stated not to be a tile-based renderer; never unknown"),
     Fact("device.lazy_memory", "BOOL", "it offers LAZILY_ALLOCATED memory"),
     Fact("device.lazy_memory_known", "BOOL", "its memory types are stated"),

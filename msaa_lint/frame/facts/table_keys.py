@@ -207,6 +207,7 @@ WITHOUT_KEY = frozenset(
         "frame.api",
         "device.known",
         "device.minimum",
+        "device.accelerates_float_blending",
         "device.immediate_mode",
         "device.lazy_memory_known",
         "device.max_efficient_samples",

@@ -95,7 +95,7 @@ def test_classes_promise_no_more_than_they_may() -> None:
 
 
 def test_unknown_facts_are_none() -> None:
-    assert profile("samsung-xclipse").tiler is None
+    assert profile("desktop").tiler is None
     assert profile("apple-m1").integer_samples is None
     assert profile("nvidia").max_efficient_samples is None
     assert DeviceProfile("mine") == DeviceProfile("mine", vendor=None, memory_types=None, minimum=False)

@@ -127,7 +127,7 @@ def test_the_same_hardware_has_its_tiles() -> None:
 
 @pytest.mark.parametrize(
     ("vendor", "kind", "tiler"),
-    [(0x13B5, 1, True), (0x144D, 1, None), (0x10005, 4, False), (0x10005, 1, None), (0x10DE, 2, False), (7, 2, None)],
+    [(0x13B5, 1, True), (0x144D, 1, False), (0x10005, 4, False), (0x10005, 1, None), (0x10DE, 2, False), (7, 2, None)],
 )
 def test_tilers(vendor: int, kind: int, tiler: bool | None) -> None:
     given_report = reported.gpuinfo()

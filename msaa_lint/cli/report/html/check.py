@@ -24,7 +24,7 @@ from ..excerpt import Mark, excerpt_rows
 from ..full import elsewhere, marks, remarks
 from ..paths import display_path
 from ..place import place
-from ..summary import converted_saving, files_saving, is_choice, summary, tally, usable_price
+from ..summary import ON_TILER, converted_saving, files_saving, is_choice, summary, tally, usable_price
 from ..undecided import explanation
 from ..words import plural
 from .diff import DiffLine, fix_diff
@@ -127,8 +127,9 @@ def _tiles(result: Result) -> list[tuple[str, str, str, str]]:
     prices = [saving.price for saving in savings if saving.price is not None]
     if prices:
         total = Price(*(sum(column) for column in zip(*prices, strict=True)))
-        tiles.append((figure(total.read_mb_per_s + total.write_mb_per_s, 0), "MB/s", "saved by fixes", "good"))
-        tiles.append((figure(total.milliwatts, 0), "mW", "saved by fixes", "good"))
+        label = "saved by fixes" + (ON_TILER if any(saving.assumes_tiler for saving in savings) else "")
+        tiles.append((figure(total.read_mb_per_s + total.write_mb_per_s, 0), "MB/s", label, "good"))
+        tiles.append((figure(total.milliwatts, 0), "mW", label, "good"))
     if savings:
         tiles.append((str(sum(saving.findings for saving in savings)), "", "findings that fixes remove", "good"))
     return tiles

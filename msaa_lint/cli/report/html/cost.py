@@ -80,13 +80,14 @@ def _tiles(cost: FrameCost) -> list[tuple[str, str, str, str]]:
     """The total at a glance."""
     total = cost.total
     least = cost_rows.AT_LEAST if cost.unknown else ""
-    share = f"of {cost.budget_milliwatts:g} mW"
+    share = cost.budget_share
+    budget = [] if share is None else [(least + figure(100 * share, 1), "%", f"of {cost.budget_milliwatts:g} mW", "")]
     return [
         (least + figure(total.read_mb_per_s, 0), "MB/s", "read from memory", "memory"),
         (least + figure(total.write_mb_per_s, 0), "MB/s", "written to memory", "memory"),
         (least + figure(total.memory_mib, 1), "MiB", "memory of images", ""),
         (least + figure(total.milliwatts, 0), "mW", "power of the traffic", ""),
-        (least + figure(100 * cost.budget_share, 1), "%", share, ""),
+        *budget,
     ]
 
 

@@ -111,7 +111,8 @@ FRAME_STRUCTURES = {
             ),
             "compression": Key(
                 "Framebuffer compression",
-                "The measured traffic divided by the arithmetic one, by sample count, such as `{1 read: 0.48, 1 write: 0.46, 4: 1.0}`.",
+                "The measured traffic of images that the device may compress, divided by the arithmetic one, by sample count, such as"
+                " `{1 read: 0.48, 1 write: 0.46, 4: 1.0}`; `most read` and `most write` beside them make a range.",
                 "ratio of bytes",
             ),
             "milliwattsPerGBps": Key(

@@ -59,6 +59,7 @@ def report(found: Found, file: str = "") -> Report:
         source=source + (f", driver {driver}" if driver else "") + EFFICIENT.get(vendor or "", "") + _of_twin(twin),
         tile=twin[1].tile if twin is not None else None,
         compression=twin[1].compression if twin is not None else None,
+        compression_most=twin[1].compression_most if twin is not None else None,
     )
     width, height = made.number("maxFramebufferWidth"), made.number("maxFramebufferHeight")
     details = Details(
