@@ -110,7 +110,6 @@ EXPECTED: dict[str, list[tuple[int, str]]] = {
     "frame/deferred-forward.msaa.yaml": [
         (16, "multisampled-attachment-loaded"),
         (19, "multisampled-attachment-loaded"),
-        (43, "multisampled-float-blending"),
         (53, "multisampled-stencil-stored"),
         (65, "framebuffer-readback"),
     ],
