@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from msaa_lint.frame.description.models import AttachmentDescription, BeginRendering, BeginRenderPass, Subpass
+from collections.abc import Collection, Mapping
+
+from msaa_lint.frame.description.models import AttachmentDescription, BeginRendering, BeginRenderPass, RenderPass, Subpass
 from msaa_lint.frame.devices import DeviceProfile
 
 from .facts import Facts
@@ -52,8 +54,11 @@ def clear_value_facts(facts: Facts, render_pass: Pass, frame: Frame) -> None:
         facts.put("pass.clear_values", count, body.place("clearValueCount"))
 
 
-def attachment_facts(attachment: Attachment, known: bool) -> Facts:
-    """What is known of an attachment in its pass; `known` says whether the pass's subpasses are."""
+def attachment_facts(attachment: Attachment, known: bool, dependencies: Mapping[int, Collection[int]]) -> Facts:
+    """What is known of an attachment in its pass; `known` says whether the pass's subpasses are.
+
+    `dependencies` are the later subpasses that depend on each subpass.
+    """
     facts = Facts()
     record = attachment.record
     target = attachment.target
@@ -70,6 +75,11 @@ def attachment_facts(attachment: Attachment, known: bool) -> Facts:
     facts.put("attachment.drawn", attachment.drawn)
     facts.put("attachment.is_resolve_target", bool(attachment.resolve))
     facts.put("attachment.read_as_input", bool(attachment.input))
+    lost = _lost(attachment, dependencies)
+    facts.put("attachment.lost_in_subpass", lost[0] if lost is not None else None)
+    facts.put("attachment.lost_for_subpass", lost[1] if lost is not None else None)
+    facts.put("attachment.lost", lost is not None)
+    facts.put("attachment.lost_for_input", lost is not None and lost[1] in attachment.input)
     if isinstance(record, AttachmentDescription):
         facts.put("attachment.initial_layout", record.initialLayout, record.place("initialLayout"))
         facts.put("attachment.final_layout", record.finalLayout, record.place("finalLayout"))
@@ -101,6 +111,40 @@ def single_sampled_facts(
     offered, whole = supported_samples(target, device) if target is not None else (None, False)
     if count is not None and offered is not None and device is not None and not device.minimum and (whole or count not in offered):
         facts.put("attachment.render_samples_supported", count in offered, place)
+
+
+def later_subpasses(render_pass: Pass) -> dict[int, list[int]]:
+    """The later subpasses of a pass that a stated dependency makes depend on each subpass."""
+    found: dict[int, list[int]] = {}
+    for dependency in render_pass.record.dependencies if isinstance(render_pass.record, RenderPass) else ():
+        source, target = dependency.srcSubpass, dependency.dstSubpass
+        if isinstance(source, int) and isinstance(target, int) and source < target:
+            found.setdefault(source, []).append(target)
+    return found
+
+
+def _lost(attachment: Attachment, dependencies: Mapping[int, Collection[int]]) -> tuple[int, int] | None:
+    """The subpass in which the contents of an attachment become undefined, and the next one after it that draws to it or reads it.
+
+    They become undefined in a subpass that neither uses nor preserves it, and depends on one that does, and stay so in what depends on that
+    subpass until they are written again, as a resolve does (Vulkan specification, Render Pass Creation, VkSubpassDescription).
+    """
+    used = attachment.color | attachment.depth_stencil | attachment.input | attachment.resolve.keys()
+    if not dependencies or len(used) < 2 or not used - attachment.input:
+        return None
+    kept, first = used | attachment.preserve, min(used)
+    lost = {target for source, targets in dependencies.items() if source in kept and source >= first for target in targets} - kept
+    for start in sorted(lost):
+        reached, following = set[int](), [start]
+        while following:
+            for target in dependencies.get(following.pop(), ()):
+                if target not in reached and target not in used:
+                    following.append(target)
+                reached.add(target)
+        uses = sorted(reached & (attachment.color | attachment.depth_stencil | attachment.input))
+        if uses:
+            return start, uses[0]
+    return None
 
 
 def resolves_at(render_pass: Pass) -> dict[int, list[Resolve]]:

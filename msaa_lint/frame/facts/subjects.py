@@ -9,7 +9,7 @@ from msaa_lint.frame.description.document import Document
 from msaa_lint.frame.description.models import SubpassDependency
 from msaa_lint.frame.devices import DeviceProfile
 
-from .attachment import aspect_facts, attachment_facts, clear_value_facts, pass_facts, resolves_at, single_sampled_facts
+from .attachment import aspect_facts, attachment_facts, clear_value_facts, later_subpasses, pass_facts, resolves_at, single_sampled_facts
 from .contents import Contents
 from .copy import copies
 from .dependency import Barriers, external_dependencies, recorded_barriers
@@ -203,8 +203,10 @@ class FrameAnalysis:
     def _attachments(self, render_pass: Pass, shared: Facts, instances: list[Instance]) -> Iterator[Subject]:
         resolves = resolves_at(render_pass)
         subpasses_known = (self.frame.document.whole or bool(render_pass.subpasses)) and not render_pass.unread
+        # What is not read may use an attachment in a subpass.
+        dependencies = later_subpasses(render_pass) if not render_pass.unread else {}
         for attachment in render_pass.attachments:
-            facts = Facts(shared, self._image_of(attachment), attachment_facts(attachment, subpasses_known))
+            facts = Facts(shared, self._image_of(attachment), attachment_facts(attachment, subpasses_known, dependencies))
             single_sampled_facts(facts, render_pass, attachment, self.device, chained_known=self.frame.document.format != "")
             record = attachment.record
             yield Subject("attachment", record.path, record.head, facts, attachment=attachment, owner=render_pass)

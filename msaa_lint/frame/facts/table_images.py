@@ -114,6 +114,15 @@ ATTACHMENT = (
         "a subpass of a render pass that has it as depth-stencil attachment states multisampledRenderToSingleSampled, but no "
         "depthStencilResolve; never unknown",
     ),
+    Fact(
+        "attachment.lost",
+        "BOOL",
+        "its contents become undefined in a subpass that neither uses nor preserves it, between two that depend on each other through it; "
+        "never unknown",
+    ),
+    Fact("attachment.lost_in_subpass", "INT", "that subpass"),
+    Fact("attachment.lost_for_subpass", "INT", "the next subpass that draws to it or reads it"),
+    Fact("attachment.lost_for_input", "BOOL", "that one reads it as input attachment"),
     Fact("attachment.initial_layout", "STRING", "layout at the start of the pass", "VkImageLayout"),
     Fact("attachment.final_layout", "STRING", "layout at the end of the pass", "VkImageLayout"),
 )
