@@ -110,3 +110,31 @@ def test_nothing_known_decides_nothing(rule: Rule) -> None:
     from msaa_lint.linter.rules.condition import activation
 
     assert Condition(rule.when, rule.subject).holds(activation(rule.subject, {})) is not True
+
+
+NAMED = {
+    r"Arm\b|Mali\b|Immortalis|AFBC|AFRC": r"Arm\b|Mali|Panfrost",
+    r"Qualcomm|Adreno|UBWC": r"Qualcomm|Adreno|Turnip|Meta\b",
+    r"Apple\b": r"Apple|Asahi",
+    r"Imagination|PowerVR": r"Imagination|PowerVR|IMG\b",
+    r"AMD\b|RDNA": r"AMD\b|RADV",
+    r"NVIDIA|Tegra": r"NVIDIA",
+    r"Intel\b": r"Intel\b|Apple",
+    r"[Oo]n llvmpipe|SwiftShader": r"[Mm]easured",
+    r"devices in reports|devices that report": r"gpuinfo",
+    r"(?:issues?|pull request) \d": r"(?:issues?|pull request) \d",
+}
+"""What the text of a page may name, and what a reference for that names. Statistics of devices and measurements name any vendor."""
+
+
+@pytest.mark.parametrize("rule", CATALOGUE.rules, ids=lambda rule: rule.name)
+def test_what_a_page_names_has_a_reference(rule: Rule) -> None:
+    """A vendor, a measurement, and a report of somebody else's are quoted from somewhere, which the page names."""
+    text = re.sub(r"^```.*?^```$", "", markdown(rule), flags=re.MULTILINE | re.DOTALL)
+    text = text.partition("## References")[0]
+    missing = [
+        named
+        for named, source in NAMED.items()
+        if re.search(rf"\b(?:{named})", text) and not any(re.search(rf"{source}|gpuinfo|Measured", each) for each in rule.references)
+    ]
+    assert not missing, f"{rule.name}: {rule.references}"

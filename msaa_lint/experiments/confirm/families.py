@@ -126,7 +126,7 @@ FAMILIES = (
     Family(
         "lazy-memory",
         ("lazily-allocated-without-transient",),
-        _ids("01047 01614"),
+        _ids("01047 01615"),
         "an image that is not a transient attachment is bound to a memory type that its requirements exclude",
         r"vkBindImageMemory|VkBindImageMemoryInfo",
         r"memoryTypeBits|[mM]emory[ _]type",
