@@ -67,6 +67,10 @@ class NoFix(Exception):
     """A fix cannot be planned or written. The message is the reason that users see."""
 
 
+class SharedText(NoFix):
+    """Anchors, aliases, or merge keys share a text that a fix changes with structures that it does not change."""
+
+
 class StructuralChange(Exception):
     """A change cannot be applied in place: it is structural, or it concerns a Metal record, from which other records are derived."""
 

@@ -15,8 +15,9 @@ from msaa_lint.linter.results import DocumentResult
 from msaa_lint.linter.rules.rule_runner import Key, finding_key
 
 from .aliases import Requests
-from .changes import Change, NoFix, distinct
+from .changes import Change, NoFix, SharedText, distinct
 from .context import FixContext
+from .expanded_aliases import ExpandedAliases
 from .planning import plan
 from .shorthand import Shorthand, WordEdit, shorthand
 from .text_edits import TextEditor
@@ -56,10 +57,29 @@ class DocumentFixes:
         return self._changes[key]
 
     def edits(self, changes: Sequence[Change], requested: Requests | None = None) -> tuple[Edit, ...]:
-        """The edits that make the changes, as `TextEditor.edits`; in a shorthand, the edit of one of its words."""
+        """The edits that make the changes, as `TextEditor.edits`; in a shorthand, the edit of one of its words.
+
+        Where an anchor shares what changes with structures that do not change, its aliases are written out.
+        """
         if self._is_expanded:
             return (self._word_edit(changes).edit,)
-        return self._editor.edits(changes, requested)
+        try:
+            return self._editor.edits(changes, requested)
+        except SharedText as shared:
+            if self._copies is None:
+                raise shared from None
+            copies, editor = self._copies
+            return copies.edits(editor.edits(copies.changes(changes, editor.document)))
+
+    @cached_property
+    def _copies(self) -> tuple[ExpandedAliases, TextEditor] | None:
+        """The document with its aliases written out, for changes of what aliases share; None if that cannot be done."""
+        try:
+            copies = ExpandedAliases(self.result.document)
+        except SharedText:
+            return None
+        document = self._read(copies.source)
+        return (copies, TextEditor(document)) if document is not None else None
 
     def with_edits(self, finding: Finding) -> Finding:
         """Adds the edits of its fix to a finding of the document. A fix that is only shown or that cannot be made has no edits."""
@@ -106,15 +126,18 @@ class DocumentFixes:
 
     def reread(self, changes: Sequence[Change]) -> Document | None:
         """The document after the changes are made in its text, or None if they cannot be made or introduce errors."""
-        from msaa_lint.input import readers
-
         if not self._editable:
             return None
         before = self.result.document.source
         try:
-            source = Source(before.name, apply(before.text, self.edits(changes)))
+            return self._read(Source(before.name, apply(before.text, self.edits(changes))))
         except (NoFix, Overlap):
             return None
+
+    def _read(self, source: Source) -> Document | None:
+        """The document in another text, or None if that has errors."""
+        from msaa_lint.input import readers
+
         parsed = parse(source, Limits())
         if parsed.problems or self.result.number >= len(parsed.documents):
             return None

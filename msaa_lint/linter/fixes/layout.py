@@ -143,8 +143,9 @@ class CollectionEditor:
         """Rewrites the collection with the items at the indices, each with the text before it, and with replacements in them."""
         items, text = self.items, self.text.text
         whole = Span(items[0].start, items[-1].end)
-        if self.node.kind == "mapping" or self.text.comments_in(*whole):
-            raise NoFix("comments or merge keys may stand between the entries")
+        between = (text[one.end : other.start].strip() for one, other in pairwise(items))
+        if self.text.comments_in(*whole) or any(each != "," for each in between):
+            raise NoFix("comments or merge keys stand between the entries")
         first, *others = indices
         spans = [Span(*items[first]), *(Span(items[n - 1].end, items[n].end) for n in others)]
         return [Edit(whole, "".join(_replaced(text, span, replacements) for span in spans))]
@@ -179,8 +180,15 @@ class CollectionEditor:
         start, end = self.items[index]
         if column is not None and self.node.kind == "sequence":
             start = self._dash(index, column)
-        if column is None or start < 0 or not text.begins_line(start) or not text.ends_line(end) or len(self.items) == 1:
+        if column is None or start < 0 or not text.ends_line(end) or len(self.items) == 1:
             raise NoFix(_NOT_ON_OWN_LINES)
+        if not text.begins_line(start):
+            if index or text.line_start(self.items[1].start) <= end:
+                raise NoFix(_NOT_ON_OWN_LINES)
+            # The next key moves up to the dash that stands before the first one, with comments between them.
+            following = self.items[1].start
+            lines = "".join(f"{comment}{text.line_break(start)}{' ' * column}" for comment in text.comments_in(start, following))
+            return [Edit(Span(start, following), lines)]
         return [text.without_lines(start, end, " " * column)]
 
     def _dash(self, index: int, column: int) -> int:

@@ -17,7 +17,7 @@ from msaa_lint.frame.description.shapes import Shape
 from msaa_lint.frame.vulkan.enums import VALUES
 
 from .aliases import Aliases, Member, Requests, all_request, requests
-from .changes import Change, NoFix
+from .changes import Change, NoFix, SharedText
 from .layout import CollectionEditor
 from .references import nested_records
 from .spelling import Spelling
@@ -109,11 +109,11 @@ class TextEditor:
         if self._aliases is not None:
             if not all_request(self._aliases.of_key(record, member), group, requested):
                 if is_own or action == "unset":
-                    raise NoFix(f"an anchor shares this `{member}` with other structures")
+                    raise SharedText(f"an anchor shares this `{member}` with other structures")
                 return self._new_value(group)
             if not all_request(self._aliases.of_value(record, member), group, requested):
                 if node.anchor is None:
-                    raise NoFix(f"an anchor shares the value of this `{member}` with other members")
+                    raise SharedText(f"an anchor shares the value of this `{member}` with other members")
                 if action != "unset":
                     return [Edit(node.span, self._new_value(group))]
         node = node.anchor or node
@@ -127,13 +127,13 @@ class TextEditor:
         if self.is_dump:
             return [Edit(node.span, '"NULL"')]
         if self._aliases is not None and _MERGE.search(self.text.text, record.node.start, record.node.end):
-            raise NoFix(f"a merge key may state `{member}` as well")
+            raise SharedText(f"a merge key may state `{member}` as well")
         if self._is_aliased_outside(node):
-            raise NoFix(f"an anchor shares the value of this `{member}` with other members")
+            raise SharedText(f"an anchor shares the value of this `{member}` with other members")
         collection = self._collection(record.node)
         index = collection.index(key.start)
         if index is None or not _has_own(record, key):
-            raise NoFix(f"another structure states `{member}`")
+            raise SharedText(f"another structure states `{member}`")
         return collection.remove([index])
 
     def _is_aliased_outside(self, node: Node) -> bool:
@@ -160,7 +160,10 @@ class TextEditor:
         if self._is_block_scalar(node):
             raise NoFix("the value is a block scalar")
         text = self._spelling.scalar(shape, value, None if is_empty else node, record)
-        text = quote_scalar(text, self.text.quote(node), not isinstance(value, str) or text.isdecimal())
+        # A number that takes the place of a word, as 1 does of ALL, is not one in quotes.
+        is_number = text.isdecimal() and not node.text.isdecimal() and not self.is_dump
+        quote = "" if is_number else self.text.quote(node)
+        text = quote_scalar(text, quote, not isinstance(value, str) or text.isdecimal())
         needs_blank = is_empty and self.text.text[start - 1 : start] not in (" ", "\t", "")
         return Edit(Span(start, node.end), f" {text}" if needs_blank else text)
 
@@ -179,11 +182,11 @@ class TextEditor:
         names = [enumerant(enum, item.text) if item.kind == "scalar" else None for item in node.value]
         indices = [n for n, name in enumerate(names) if name in removals]
         if any(self._is_aliased_outside(node.value[n]) for n in indices):
-            raise NoFix("an anchor shares one of the flags with other members")
+            raise SharedText("an anchor shares one of the flags with other members")
         edits = []
         for n, name in zip(indices, additions, strict=False):
             if node.value[n].anchor is not None:
-                raise NoFix("one of the flags is an alias")
+                raise SharedText("one of the flags is an alias")
             edits.append(self._scalar(node.value[n], shape, name, record))
         surplus, missing = indices[len(additions) :], additions[len(indices) :]
         collection = self._collection(node)
@@ -250,7 +253,7 @@ class TextEditor:
         """The edits that add an entry, `key: value`, to the end of a list of mappings. Raises NoFix if the text does not allow it."""
         key, node = record.spelled[member]
         if self.is_dump or node.kind != "sequence" or node.anchor is not None or not _has_own(record, key):
-            raise NoFix(f"`{member}` is not written as a list of its own")
+            raise SharedText(f"`{member}` is not written as a list of its own")
         collection = self._collection(node)
         return tuple(collection.insert([f"{{{item}}}" if collection.flow else item]))
 
@@ -266,7 +269,7 @@ class TextEditor:
             others = self._aliases.of_mapping(record)
             if any((other, member) not in requested for other in others for member, _ in members):
                 if node.anchor is None or self._aliases.has_same_node(record):
-                    raise NoFix("an anchor shares this structure with others")
+                    raise SharedText("an anchor shares this structure with others")
                 # The alias becomes a mapping that merges what it named.
                 alias = self.text.text[node.start : node.end]
                 return [Edit(node.span, "{" + ", ".join([f"<<: {alias}", *entries]) + "}")]
@@ -291,7 +294,7 @@ class TextEditor:
         aliases = self._aliases
         is_shared = aliases is not None and (aliases.of_key(record, member) or aliases.of_value(record, member))
         if is_shared or not _has_own(record, key) or node.anchor is not None:
-            raise NoFix(f"an anchor shares `{member}` with other structures")
+            raise SharedText(f"an anchor shares `{member}` with other structures")
         edits: list[Edit] = []
         new: list[str] = []
         drops: list[int] = []

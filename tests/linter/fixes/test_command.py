@@ -178,7 +178,7 @@ def test_findings_of_the_baseline_are_fixed(folder: Path) -> None:
 
 def test_reason_of_a_failed_fix_is_reported(folder: Path) -> None:
     color = "{image: ms, loadOp: CLEAR, storeOp: STORE}"
-    shared = STORED.replace(color, f"&c {color}\n      normals: {{<<: *c, image: kept}}")
+    shared = STORED.replace(color, f"&c {color}\n      normals: {{<<: *c, # as it is\n        image: kept}}")
     shared = shared.replace("images:\n", "images:\n  kept: {format: R8G8B8A8_UNORM, samples: 4, usage: [COLOR_ATTACHMENT, SAMPLED]}\n")
     shared = shared.replace("[color]", "[color, normals]").replace("[output]", "[output, null]")
     (folder / "frame.msaa.yaml").write_text(shared, encoding="utf-8")

@@ -30,7 +30,7 @@ DATA = {name: data_of(text) for name, text in TEXTS.items() if "\n---\n" not in 
 FIXABLE = st.deferred(
     lambda: st.sampled_from(sorted(name for name, text in TEXTS.items() if name in DATA and fix_findings(text, True).fixed_findings))
 )
-BESIDE = ("a comment stands between the entries", "comments or merge keys may stand between the entries")
+BESIDE = ("a comment stands between the entries", "comments or merge keys stand between the entries")
 
 
 @pytest.mark.parametrize("unsafe", [False, True])
