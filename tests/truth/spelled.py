@@ -54,7 +54,8 @@ class _Dumper(yaml.SafeDumper):
 
 
 def dumped(data: Any, **options: Any) -> str:
-    return yaml.dump(data, Dumper=_Dumper, sort_keys=False, width=10_000, **options)
+    text: str = yaml.dump(data, Dumper=_Dumper, sort_keys=False, width=10_000, **options)
+    return text
 
 
 STYLES: dict[str, Callable[[Any, Random], str]] = {
