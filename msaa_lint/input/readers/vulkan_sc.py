@@ -93,9 +93,11 @@ def _enabled(binder: Binder, description: Description, root: Node, state: Node) 
     core_features = _core_features(features) if features is not None else None
     if core_features is not None:
         key, node = core_features
-        enabled.features = tuple(
-            name for name, item in node.value.items() if item.kind == "scalar" and item.text in ("VK_TRUE", "1", "true")
-        )
+        chain = [features, node]
+        while chain[-2].kind == "mapping" and "pNext" in chain[-2].value:
+            chain.insert(-1, chain[-2].value["pNext"])
+        members = [member for each in chain if each.kind == "mapping" for member in each.value.items()]
+        enabled.features = tuple(name for name, item in members if item.kind == "scalar" and item.text in ("VK_TRUE", "1", "true"))
         rate = "sampleRateShading"
         enabled.spelled["features"] = (node.keys[rate], node.value[rate]) if rate in node.value else (key, node)
     description.enabled = enabled

@@ -82,7 +82,12 @@ MEMBERS: dict[str, tuple[str, ...]] = {
     ),
     "PhysicalDeviceFeatures": (
         "robustBufferAccess", "fullDrawIndexUint32", "imageCubeArray", "independentBlend", "geometryShader", "tessellationShader",
-        "sampleRateShading",
+        "sampleRateShading", "dualSrcBlend", "logicOp", "multiDrawIndirect", "drawIndirectFirstInstance", "depthClamp", "depthBiasClamp",
+        "fillModeNonSolid", "depthBounds", "wideLines", "largePoints", "alphaToOne", "multiViewport", "samplerAnisotropy",
+        "textureCompressionETC2", "textureCompressionASTC_LDR", "textureCompressionBC", "occlusionQueryPrecise",
+        "pipelineStatisticsQuery", "vertexPipelineStoresAndAtomics", "fragmentStoresAndAtomics",
+        "shaderTessellationAndGeometryPointSize", "shaderImageGatherExtended", "shaderStorageImageExtendedFormats",
+        "shaderStorageImageMultisample",
     ),
     "PhysicalDeviceFeatures2": ("features",),
     "MemoryAllocateInfo": ("allocationSize", "memoryTypeIndex"),

@@ -11,6 +11,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from msaa_lint.core.text.node import Node
 from msaa_lint.core.text.node_builder import mapping, scalar, sequence
 from msaa_lint.core.text.span import Span
+from msaa_lint.frame.devices.msaa_features import FEATURES
 from msaa_lint.frame.vulkan.names import parse_enum
 from msaa_lint.input.code.core.values import UNKNOWN, ApiObject, Array, Struct, Symbol, sole_value
 from msaa_lint.input.code.parsing import Read
@@ -147,23 +148,28 @@ class DescriptionWriter(Passes, Commands):
             yield "sampleMask", at, sequence([scalar(word, at) for word in words], at)
 
     def enabled(self) -> Iterator[Item]:
-        """Yields the features that the only device of the file enables; only sampleRateShading is read."""
+        """Yields those features about multisampling that the only device of the file enables, if all of them are known."""
         devices = [obj for obj in self.current_objects if obj.kind == "device"]
         if len(devices) != 1:
             return
         info = devices[0].info
         features = self.struct(info, "enabledFeatures")
+        structures = [features] if features is not None else []
         chained = self.dereference(self.get(info, "next")[0]) if "next" in info.fields else None
-        if features is None and isinstance(chained, Struct) and chained.kind == "PhysicalDeviceFeatures2":
-            features = self.struct(chained, "features")
-        elif chained is not None and chained != 0:
-            # Another structure in the pNext chain may enable it.
+        while isinstance(chained, Struct):
+            if chained.kind == "PhysicalDeviceFeatures2":
+                features = self.struct(chained, "features")
+                structures += [features] if features is not None else []
+            else:
+                structures.append(chained)
+            chained = self.dereference(self.get(chained, "next")[0]) if "next" in chained.fields else None
+        if features is None or (chained is not None and chained != 0):
+            # What is not known of the pNext chain may enable more.
             return
-        if features is None:
-            return
-        value, at = self.get(features, "sampleRateShading")
-        if value is None or isinstance(value, (bool, int)):
-            names = [scalar("sampleRateShading", at)] if value else []
+        at = self.get(features, "sampleRateShading")[1]
+        stated = [(name, *self.get(structure, name)) for structure in structures for name in FEATURES if name in structure.fields]
+        if all(isinstance(value, (bool, int)) for _, value, _ in stated):
+            names = [scalar(name, place) for name, value, place in stated if value]
             yield "enabled", head_of(info.at), mapping([("features", at, sequence(names, at))], head_of(info.at))
 
     def dynamic(self, info: Struct) -> list[Item] | None:
