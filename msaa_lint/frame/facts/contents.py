@@ -12,7 +12,7 @@ from math import lcm
 from .commands import CLEAR, COMMAND_READS, COMMAND_WRITES, RESOLVE_WRITE, WRITE
 from .frame import Frame
 from .parts import RENDERING, Attachment, Resolve, Target
-from .timeline import BEGIN, DISCARD, ELSEWHERE, INPUT, LOAD, MAX_FRAMES, SOME_FRAMES, STORE, Event, Timeline
+from .timeline import BEGIN, DISCARD, ELSEWHERE, INPUT, LOAD, MAX_FRAMES, SOME_FRAMES, STORE, Event, Timeline, discards_all
 
 READS = frozenset({LOAD, *COMMAND_READS})
 
@@ -65,6 +65,11 @@ class AspectEvents:
         """Whether all of them are known, and none is a load."""
         return all(is_known(event) and event.kind != LOAD for event in self.events)
 
+    def _is_decisive(self, index: int) -> bool:
+        """Whether an event ends the life of what was there, reads it, or may do either; what writes after a barrier from UNDEFINED does."""
+        event, before = self.events[index], self.before(index)
+        return _decides(event) or (_overwrites_in_part(event) and is_known(before) and discards_all(before))
+
     def before(self, index: int) -> Event:
         """The event before one, round the loop."""
         return self.events[(index - 1) % len(self.events)]
@@ -83,19 +88,19 @@ class AspectEvents:
 
     @cached_property
     def _decisive(self) -> list[int | None]:
-        return self._nearest([*reversed(range(len(self.events)))], _decides)
+        return self._nearest([*reversed(range(len(self.events)))], self._is_decisive)
 
     @cached_property
     def _writes(self) -> list[int | None]:
-        return self._nearest([*range(len(self.events))], lambda event: not (event.kind in READS and is_known(event)))
+        return self._nearest([*range(len(self.events))], lambda index: not _is_known_read(self.events[index]))
 
-    def _nearest(self, order: list[int], accepts: Callable[[Event], bool]) -> list[int | None]:
+    def _nearest(self, order: list[int], accepts: Callable[[int], bool]) -> list[int | None]:
         """For each event the accepted one that comes nearest before it in an order that goes round; itself, where there is no other."""
         found: list[int | None] = [None] * len(order)
         nearest: int | None = None
         for index in order * 2:
             found[index] = nearest
-            if accepts(self.events[index]):
+            if accepts(index):
                 nearest = index
         return found
 
@@ -154,6 +159,14 @@ def _decides(event: Event) -> bool:
         # After a barrier from UNDEFINED the next use tells: a load that finds nothing was to find what was stored.
         return False
     return event.whole and event.kind in (BEGIN, CLEAR, DISCARD, RESOLVE_WRITE, *(COMMAND_WRITES - {WRITE}))
+
+
+def _is_known_read(event: Event) -> bool:
+    return event.kind in READS and is_known(event)
+
+
+def _overwrites_in_part(event: Event) -> bool:
+    return is_known(event) and event.kind in (BEGIN, *COMMAND_WRITES)
 
 
 def _likeness(target: Target) -> object:

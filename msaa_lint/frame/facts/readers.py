@@ -18,7 +18,7 @@ from .commands import CLEAR, COMMAND_READS, COMMAND_WRITES, RESOLVE_WRITE
 from .frame import Frame
 from .parts import RENDERING, Aspect, Attachment, Pass, Resolve, Target
 from .pass_begin import targets_at
-from .timeline import BEGIN, DISCARD, ELSEWHERE, LOAD, STORE, Event, Timeline, key_of
+from .timeline import BEGIN, DISCARD, ELSEWHERE, LOAD, STORE, Event, Timeline, discards_all, key_of
 from .walk import PassRun
 
 READS = "reads"
@@ -54,12 +54,13 @@ class Readers:
         key = (image, aspect)
         if key not in self._uses_of:
             target = self.frame.targets.get(image)
-            events = (
+            events = [
                 event
                 for event in self.timeline.of.get(image, ())
                 if same_aspect(event.aspect, aspect) and not _reads_input_attachment(event, target)
-            )
-            self._uses_of[key] = [(event, effect) for event in events if (effect := _effect(event)) is not None]
+            ]
+            uses = [(event, _effect_after(events[number - 1], event)) for number, event in enumerate(events)]
+            self._uses_of[key] = [(event, effect) for event, effect in uses if effect is not None]
         return self._uses_of[key]
 
     def reads(self, image: str) -> list[Event]:
@@ -210,6 +211,13 @@ def _reads_input_attachment(event: Event, target: Target | None) -> bool:
     usage = target.image.usage if target is not None and target.image is not None else None
     only = usage is not None and "INPUT_ATTACHMENT" in usage and {"SAMPLED", "STORAGE"}.isdisjoint(usage)
     return access == "INPUT_ATTACHMENT_READ" or (access is None and only)
+
+
+def _effect_after(before: Event, event: Event) -> str | None:
+    """The `_effect` of an event after another: after a barrier from UNDEFINED, what is written in part leaves nothing of the rest."""
+    if discards_all(before) and event.certain and event.frames is None and event.kind in (BEGIN, *COMMAND_WRITES):
+        return OVERWRITES
+    return _effect(event)
 
 
 def _load_effect(event: Event) -> str | None:

@@ -150,10 +150,13 @@ def _pipelines(facts: Facts, own: list[Pipeline | None]) -> None:
 
 
 def _covers_in_part(pipeline: Pipeline) -> bool | None:
-    """Whether a pipeline can cover a pixel in part; None where what decides it is not stated."""
+    """Whether a pipeline can cover a pixel in part; None where what decides it is not stated.
+
+    One that rasterizes with one sample is invalid in a multisampled subpass, whatever it covers: that is another mistake.
+    """
     raster, state, dynamic = pipeline.rasterizationState, pipeline.multisampleState, pipeline.dynamicState
     discard = raster.rasterizerDiscardEnable if raster is not None and "RASTERIZER_DISCARD_ENABLE" not in dynamic else None
     samples = state.rasterizationSamples if state is not None and "RASTERIZATION_SAMPLES_EXT" not in dynamic else None
-    if discard is True or samples == 1:
+    if discard is True:
         return False
     return None if discard is None and samples is None else True

@@ -13,7 +13,7 @@ from operator import attrgetter
 from typing import NamedTuple
 
 from msaa_lint.core.text.span import Span
-from msaa_lint.frame.description.models import BeginRenderPass, Command, ImageBarrier, PipelineBarrier
+from msaa_lint.frame.description.models import AttachmentDescription, BeginRenderPass, Command, ImageBarrier, PipelineBarrier
 
 from .commands import CLEAR, COMMAND_WRITES, READ, RESOLVE_READ, RESOLVE_WRITE, accesses
 from .frame import Frame
@@ -238,11 +238,16 @@ class Timeline:
                     if aspect.load == "NONE" and (attachment.drawn or attachment.input):
                         # Nothing is left inside the pass of what was there, though a pass that tests or blends with it means it.
                         begin = LOAD, False
+                    # A render pass that begins with layout UNDEFINED keeps nothing of the image, outside of its render area too.
+                    undefined = aspect.load != "LOAD" and _is_undefined(attachment, aspect.name)
+                    if undefined and aspect.load is not None:
+                        begin = BEGIN, True
                     if begin is not None and not (attachment.only_rate and begin[0] == BEGIN):
                         kind, certain = begin
+                        all_of_it = whole or (undefined and one_surface(target.image) and frames is not SOME_FRAMES)
                         yield (
                             key,
-                            Event(run.begin_time, kind, aspect.name, whole, certain, attachment, aspect.load_member, run, None, frames),
+                            Event(run.begin_time, kind, aspect.name, all_of_it, certain, attachment, aspect.load_member, run, None, frames),
                         )
                     for index in attachment.color | attachment.depth_stencil:
                         yield key, Event(run.starts[index], DRAW, aspect.name, whole, True, attachment, "", run, None, frames)
@@ -329,11 +334,25 @@ def key_of(target: Target) -> str:
     return target.name if target.image is not None else target.path
 
 
+def discards_all(event: Event) -> bool:
+    """Whether an event is a barrier from layout UNDEFINED, after which nothing of an image is left."""
+    return event.kind == DISCARD and event.command is not None and event.whole and event.certain
+
+
 def plain(target: Target | None) -> bool:
     """Whether a command that names an image and no part of it means all of it: one level, layer and aspect."""
     if target is None or not one_surface(target.image):
         return False
     return target.format is not None and len(target.format.aspects) == 1
+
+
+def _is_undefined(attachment: Attachment, aspect: str | None) -> bool:
+    """Whether the initial layout of an aspect says that nothing is kept of it."""
+    record = attachment.record
+    if not isinstance(record, AttachmentDescription):
+        return False
+    separate = aspect == "stencil" and record.stencilInitialLayout is not None
+    return (record.stencilInitialLayout if separate else record.initialLayout) == "UNDEFINED"
 
 
 _BEGINS = {None: (LOAD, False), "LOAD": (LOAD, True), "CLEAR": (BEGIN, True), "DONT_CARE": (BEGIN, True)}
