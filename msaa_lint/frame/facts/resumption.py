@@ -28,11 +28,12 @@ def resumption_facts(facts: Facts, render_pass: Pass, walk: Walk) -> None:
     if suspended is not None:
         one, other = suspended.record, render_pass.record
         assert isinstance(one, BeginRendering) and isinstance(other, BeginRendering)
-        facts.put("pass.resumed_from", suspended.name, one.place("flags"))
         difference = _difference(one, other)
-    facts.put("pass.resumes_differently", difference is not None, difference[1] if difference is not None else None)
-    if difference is not None:
-        facts.put("pass.resumed_member", difference[0])
+    name, at = (suspended.name, suspended.record.place("flags")) if suspended is not None else ("", None)
+    member, differs_at = difference if difference is not None else ("", None)
+    facts.put("pass.resumes_differently", difference is not None, differs_at)
+    facts.put("pass.resumed_from", name, at)
+    facts.put("pass.resumed_member", member)
 
 
 def _difference(one: BeginRendering, other: BeginRendering) -> Difference | None:

@@ -18,8 +18,12 @@ PASS = (
     Fact("pass.labels", "LIST", "debug labels within which it is begun: the labels around one begin are joined by ` / `"),
     Fact("pass.suspends", "BOOL", "it is a suspended rendering: a later one continues it"),
     Fact("pass.resumes_differently", "BOOL", "it is a resumed rendering, and states another value of a member than the suspended one"),
-    Fact("pass.resumed_from", "STRING", "resumed rendering: the suspended rendering that it continues"),
-    Fact("pass.resumed_member", "STRING", "resumed rendering: the first member that differs, as `colorAttachments[0].loadOp`"),
+    Fact("pass.resumed_from", "STRING", "the suspended rendering that it continues; empty if it is none that is resumed"),
+    Fact(
+        "pass.resumed_member",
+        "STRING",
+        "the first member that differs from that one's, as `colorAttachments[0].loadOp`; empty if none does",
+    ),
     Fact(
         "pass.handed_over",
         "LIST",
