@@ -88,7 +88,6 @@ EXPECTED: dict[str, list[tuple[int, str]]] = {
         (14, "multisampled-image-not-transient"),
         (14, "multisampled-stencil-stored"),
         (15, "resolve-target-loaded"),
-        (18, "sample-count-above-four"),
         (18, "sample-count-unsupported"),
         (18, "sixteen-samples-biased"),
         (33, "metal-memoryless-possible"),
