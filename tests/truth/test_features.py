@@ -101,7 +101,7 @@ def codes(folder: Path, text: str, form: str = "yaml") -> set[str]:
     folder.joinpath("glints.frag.spv").write_bytes(Path("rules/shaders/glints.frag.spv").read_bytes())
     path = folder / f"frame.msaa.{form}"
     path.write_text(text if form == "yaml" else json.dumps(yaml.safe_load(text)))
-    found = [finding["code"] for finding in findings(folder, path)]
+    found = [str(finding["code"]) for finding in findings(folder, path)]
     assert not [code for code in found if code.startswith("MSAA9")], found
     return set(found)
 
