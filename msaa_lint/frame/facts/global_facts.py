@@ -9,7 +9,9 @@ from msaa_lint.frame.devices.vendors import is_tiler
 from .compression import is_valhall_or_later
 from .facts import Facts
 
-MIXED_SAMPLES = frozenset({"VK_AMD_mixed_attachment_samples", "VK_NV_framebuffer_mixed_samples"})
+AMD_MIXED_SAMPLES = "VK_AMD_mixed_attachment_samples"
+NV_MIXED_SAMPLES = "VK_NV_framebuffer_mixed_samples"
+MIXED_SAMPLES = frozenset({AMD_MIXED_SAMPLES, NV_MIXED_SAMPLES})
 SINGLE_SAMPLED = "VK_EXT_multisampled_render_to_single_sampled"
 
 FEATURES = {

@@ -13,6 +13,7 @@ from msaa_lint.frame.vulkan.formats import Format, format_of
 
 from .facts import Facts
 from .frame import Frame
+from .global_facts import AMD_MIXED_SAMPLES, NV_MIXED_SAMPLES
 from .parts import Pass, PassSubpass
 from .subpass import samples_of
 from .walk import Walk
@@ -51,9 +52,13 @@ def _subpass_key(pipeline: Pipeline) -> tuple[str | None, int]:
 
 
 def pipeline_facts(
-    pipeline: Pipeline, subpass: PassSubpass | None, draws: Sequence[Draw], chosen_in: frozenset[tuple[str | None, int]]
+    pipeline: Pipeline,
+    subpass: PassSubpass | None,
+    draws: Sequence[Draw],
+    chosen_in: frozenset[tuple[str | None, int]],
+    extensions: Container[str] = (),
 ) -> Facts:
-    """What is known of a pipeline and of what it draws to. `draws` are the recorded ones with it."""
+    """What is known of a pipeline and of what it draws to. `draws` are the recorded ones with it, `extensions` those that are enabled."""
     facts = Facts()
     facts.put("pipeline.name", pipeline.key, pipeline.head)
     # Vulkan ignores both where rasterization is disabled.
@@ -90,9 +95,46 @@ def pipeline_facts(
     elif formats and not any(format is None or format.arm_float_blend for format in formats):
         facts.put("pipeline.blended_float_formats", [])
     drawn_in = [subpass] if subpass is not None else [draw.subpass for draw in draws if draw.subpass is not None]
-    counts = {samples_of(each) if not _resolves_itself(each) else None for each in drawn_in}
-    facts.put("pipeline.attachment_samples", counts.pop() if len(counts) == 1 else None, drawn_in[0].record.head if drawn_in else None)
+    required = {_required(pipeline, each, extensions) if not _resolves_itself(each) else (None, False) for each in drawn_in}
+    count, or_more = required.pop() if len(required) == 1 else (None, False)
+    facts.put("pipeline.attachment_samples", count, drawn_in[0].record.head if drawn_in else None)
+    facts.put("pipeline.may_exceed_attachments", or_more)
     return facts
+
+
+def _required(pipeline: Pipeline, subpass: PassSubpass, extensions: Container[str]) -> tuple[int | None, bool]:
+    """The count that a pipeline must have for a subpass, and whether it may have a higher one.
+
+    With VK_AMD_mixed_attachment_samples it is the highest of the attachments (VUID-VkGraphicsPipelineCreateInfo-subpass-01505), with
+    VK_NV_framebuffer_mixed_samples that of the depth-stencil attachment where the pipeline tests, else at least that of the color
+    attachments (subpass-01411, subpass-01412).
+    """
+    if NV_MIXED_SAMPLES in extensions:
+        tests = [attachment.samples for attachment in subpass.depth_stencil[:1]]
+        colors = {attachment.samples for attachment in subpass.color if attachment is not None}
+        tested = _tests(pipeline) if tests else False
+        if tested is True:
+            return tests[0], False
+        return (colors.pop() if len(colors) == 1 else None), True
+    if AMD_MIXED_SAMPLES in extensions and not subpass.single_sampled:
+        attachments = [*(each for each in subpass.color if each is not None), *subpass.depth_stencil]
+        counts = [each.samples for each in attachments if each.samples is not None]
+        return (max(counts) if counts and len(counts) == len(attachments) else None), False
+    return samples_of(subpass), False
+
+
+def _tests(pipeline: Pipeline) -> bool | None:
+    """Whether a depth, stencil, or depth bounds test is enabled; None where that is dynamic or not stated."""
+    state, dynamic = pipeline.depthStencilState, pipeline.dynamicState
+    stated = [
+        None if name in dynamic else getattr(state, member, None)
+        for name, member in (
+            ("DEPTH_TEST_ENABLE", "depthTestEnable"),
+            ("STENCIL_TEST_ENABLE", "stencilTestEnable"),
+            ("DEPTH_BOUNDS_TEST_ENABLE", "depthBoundsTestEnable"),
+        )
+    ]
+    return True if True in stated else None if None in stated else False
 
 
 def _rasterization_samples(pipeline: Pipeline, draws: Sequence[Draw]) -> tuple[int | None, Span]:

@@ -265,11 +265,13 @@ class FrameAnalysis:
             yield Subject("resolve", resolve.path, resolve.record.head, facts, resolve=resolve)
 
     def _pipelines(self, of_subpass: dict[str, Facts]) -> Iterator[Subject]:
+        enabled = self.frame.description.enabled
+        extensions = enabled.extensions or () if enabled is not None else ()
         draws = draws_of(self.walk) if self.frame.pipelines else {}
         without_shading = unshaded(self.frame)
         for pipeline, render_pass in self.frame.pipelines:
             subpass = subpass_of(pipeline, render_pass)
-            facts = pipeline_facts(pipeline, subpass, draws.get(pipeline.key, ()), without_shading)
+            facts = pipeline_facts(pipeline, subpass, draws.get(pipeline.key, ()), without_shading, extensions)
             self.shaders.put(facts, pipeline)
             shared = of_subpass[subpass.path] if subpass is not None else self.shared
             yield Subject(

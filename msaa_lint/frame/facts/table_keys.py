@@ -296,6 +296,7 @@ WITHOUT_KEY = frozenset(
         "resolve.read_in_pass",
         "resolve.read_next_frame",
         "pipeline.name",
+        "pipeline.may_exceed_attachments",
         "pipeline.samples_dynamic",
         "pipeline.per_sample_reads",
         "pipeline.shaded_per_sample",

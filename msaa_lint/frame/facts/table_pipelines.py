@@ -12,7 +12,13 @@ PIPELINE = (
         "rasterizationSamples; if it is dynamic state, what the commands set for all its draws; unknown if it rasterizes nothing",
     ),
     Fact("pipeline.samples_dynamic", "BOOL", "its sample count is dynamic state; never unknown"),
-    Fact("pipeline.attachment_samples", "INT", "sample count of its subpass or rendering; unknown with a custom resolve"),
+    Fact(
+        "pipeline.attachment_samples",
+        "INT",
+        "sample count that its subpass or rendering requires: that of the attachments; with VK_AMD_mixed_attachment_samples the highest of "
+        "them, with VK_NV_framebuffer_mixed_samples that of depth if it tests; unknown with a custom resolve",
+    ),
+    Fact("pipeline.may_exceed_attachments", "BOOL", "VK_NV_framebuffer_mixed_samples allows it more samples than that; never unknown"),
     Fact("pipeline.sample_shading", "BOOL", "sampleShadingEnable"),
     Fact(
         "pipeline.sample_shading_chosen",
