@@ -340,7 +340,7 @@ def _additions(before: FileResult, after: FileResult, fixed_findings: Sequence[F
     """The findings of `after` that neither were there before nor are one that moved.
 
     A fix may move a finding: a resolve that becomes part of a pass has the same problem there. It is then by the same rule and about the
-    same image as one in the text that the edits remove.
+    same image as one in the text that the edits remove or replace.
     """
     expected = Counter(map(_kind, _with_suppressed(before)))
     expected.subtract(map(_kind, fixed_findings))
@@ -352,14 +352,14 @@ def _additions(before: FileResult, after: FileResult, fixed_findings: Sequence[F
             new.append(finding)
     if not new:
         return
-    removals = [edit for edit in edits if not edit.text.strip()]
+    spans = [edit.span for edit in edits]
     gone: dict[tuple[str, tuple[str, ...]], list[int]] = {}
     for number, finding in enumerate(_with_suppressed(before)):
         kind = _kind(finding)
         if expected[kind] > 0:
             expected[kind] -= 1
-            span = finding.span
-            if span is None or not any(edit.span.start <= span.start and span.end <= edit.span.end for edit in removals):
+            at = finding.span
+            if at is None or not any(span.start <= at.start and at.end <= span.end for span in spans):
                 continue
             for image in _images(finding):
                 gone.setdefault((finding.code, image), []).append(number)

@@ -324,7 +324,7 @@ STEPS = ["clear and resolve", "load and resolve", "load", "read", "clear target"
 
 
 def played(steps: list[str]) -> tuple[set[int], set[int]]:
-    """The steps whose result nothing reads, in a loop; those that a later one of the frame repeats with more drawn, unread in between."""
+    """The steps whose result nothing reads, in a loop; those that a later one repeats with more drawn, unread in between, to be read."""
     written: dict[int, bool] = {}
     target: tuple[int, int] | None = None
     read: set[tuple[int, int]] = set()
@@ -344,7 +344,7 @@ def played(steps: list[str]) -> tuple[set[int], set[int]]:
             if steps[later] == "clear and resolve":
                 break
             if steps[later] == "load and resolve":
-                anew.add(number)
+                anew.update([number] if later not in unread else ())
                 break
     return unread, anew
 
