@@ -270,5 +270,5 @@ def _priced(fixes: DocumentFixes, prices: Prices, finding: Finding) -> Finding:
         return finding._replace(notes=(*finding.notes, NOT_PRICED))
     if price is None:
         return finding
-    notes = (*finding.notes, *prices.notes(price))
+    notes = (*finding.notes, *(fixes.price_notes(finding) if any(price) else ()), *prices.notes(price))
     return finding._replace(price=price, notes=notes, assumes_tiler=any(price) and assumes_tiler(fixes.result.device))

@@ -167,6 +167,10 @@ class Readers:
 
     def stored_before(self, render_pass: Pass, attachment: Attachment, aspect: Aspect) -> Store | None:
         """Which pass stored what an attachment loads, round the loop; None where none did, or where that differs from time to time."""
+        last = self._store_before(render_pass, attachment, aspect)
+        return Store(last.run.render_pass, last.place) if last is not None and last.run is not None else None
+
+    def _store_before(self, render_pass: Pass, attachment: Attachment, aspect: Aspect) -> Event | None:
         runs = self.timeline.walk.runs_of(render_pass)
         if aspect.load != "LOAD" or len(runs) != 1 or attachment.target is None:
             return None
@@ -178,7 +182,37 @@ class Readers:
         last = stores[bisect_left(stores, runs[0].begin_time, key=lambda event: event.time) - 1] if stores else None
         if last is None or last.run is None or last.kind not in (STORE, RESOLVE_WRITE) or not last.certain:
             return None
-        return Store(last.run.render_pass, last.place)
+        return last
+
+    def forced_store(self, render_pass: Pass, attachment: Attachment, aspect: Aspect) -> Attachment | None:
+        """The attachment whose store nothing needs but the load of this one, round the loop; None where something else does, or may."""
+        last = self._store_before(render_pass, attachment, aspect)
+        if last is None or not isinstance(last.source, Attachment) or last.run is None or not self.timeline.ordered:
+            return None
+        target = attachment.target
+        image = target.image if target is not None else None
+        may_be_read = image is not None and (
+            image.mayBeRead or (not self.frame.has_commands and (image.presentable or usage_reads(image, bool(attachment.input))))
+        )
+        if target is None or may_be_read or len(self.timeline.walk.runs_of(last.run.render_pass)) != 1:
+            return None
+        (run,) = self.timeline.walk.runs_of(render_pass)
+        events = self.timeline.of[key_of(target)]
+        number = bisect_left(events, last.time, key=lambda event: event.time)
+        while events[number] is not last:
+            number += 1
+        loaded = False
+        for step in range(1, len(events) + 1):
+            event = events[(number + step) % len(events)]
+            if not same_aspect(event.aspect, aspect.name):
+                continue
+            if event.kind == LOAD and event.run is run:
+                loaded = True
+            elif loaded and event.kind in (STORE, DISCARD) and _replaces(event):
+                return last.source
+            elif _effect(event) is not None and not _reads_input_attachment(event, target):
+                return last.source if loaded and _effect(event) == OVERWRITES else None
+        return None
 
 
 def _is_stranger(target: Target) -> bool:
@@ -200,6 +234,12 @@ def _effect(event: Event) -> str | None:
     if event.kind == RESOLVE_WRITE or event.kind == CLEAR:
         return OVERWRITES if event.certain and event.whole and event.frames is None else None
     return READS if event.kind in COMMAND_READS and event.command is not None else None
+
+
+def _replaces(event: Event) -> bool:
+    """Whether nothing is left after the end of a pass, or a barrier, of what was stored before."""
+    partial = event.run.render_pass.partial_area if event.run is not None else False
+    return event.certain and event.frames is None and (event.whole or partial is None)
 
 
 def _reads_input_attachment(event: Event, target: Target | None) -> bool:

@@ -11,6 +11,7 @@ from .clears import clear_on_load, draw_the_copy
 from .context import FixContext
 from .handovers import keep_on_tile
 from .images import allow_multisampling, share_image
+from .merges import merge_passes, merge_price_note
 from .resolve_depth import resolve_depth
 from .resolve_in_pass import resolve_before_read, resolve_in_pass
 from .resolves import drop_resolve, resolve_by_sample_zero, resolve_to_copy, wait_for_resolve
@@ -33,7 +34,11 @@ ACTIONS: dict[str, Action] = {
     "share-image": share_image,
     "hand-over-depth": resolve_depth,
     "keep-on-tile": keep_on_tile,
+    "merge-passes": merge_passes,
 }
 
-PRICE_ONLY = frozenset({"keep-on-tile"})
-"""Fixes whose changes are for the price alone. What such a fix is, a pass with other shaders, no edit of a description can write."""
+PRICE_ONLY = frozenset({"keep-on-tile", "merge-passes"})
+"""Fixes whose changes are for the price alone. What such a fix is, one pass in place of two, no edit of a description can write."""
+
+PRICE_NOTES: dict[str, Callable[[Subject, FixContext], str | None]] = {"merge-passes": merge_price_note}
+"""What the price of such a fix leaves out, for a subject; None if nothing."""

@@ -14,6 +14,7 @@ from msaa_lint.frame.description.document import Document
 from msaa_lint.linter.results import DocumentResult
 from msaa_lint.linter.rules.rule_runner import Key, finding_key
 
+from .actions import PRICE_NOTES
 from .aliases import Requests
 from .changes import Change, NoFix, SharedText, distinct
 from .context import FixContext
@@ -55,6 +56,12 @@ class DocumentFixes:
                 changes += plan(spec, subject, self._context)
             self._changes[key] = tuple(distinct(changes))
         return self._changes[key]
+
+    def price_notes(self, finding: Finding) -> tuple[str, ...]:
+        """What the price of a finding's fix leaves out."""
+        specs = self.result.fix_specs[finding_key(finding)]
+        notes = (PRICE_NOTES[spec.do](subject, self._context) for spec, subject in specs if spec.do in PRICE_NOTES)
+        return tuple(dict.fromkeys(note for note in notes if note is not None))
 
     def edits(self, changes: Sequence[Change], requested: Requests | None = None) -> tuple[Edit, ...]:
         """The edits that make the changes, as `TextEditor.edits`; in a shorthand, the edit of one of its words.

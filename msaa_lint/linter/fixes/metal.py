@@ -16,6 +16,7 @@ from .changes import Change, NoFix
 from .context import FixContext
 from .fact_sources import FindSources, Source
 from .handovers import keep_on_tile
+from .merges import merge_passes
 from .subject_parts import aspect_of, copied_images, described_image, images_of, pipeline_of, present
 from .transient import check_unread, drop_stores, is_needed
 
@@ -152,5 +153,6 @@ METAL_ACTIONS: dict[str, Action] = {
     "drop-resolve-texture": drop_resolve_texture,
     "resolve-to-copy": resolve_to_copy,
     "keep-on-tile": keep_on_tile,
+    "merge-passes": merge_passes,
 }
 """The fixes that rule pages name by `do`."""

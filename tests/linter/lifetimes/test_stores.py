@@ -137,7 +137,8 @@ def test_stencil_that_is_loaded_and_stored_for_nobody_is_one_finding_at_the_load
     """)
     assert (
         message(linted, "MSAA204")
-        == "the stencil of `both_ms` loads 4x samples and stores them, but nothing needs them; use CLEAR and DONT_CARE"
+        == "the stencil of `both_ms` loads 4x samples, and stores them although nothing reads them; draw in the pass that stored them, "
+        "and set stencilStoreOp to DONT_CARE"
     )
 
 
