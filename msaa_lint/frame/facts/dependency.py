@@ -125,7 +125,10 @@ def external_dependencies(
 def _use_facts(subpass: int, attachments: list[Attachment]) -> Facts:
     facts = Facts()
     facts.put("dependency.subpass", subpass)
-    facts.put("dependency.multisampled", _any_multisampled(attachments))
+    multisampled = _any_multisampled(attachments)
+    facts.put("dependency.multisampled", multisampled)
+    if multisampled is False:
+        facts.put("dependency.makes_writes_available", True)
     facts.put("dependency.multisampled_depth_stencil", _any_multisampled([a for a in attachments if subpass in a.depth_stencil]))
     return facts
 

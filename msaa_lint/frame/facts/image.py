@@ -134,9 +134,11 @@ def image_facts(target: Target, bindings: Bindings, frame: Frame, readers: Reade
         facts.put("image.is_color", "color" in format.aspects, format_at)
         facts.put("image.numeric", format.numeric or None, format_at)
         facts.put("image.is_half_float", format.is_float16)
+    if target.samples == 1:
+        facts.put("image.supported", True)
     supported, whole = supported_samples(target, device)
     if supported is not None and device is not None:
-        offered = target.samples in supported
+        offered = target.samples == 1 or target.samples in supported
         if whole or not offered:
             facts.put("image.supported_samples", list(supported))
         # What a class of devices does not promise, a device of it may offer; framebuffer limits say nothing of what no pass draws to.

@@ -27,6 +27,10 @@ def lifetime_facts(facts: Facts, attachment: Attachment, aspect: Aspect, content
         bound = [(target, contents.of(target.name, aspect.name)) for target in attachment.targets if target.image is not None]
         _put_store(facts, attachment, aspect, bound, contents)
         _put_undefined(facts, attachment, aspect, bound, contents)
+    elif facts.values.get("attachment.used") is False:
+        # Vulkan ignores its operations.
+        facts.put("aspect.store_wasted", False)
+        facts.put("aspect.reads_undefined", False)
     if contents.timeline.writes and bound:
         _put_commands_before(facts, attachment, bound)
     else:

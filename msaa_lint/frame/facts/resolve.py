@@ -39,7 +39,9 @@ def resolve_facts(resolve: Resolve, device: DeviceProfile | None) -> Facts:
     facts.put("resolve.formats_match", formats_match(resolve, from_format, to_format), resolve.target_at)
     single = resolve.render_pass is not None and resolve.render_pass.subpasses[resolve.subpass].single_sampled
     facts.put("resolve.single_sampled_render", single)
-    if resolve.kind != "command":
+    if resolve.kind == "command":
+        facts.put("resolve.target_also", "NOTHING")
+    else:
         facts.put("resolve.pass_could_resolve", False)
     _modes(facts, resolve, device)
     return facts

@@ -112,7 +112,9 @@ def _odd(facts: Facts, subpass: PassSubpass, private: bool) -> None:
     places = {n: reference.place("attachment", "image") for n, reference in enumerate(record.colorAttachments) if reference is not None}
     drawn = [(a, places.get(n, record.head)) for n, a in enumerate(subpass.color) if a is not None]
     reference = record.depthStencilAttachment if isinstance(record, Subpass) else None
-    drawn += [(a, reference.place("attachment") if reference is not None else a.record.place("image")) for a in subpass.depth_stencil]
+    for n, attachment in enumerate(subpass.depth_stencil):
+        # A second one is Metal's stencil in a texture of its own.
+        drawn.append((attachment, reference.place("attachment") if reference is not None and n == 0 else attachment.record.place("image")))
     for attachment, place in drawn:
         if attachment.samples is None or (private and attachment.samples == 1):
             continue

@@ -60,7 +60,11 @@ IMAGE = (
         "only resolve commands read it, each after a pass that already resolved or discarded its samples; never unknown",
     ),
     Fact("image.loaded", "BOOL", "a pass loads an aspect of it"),
-    Fact("image.supported", "BOOL", "the device supports its sample count for its aspects; unknown if no pass can draw to it"),
+    Fact(
+        "image.supported",
+        "BOOL",
+        "the device supports its sample count for its aspects, as every device does one sample; unknown if no pass can draw to it",
+    ),
     Fact("image.supported_samples", "INTS", "sample counts that the device supports for its aspects"),
     Fact("image.averaged_by_reader", "BOOL", "a shader that reads it averages its samples, as stated or as the shader's module shows"),
     Fact(

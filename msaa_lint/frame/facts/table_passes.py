@@ -111,7 +111,12 @@ RESOLVE = (
     Fact("resolve.target_too_small", "BOOL", "an image that it writes is smaller than a framebuffer or render area that it is used with"),
     Fact("resolve.target_extent", "STRING", "width and height of that image"),
     Fact("resolve.rendered_extent", "STRING", "width and height of that framebuffer, or right and lower end of that render area"),
-    Fact("resolve.target_also", "STRING", "what else its subpass or rendering uses the image for that it writes", "other use"),
+    Fact(
+        "resolve.target_also",
+        "STRING",
+        "what else its subpass or rendering uses the image for that it writes; NOTHING for a command",
+        "other use",
+    ),
     Fact("resolve.target_stored", "BOOL", "what it writes outlives the pass"),
     Fact("resolve.target_read", "BOOL", "something reads what it writes, later in the pass or the frame, or in the next frame"),
     Fact(
@@ -177,7 +182,7 @@ DEPENDENCY = (
         "dependency.makes_writes_available",
         "BOOL",
         "they make the writes of every multisampled attachment available that the subpass is the first to use: COLOR_ATTACHMENT_WRITE for "
-        "color, DEPTH_STENCIL_ATTACHMENT_WRITE for depth and stencil, or MEMORY_WRITE",
+        "color, DEPTH_STENCIL_ATTACHMENT_WRITE for depth and stencil, or MEMORY_WRITE; true where there is none",
     ),
     Fact("dependency.unavailable_writes", "LIST", "write accesses that they do not make available", "VkAccessFlagBits2"),
     Fact("dependency.waits_for_late_tests", "BOOL", "their source stages include LATE_FRAGMENT_TESTS, or a stage that contains it"),
