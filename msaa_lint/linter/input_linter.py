@@ -27,7 +27,9 @@ from .mistakes import one_per_mistake
 from .programs import merge, merged, of_turns
 from .results import DocumentResult, FileResult, location_order
 from .rules.registry import Registry, built_in
+from .rules.rule import Rule
 from .rules.rule_runner import RuleRunner, Verdicts, distinct, finding_key
+from .rules.rule_runner import Severity as RuleSeverity
 from .run_limits import RunLimits
 from .settings.selection import Severity
 
@@ -131,7 +133,7 @@ class InputLinter:
                 verdicts, device = self.lint_document(document, file, options, bool(parsed.problems))
             findings.extend(_prefixed(verdicts.findings, prefix))
             undecided.extend(_prefixed(verdicts.undecided, prefix))
-            results.append(DocumentResult(document, verdicts.fix_specs, number, device, verdicts.checked))
+            results.append(DocumentResult(document.rest or document, verdicts.fix_specs, number, device, verdicts.checked))
         if modules is None:
             findings += _untold(hidden_characters(source), findings)
         suppressed: list[Suppressed] = []
@@ -234,7 +236,11 @@ class InputLinter:
         """
         if document.problems or broken:
             problems = [diagnostic(p.code, p.message, file, p.span, p.path, p.labels, p.help) for p in document.problems]
-            return Verdicts(problems, [], {}, False), None
+            if broken or document.rest is None:
+                return Verdicts(problems, [], {}, False), None
+            verdicts, device = self.lint_document(document.rest._replace(problems=()), file, options)
+            verdicts = _without_fixes(verdicts)
+            return verdicts._replace(findings=[*problems, *verdicts.findings], undecided=[]), device
         analysis = self._analysis(document, file, options)
         if isinstance(analysis, Problem):
             span = document.description.place("device")
@@ -294,8 +300,9 @@ class InputLinter:
         # Nobody writes keys into source code.
         missing_keys = MissingKeys(frame).of if document.whole or document.format else None
         qualify = Qualifier(document, frame.bindings.attachments) if document.tree is not None and not document.format else None
+        severity = options.severity if document.complete else _of_parts(options.severity, self.registry.rules)
         verdicts = self._runner.run(
-            subjects, file, options.severity, document.api, missing_keys, options.all_keys, options.keys or Allowance(0), qualify
+            subjects, file, severity, document.api, missing_keys, options.all_keys, options.keys or Allowance(0), qualify
         )
         if document.has_unread_structures:
             verdicts = _without_safe_fixes(verdicts)
@@ -329,6 +336,20 @@ class InputLinter:
         return [*remaining, *about_comments], suppressed
 
 
+def _of_parts(severity: Severity, rules: Iterable[Rule]) -> RuleSeverity:
+    """The severities in a frame that was not wholly read: rules that ask for facts of the whole frame are off, and what they supersede."""
+    from msaa_lint.frame.facts.table_keys import OF_THE_FRAME
+
+    from .rules.condition import named
+
+    off: set[str] = set()
+    for rule in rules:
+        conditions = (rule.when, *(case.when for case in rule.cases))
+        if any(not OF_THE_FRAME.isdisjoint(named(condition)) for condition in conditions):
+            off |= {rule.name, *rule.supersedes}
+    return lambda rule, suggested, vendor: None if rule.name in off else severity(rule, suggested, vendor)
+
+
 def _without_safe_fixes(verdicts: Verdicts) -> Verdicts:
     """The verdicts on a document that was not wholly read: no fix is safe, as what was not read may use what a fix takes away."""
     findings = [found._replace(fix=found.fix._replace(safe=False)) if found.fix else found for found in verdicts.findings]
@@ -336,6 +357,13 @@ def _without_safe_fixes(verdicts: Verdicts) -> Verdicts:
         key: [(spec._replace(safety="unsafe") if spec.safe else spec, subject) for spec, subject in fixes]
         for key, fixes in verdicts.fix_specs.items()
     }
+    return verdicts._replace(findings=findings, fix_specs=specs)
+
+
+def _without_fixes(verdicts: Verdicts) -> Verdicts:
+    """The verdicts on what could be read of a document with errors, whose fixes are only shown: none is made before the errors are gone."""
+    findings = [found._replace(fix=found.fix._replace(safe=False, shown=True)) if found.fix else found for found in verdicts.findings]
+    specs = {key: [(spec._replace(safety="shown"), subject) for spec, subject in fixes] for key, fixes in verdicts.fix_specs.items()}
     return verdicts._replace(findings=findings, fix_specs=specs)
 
 

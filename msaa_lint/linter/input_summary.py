@@ -55,7 +55,8 @@ def input_summary(data: bytes | CaptureInput | SourceFile, result: FileResult) -
     failed = len(documents) < len(result.documents) or any(finding.fatal for finding in result.findings)
     if isinstance(data, bytes):
         format = next((each.document.format for each in result.documents), "")
-        unread = _unread_frame(documents, "add `renderPasses` or `beginRendering` commands")
+        # What an error hides may be the pass.
+        unread = _unread_frame(documents, "add `renderPasses` or `beginRendering` commands") if not failed else None
         count = len(result.documents) if format == "description" else None
         return _summary(result.file, format, documents, failed, unread)._replace(frames=count)
     from msaa_lint.input.source_file import SourceFile

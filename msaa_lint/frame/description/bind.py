@@ -73,7 +73,7 @@ class Binder(ValueBinder):
             key = node.keys[key_text]
             is_bare = not dumped and has_no_value(value)
             if shape is None:
-                self.unknown_key(kind, key, value, path)
+                self.unknown_key(kind, key, value, path, any(map(shapes.__contains__, node.value)))
                 if hidden_character(key_text):
                     # The keys below it are indented by such characters too.
                     break
@@ -120,11 +120,13 @@ class Binder(ValueBinder):
         message = f"{quoted(key.text)} must be indented deeper than {quoted(above)}, which has no value without it"
         self.report("MSAA903", message, key.span, f"{path}.{shortened(above)}".lstrip("."))
 
-    def unknown_key(self, kind: type[Record], key: Node, value: Node, path: str) -> None:
+    def unknown_key(self, kind: type[Record], key: Node, value: Node, path: str, has_known: bool) -> None:
         if not self.is_full:
             key_path = f"{path}.{shortened(key.text)}".lstrip(".")
-            message = f"unknown key {quoted(key.text)} in {path or 'the description'}{key_hint(kind, key.text, value)}"
-            self.report("MSAA902", message, key.span, key_path)
+            hint = key_hint(kind, key.text, value)
+            message = f"unknown key {quoted(key.text)} in {path or 'the description'}{hint}"
+            foreign = has_known and hint == question_or_names(None, list(kind.SHAPE), ": ")
+            self.report("MSAA902", message, key.span, key_path, foreign=foreign)
 
     def value(self, shape: Shape, node: Node, path: str, key: str, head: Span | None = None) -> Any:
         """The value of a node by a shape."""
@@ -250,8 +252,9 @@ class Binder(ValueBinder):
             return None
         shape = kind.SHAPE.get(name)
         if shape is None:
-            hint = "" if self.is_full else question_or_names(meant(name, kind.SHAPE), list(kind.SHAPE), ": ")
-            self.report("MSAA902", f"unknown command {quoted(name)}{hint}", span, path)
+            near = None if self.is_full else meant(name, kind.SHAPE)
+            hint = "" if self.is_full else question_or_names(near, list(kind.SHAPE), ": ")
+            self.report("MSAA902", f"unknown command {quoted(name)}{hint}", span, path, foreign=near is None)
             return None
         command = kind(node, f"{path}.{name}", key, span)
         command.kind = name

@@ -49,7 +49,7 @@ class Document(NamedTuple):
     """One frame, or part of one.
 
     `whole` says that the description lists all passes and pipelines of the frame; it is false for a dump of a single pipeline. `problems`
-    are the mistakes in the description itself; rules do not check a document with problems.
+    are the mistakes in the description itself; rules check the `rest` of a document with problems.
     """
 
     source: Source
@@ -66,10 +66,14 @@ class Document(NamedTuple):
     """Whether it was built from excerpts of a program on a page, and not from a whole file."""
     ordered: bool = True
     """Whether the passes run in their order, and the commands are complete. Neither is known of source code."""
+    complete: bool = True
+    """Whether everything was read that may use an image or a pass; where not, facts of the whole frame are unknown."""
     metal: Lowered | None = None
     """The origins of the Vulkan records, for a frame in Metal's terms."""
     basis: Basis = Basis()
     """What the values of a document from source code rest on."""
+    rest: "Document | None" = None
+    """Of a document with problems, what could be read; None where that says nothing by itself."""
     format: str = ""
     """The format that it was read in, as `--input-format` names it; empty for source code."""
 

@@ -19,6 +19,8 @@ class Problem(NamedTuple):
     path: str
     labels: tuple[Label, ...] = ()
     help: str = ""
+    foreign: bool = False
+    """Whether it is a command, or a key beside known ones, that resembles none: it states something that descriptions do not have."""
 
 
 class Mention(NamedTuple):

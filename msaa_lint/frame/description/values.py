@@ -43,10 +43,10 @@ class ValueBinder:
         self.problems: list[Problem] = []
         self.mentions: list[Mention] = []
 
-    def report(self, code: str, message: str, span: Span, path: str, help: str = "") -> None:
+    def report(self, code: str, message: str, span: Span, path: str, help: str = "", foreign: bool = False) -> None:
         """Adds a problem, up to MAX_PROBLEMS."""
         if not self.is_full:
-            self.problems.append(Problem(code, message, span, path, (), help))
+            self.problems.append(Problem(code, message, span, path, (), help, foreign))
 
     @property
     def is_full(self) -> bool:

@@ -174,7 +174,7 @@ def aspect_facts(render_pass: Pass, attachment: Attachment, aspect: Aspect, reso
         facts.put("aspect.initial_layout", layout, record.place("stencilInitialLayout" if separate else "initialLayout"))
     from_it = [r for r in resolves if r.source is attachment and r.aspect == aspect.name]
     certain = [resolve.target_at for resolve in from_it if resolve.is_certain]
-    resolved = True if certain else None if any(resolve.mode is None for resolve in from_it) else False
+    resolved = True if certain else None if render_pass.unread or any(resolve.mode is None for resolve in from_it) else False
     facts.put("aspect.resolved", resolved, certain[0] if certain else None)
     over: set[str] = set().union(*attachment.resolve.values())
     overwritten = True if aspect.name in over else None if "?" in over or (over and aspect.name is None) else False

@@ -122,7 +122,8 @@ def _draw(current: Instance, draw: Draw, render_pass: Pass, subpass: int, frame:
 def touch_facts(facts: Facts, render_pass: Pass, attachment: Attachment, aspect: Aspect, instances: list[Instance], frame: Frame) -> None:
     """Adds whether anything in the pass touches an aspect, and whether the pass clears it by a command before it draws."""
     untouched = not (attachment.used or render_pass.unread)
-    if attachment.used and not render_pass.unread and instances and facts.values.get("aspect.resolved") is False:
+    is_read = frame.document.complete and not render_pass.unread
+    if attachment.used and is_read and instances and facts.values.get("aspect.resolved") is False:
         untouched = _untouched(render_pass, attachment, aspect, instances, frame)
     if attachment.used or (not render_pass.unread and (render_pass.subpasses or frame.document.whole)):
         facts.put("aspect.untouched", untouched)

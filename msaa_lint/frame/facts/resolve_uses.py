@@ -69,7 +69,8 @@ class ResolveUses:
         kept: bool | None = True
         if target is not None:
             stores = [aspect.store for aspect in target.aspects if aspect.name in (resolve.aspect, None)]
-            kept = None if not stores or None in stores else "STORE" in stores
+            unread = resolve.render_pass is not None and resolve.render_pass.unread
+            kept = "STORE" in stores or (None if not stores or None in stores or unread else False)
         facts.put("resolve.target_stored", kept)
         facts.put("resolve.target_read", self.is_read(resolve), resolve.target_at)
         facts.put("resolve.may_be_none", self._may_be_none(resolve))

@@ -316,3 +316,42 @@ WITHOUT_KEY = frozenset(
     }
 )
 """The facts that no key is missing for: they are never unknown, or are known only where another fact is true."""
+
+OF_THE_FRAME = frozenset(
+    {
+        "image.read",
+        "image.loaded",
+        "image.read_in_vain",
+        "image.averaged_by_reader",
+        "image.taking_turns",
+        "image.turns_stated",
+        "aspect.read_later",
+        "aspect.fetched",
+        "aspect.store_wasted",
+        "aspect.waste_certain",
+        "aspect.readers_known",
+        "aspect.reads_undefined",
+        "aspect.loads_discarded",
+        "aspect.undefined_used",
+        "aspect.read_before_resolve",
+        "aspect.read_after_resolve",
+        "aspect.copied_before",
+        "aspect.cleared_by_command",
+        "pass.handed_over",
+        "pass.resumes_differently",
+        "subpass.has_pipelines",
+        "subpass.partial_coverage",
+        "resolve.target_read",
+        "resolve.only_copied",
+        "resolve.repeats",
+        "resolve.resolved_anew",
+        "resolve.waited_for",
+        "resolve.pass_could_resolve",
+        "dependency.multisampled",
+        "dependency.multisampled_depth_stencil",
+        "pipeline.sample_shading_chosen",
+        "read.alone",
+        "read.pass_could_resolve",
+    }
+)
+"""The facts that rest on everything that the frame does: they are unknown if some of it was not read."""

@@ -14,6 +14,7 @@ from msaa_lint.core.text.tree import Node
 from msaa_lint.frame.description.document import Document
 
 from . import description, vulkan_sc
+from .partial import rest_of
 
 FORMATS: dict[str, ModuleType] = {"vulkan-sc": vulkan_sc, "description": description}
 """Document readers by `--input-format` name, in detection order. The last one reads documents that no reader claims."""
@@ -26,6 +27,9 @@ def read(source: Source, root: Node, format: str | None = None) -> Document:
     """Reads a document in the given format, or in the detected one."""
     name = format if format is not None else next((name for name, module in FORMATS.items() if module.claims(root)), "description")
     document: Document = FORMATS[name].read(source, root)
+    if document.problems:
+        rest = rest_of(source, root, document) if name == "description" else None
+        document = document._replace(rest=rest._replace(format=name) if rest is not None else None)
     return document._replace(format=name)
 
 

@@ -50,7 +50,7 @@ def read(source: Source, root: Node) -> Document:
 
         check_order(binder, description)
     if description.metal is None:
-        return Document(source, description, tuple(binder.problems), ordered=not forget_unread(description))
+        return Document(source, description, tuple(binder.problems), complete=not forget_unread(description))
     from . import metal
 
     metal.check(binder, description)

@@ -58,6 +58,20 @@ CASES = (
       renderPasses: {p: {colorAttachments: [{texture: c, loadAction: clear, storeAction: multisampleResolve}]}}
     sampleCountChoices: {chosen: {chosen: MAXIMUM}}
     """,
+    """
+    images: {ms: {format: R8G8B8A8_UNORM, samples: 4}, out: {format: R8G8B8A8_UNORM, samples: 1}}
+    renderPasses:
+      first: {attachments: [{image: ms, loadOp: CLEAR, storeOp: STORE}], subpasses: [{colorAttachments: [0]}]}
+    pipelines: {p: {renderPass: first, subpass: 0}}
+    commands:
+      - beginRenderPass: {renderPass: first}
+      - draw: {pipeline: p}
+      - endRenderPass
+      - beginRendering: {colorAttachments: [{image: out, loadOp: DONT_CARE, storeOp: STORE}]}
+      - readImage: {image: ms, stage: FRAGMENT, access: SHADER_READ, samples: ALL}
+      - draw: {vertexCount: 3}
+      - endRendering
+    """,
 )
 """What no example and no page has."""
 
