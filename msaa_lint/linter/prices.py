@@ -263,12 +263,13 @@ def price_findings(
 
 def _priced(fixes: DocumentFixes, prices: Prices, finding: Finding) -> Finding:
     try:
-        price = prices.of(fixes.changes(finding))
+        changes, price_notes = fixes.price_changes(finding)
+        price = prices.of(changes)
     except NoFix:
         return finding
     except NotPriced:
         return finding._replace(notes=(*finding.notes, NOT_PRICED))
     if price is None:
         return finding
-    notes = (*finding.notes, *(fixes.price_notes(finding) if any(price) else ()), *prices.notes(price))
+    notes = (*finding.notes, *(price_notes if any(price) else ()), *prices.notes(price))
     return finding._replace(price=price, notes=notes, assumes_tiler=any(price) and assumes_tiler(fixes.result.device))

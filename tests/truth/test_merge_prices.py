@@ -68,6 +68,12 @@ def prices(result: dict[str, Any]) -> dict[str, tuple[float, float]]:
     }
 
 
+DEPTH = (
+    BOTH[0].replace("stencilStoreOp: STORE", "stencilStoreOp: DONT_CARE"),
+    BOTH[1].replace("stencilLoadOp: LOAD", "stencilLoadOp: CLEAR"),
+)
+STORED = "loadOp: CLEAR, storeOp: STORE, stencilLoadOp: CLEAR, stencilStoreOp: STORE"
+
 MERGED = (800.0, 800.0)
 ALONE = (800.0, 0.0)
 
@@ -106,6 +112,43 @@ CASES: dict[str, tuple[str, dict[str, tuple[float, float]]]] = {
         {"MSAA204": (200.0, 400.0)},
     ),
 }
+
+
+# By device: what depth and stencil, each alone or both together, cost at 4x in two passes.
+PLANES = [
+    (device, format, *expected)
+    for format, devices, *expected in [
+        ("D24_UNORM_S8_UINT", ("mali-g76", "adreno-740", "{vendor: img}"), 800.0, 800.0, (800.0, 800.0)),
+        # No more than is known: the bits of each aspect.
+        ("D24_UNORM_S8_UINT", ("", "{vendor: broadcom}"), 600.0, 200.0, (600.0, 200.0)),
+        ("D32_SFLOAT_S8_UINT", ("mali-g76", "adreno-740", ""), 800.0, 200.0, (800.0, 200.0)),
+    ]
+    for device in devices
+]
+
+
+@pytest.mark.parametrize(("device", "format", "depth_alone", "stencil_alone", "both"), PLANES)
+def test_planes(tmp_path: Path, device: str, format: str, depth_alone: float, stencil_alone: float, both: tuple[float, float]) -> None:
+    named = f"device: {device}\n" if device else ""
+    assert prices(checked(tmp_path, depth(format, *DEPTH, named))) == {"MSAA202": (depth_alone, depth_alone)}
+    assert prices(checked(tmp_path, depth(format, *STENCIL, named))) == {"MSAA204": (stencil_alone, stencil_alone)}
+    of_depth, of_stencil = both
+    merged = checked(tmp_path, depth(format, *BOTH, named))
+    assert prices(merged) == {"MSAA202": (of_depth, of_depth), "MSAA204": (of_stencil, of_stencil)}
+    unread = checked(tmp_path, depth(format, STORED, DEPTH[0].replace("STORE", "DONT_CARE"), named))
+    assert prices(unread) == {"MSAA203": (0.0, of_depth), "MSAA204": (0.0, of_stencil)}
+    # Together they save each byte once.
+    assert unread["summary"]["savings"]["fix"]["price"]["write_mb_per_s"] == (800.0 if "24" in format else 1000.0)
+    one_plane = of_depth == of_stencil
+    for found in (*merged["findings"], *unread["findings"]):
+        if found["code"] in ("MSAA202", "MSAA203", "MSAA204"):
+            assert ("depth and stencil are in one plane of memory: the price is that of both" in found["notes"]) == one_plane
+
+
+def test_a_store_that_goes_with_one_that_is_needed_saves_nothing(tmp_path: Path) -> None:
+    """The plane is stored for the stencil that the second pass loads, with or without depth."""
+    found = prices(checked(tmp_path, depth("D24_UNORM_S8_UINT", STORED, STENCIL[1], "device: mali-g76\n")))
+    assert found == {"MSAA203": (0.0, 0.0), "MSAA204": (800.0, 0.0)}
 
 
 @pytest.mark.parametrize("name", CASES)

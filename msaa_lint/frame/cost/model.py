@@ -35,6 +35,7 @@ def frame_cost(frame: Frame, device: DeviceProfile | None, terms: Terms | None =
     corrected: Moved | None = ((0.0, 0.0), (0.0, 0.0)) if device is not None and device.compression is not None else None
     taken: dict[str, None] = {}
     for name, path, kind, each, area, lines in entries:
+        lines.move_planes()
         used = dict.fromkeys(line.image for line in lines.found)
         if each is not None:
             used.update(dict.fromkeys(t.name for a in each.attachments if a.used for t in a.targets[:1]))

@@ -10,6 +10,7 @@ from typing import NamedTuple
 from msaa_lint.core.text.span import Span
 from msaa_lint.frame.description.models import Command, Image, ReadImage
 from msaa_lint.frame.devices import DeviceProfile
+from msaa_lint.frame.devices.vendors import packs_depth_stencil
 from msaa_lint.frame.facts.commands import (
     CLEAR,
     COMMAND_READS,
@@ -57,6 +58,12 @@ def aspect_bytes(format: Format, aspect: str) -> int | None:
     return format.bytes - format.stencil_bytes if aspect == "depth" else format.bytes
 
 
+def in_one_plane(format: Format | None, device: DeviceProfile | None) -> bool:
+    """Whether a device is known to move depth and stencil of a format together: 4 bytes of D24_UNORM_S8_UINT, for either or both."""
+    packed = format is not None and format.name == "D24_UNORM_S8_UINT"
+    return packed and device is not None and packs_depth_stencil(device.vendor)
+
+
 class Stored(NamedTuple):
     """How an image is kept in memory: its format, how many samples a texel has, and what is stated of it."""
 
@@ -83,11 +90,13 @@ def _ratios(device: DeviceProfile, writes: bool, stored: Stored) -> tuple[float,
 class Lines:
     """The lines of one pass or command, and what could not be counted."""
 
-    __slots__ = ("assumed", "device", "found", "unknown")
+    __slots__ = ("_planes", "assumed", "device", "found", "unknown")
 
     def __init__(self, device: DeviceProfile | None) -> None:
         self.device = device
         self.found: list[Line] = []
+        self._planes: dict[tuple[str, ...], list[int]] = {}
+        """By what moves: the lines of aspects that are in one plane."""
         self.unknown: dict[str, None] = {}
         self.assumed: dict[str, None] = {}
 
@@ -107,6 +116,21 @@ class Lines:
         ratios = _ratios(self.device, direction == "write", stored) if self.device is not None else None
         least, most = (size * ratios[0], size * ratios[1]) if ratios is not None else (None, None)
         self.found.append(Line(attachment, image, aspect, samples, action, direction, size, least, place, most))
+        if in_one_plane(stored.format, self.device):
+            # A resolve in a pass stores, too.
+            what = "store" if (action, direction) == ("resolve", "write") else action
+            self._planes.setdefault((image or attachment, what, direction), []).append(len(self.found) - 1)
+
+    def move_planes(self) -> None:
+        """Lets what moves one aspect of a plane move all of it. Where both aspects move, each line has its part."""
+        for numbers in self._planes.values():
+            if len({self.found[number].aspect for number in numbers}) > 1:
+                continue
+            for number in numbers:
+                line = self.found[number]
+                part = 1 if line.aspect == "stencil" else 3
+                least, most = (None if size is None else size * 4 / part for size in (line.corrected, line.corrected_most))
+                self.found[number] = line._replace(bytes=line.bytes * 4 // part, corrected=least, corrected_most=most)
 
     def missing(self, text: str) -> None:
         """Says of something that it is not counted, and why."""

@@ -33,6 +33,16 @@ def is_tiler(vendor: str | None) -> bool | None:
     return True if vendor in TILERS else None
 
 
+_ONE_PLANE = ("arm", "img", "qualcomm")
+"""Vendors whose GPUs keep D24_UNORM_S8_UINT in one plane, by Mesa's drivers: `panvk_plane_index`, `pvr_format_table`, `tu6_plane_count`.
+D32_SFLOAT_S8_UINT has two planes there."""
+
+
+def packs_depth_stencil(vendor: str | None) -> bool:
+    """Whether a vendor's GPUs are known to move depth and stencil of D24_UNORM_S8_UINT together."""
+    return vendor in _ONE_PLANE
+
+
 def vendor_of(vendor_id: int) -> str | None:
     """The vendor's name in a description; None where it has none."""
     return VENDORS.get(vendor_id)

@@ -19,6 +19,7 @@ from .aliases import Requests
 from .changes import Change, NoFix, SharedText, distinct
 from .context import FixContext
 from .expanded_aliases import ExpandedAliases
+from .planes import BOTH, other_aspect
 from .planning import plan
 from .shorthand import Shorthand, WordEdit, shorthand
 from .text_edits import TextEditor
@@ -57,11 +58,21 @@ class DocumentFixes:
             self._changes[key] = tuple(distinct(changes))
         return self._changes[key]
 
-    def price_notes(self, finding: Finding) -> tuple[str, ...]:
-        """What the price of a finding's fix leaves out."""
-        specs = self.result.fix_specs[finding_key(finding)]
-        notes = (PRICE_NOTES[spec.do](subject, self._context) for spec, subject in specs if spec.do in PRICE_NOTES)
-        return tuple(dict.fromkeys(note for note in notes if note is not None))
+    def price_changes(self, finding: Finding) -> tuple[tuple[Change, ...], tuple[str, ...]]:
+        """The changes that a finding's price is of, and notes on what it includes or leaves out. Raises NoFix as `changes`.
+
+        They are those of its fix; where depth and stencil move together, also those of the other aspect.
+        """
+        changes = [*self.changes(finding)]
+        notes: list[str] = []
+        for spec, subject in self.result.fix_specs[finding_key(finding)]:
+            note = PRICE_NOTES[spec.do](subject, self._context) if spec.do in PRICE_NOTES else None
+            notes += [note] if note is not None else []
+            other = other_aspect(spec, subject, self._context, self.result.device)
+            if other is not None:
+                changes += plan(spec, other, self._context)
+                notes.append(BOTH)
+        return tuple(distinct(changes)), tuple(dict.fromkeys(notes))
 
     def edits(self, changes: Sequence[Change], requested: Requests | None = None) -> tuple[Edit, ...]:
         """The edits that make the changes, as `TextEditor.edits`; in a shorthand, the edit of one of its words.

@@ -17,7 +17,7 @@ LOAD_ALONE = "the price is that of the load alone: the pass that stored the samp
 
 def merge_passes(subject: Subject, context: FixContext) -> list[Change]:
     """Drops a load, and the store of what it loads if nothing else needs that."""
-    render_pass, attachment, aspect = _in_frame(subject, context)
+    render_pass, attachment, aspect = in_frame(subject, context)
     changes = [Change(attachment.record, aspect.load_member, "set", "DONT_CARE")]
     source = context.analysis.readers.forced_store(render_pass, attachment, aspect)
     if source is not None:
@@ -28,10 +28,10 @@ def merge_passes(subject: Subject, context: FixContext) -> list[Change]:
 
 def merge_price_note(subject: Subject, context: FixContext) -> str | None:
     """What the price of a merge leaves out; None if it includes the store."""
-    return LOAD_ALONE if context.analysis.readers.forced_store(*_in_frame(subject, context)) is None else None
+    return LOAD_ALONE if context.analysis.readers.forced_store(*in_frame(subject, context)) is None else None
 
 
-def _in_frame(subject: Subject, context: FixContext) -> tuple[Pass, Attachment, Aspect]:
+def in_frame(subject: Subject, context: FixContext) -> tuple[Pass, Attachment, Aspect]:
     """The aspect that a subject is, with its pass, in the frame of the context."""
     attachment, aspect = aspect_of(subject)
     candidates = (candidate for target in attachment.targets for candidate in context.attachments.get(id(target.record), ()))
