@@ -66,10 +66,14 @@ def events(text: str) -> Get:
     return _unmarked(get, text, marks) if marks else get
 
 
-def problem_of(error: Exception, text: str) -> Problem:
+def problem_of(error: Exception, text: str, max_depth: int) -> Problem:
     """The mistake behind a parser's error."""
     if not isinstance(error, MarkedYAMLError) or error.problem_mark is None:
         return Problem("MSAA901", "the text cannot be read as YAML or JSON", Span(0, 0))
+    if error.problem == "exceeded maximum nesting depth":
+        # libyaml from 0.2.6 on reads ahead to its own limit, 1000, before it gives the event that exceeds ours.
+        at = error.problem_mark.index
+        return Problem("MSAA906", f"the nesting exceeds the limit of {max_depth}", Span(at, at + 1))
     from .outline import outline
     from .syntax_errors import syntax_problem
 

@@ -47,7 +47,7 @@ def parse(source: Source, limits: Limits) -> Parsed:
         start, end = stop.problem.span
         problem = stop.problem._replace(span=Span(min(start, len(text)), min(end, len(text))))
     except ERRORS as error:
-        problem = problem_of(error, text)
+        problem = problem_of(error, text, limits.depth)
     else:
         return Parsed(reading.documents, reading.problems)
     # The parser rejects these characters too, but not at their place, and perhaps after it has rejected something else.

@@ -36,11 +36,12 @@ def put_handover(facts: Facts, render_pass: Pass, search: EventSearch, fetched: 
     if search.steps_left < 0:
         return
     facts.put("pass.handed_over", [attachment.title for attachment in found.attachments] if found is not None else [])
-    if found is not None:
-        first = found.attachments[0]
+    first = found.attachments[0] if found is not None else None
+    if first is not None:
         facts.places["pass.handed_over"] = first.record.place(first.aspects[0].store_member)
-        facts.put("pass.handed_samples", first.samples)
-        facts.put("pass.handed_to", found.reader.name, found.reader.record.head)
+    facts.put("pass.handed_samples", first.samples if first is not None else 0)
+    reader = found.reader if found is not None else None
+    facts.put("pass.handed_to", reader.name if reader is not None else "", reader.record.head if reader is not None else None)
 
 
 def handover(render_pass: Pass, search: EventSearch, fetched: Fetched) -> Handover | None:

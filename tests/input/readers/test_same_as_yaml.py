@@ -26,7 +26,7 @@ ELSEWHERE = (
     *("image.", "scene.", "device.", "frame.", "enabled.depth_stencil_resolve", "subpass.has_pipelines"),
     *("subpass.partial_coverage", "subpass.tile_known"),
     *("aspect.read_later", "aspect.costly_operations", "aspect.store_wasted", "resolve.source_encoding"),
-    *("resolve.target_read", "resolve.waited_for", "resolve.resolved_anew"),
+    *("resolve.target_read", "resolve.waited_for", "resolve.resolved_anew", "aspect.undefined_used"),
 )
 """Facts that a dump of one pipeline cannot have."""
 
@@ -67,7 +67,7 @@ def test_the_same_findings(example: Example, version: int) -> None:
 def needs_the_pass_alone(example: Example) -> bool:
     asked = RULES[example.rule].when
     # A dump names no module.
-    return not re.search("commands:|module:", example.text) and not any(fact in asked for fact in ELSEWHERE)
+    return not re.search("commands:|framebuffers:|module:", example.text) and not any(fact in asked for fact in ELSEWHERE)
 
 
 @pytest.mark.parametrize("example", [e for e in EXAMPLES if e.kind == "bad" and needs_the_pass_alone(e)], ids=str)
