@@ -216,9 +216,10 @@ class Timeline:
         stores: list[tuple[str, Event]] = []
         covered: dict[str, bool] = {}
         begin_command = run.position if run.position is not None else next(iter(run.render_pass.begun), None)
-        for target in run.render_pass.rates if begin_command is not None else ():
+        if begin_command is not None:
             command = self.frame.commands[begin_command]
-            yield key_of(target), Event(run.begin_time, READ, None, True, True, None, "", run, command)
+            for target in run.render_pass.rates:
+                yield key_of(target), Event(run.begin_time, READ, None, True, True, None, "", run, command)
         for attachment in run.render_pass.attachments:
             if not (attachment.used or run.render_pass.unread):
                 continue
