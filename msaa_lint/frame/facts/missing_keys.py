@@ -28,6 +28,7 @@ Place = tuple[Record, str]
 _METAL_IMAGE = {
     "format": "pixelFormat", "samples": "sampleCount", "usage": "usage", "memory": "storageMode", "imageType": "textureType",
     "mipLevels": "mipmapLevelCount", "presentable": "drawable", "encoding": "encoding", "extent": "width",
+    "extent.width": "width", "extent.height": "height",
     "storageMode": "storageMode", "textureType": "textureType",
 }  # fmt: skip
 _METAL_ATTACHMENT = {

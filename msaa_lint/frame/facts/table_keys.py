@@ -86,7 +86,7 @@ KEYS: dict[str, str] = {
     "aspect.resolves_by_action": "attachment.store",
     "aspect.resolve_filter": "attachment.resolveFilter",
     "pass.handed_over": "commands",
-    "pass.partial_area": "image.extent",
+    "pass.partial_area": "image.extent; image.extent.width image.extent.height",
     "pass.clears": "attachments.load",
     "pass.clear_values": "begins.clearValueCount",
     "subpass.color_samples": "attachments.samples",
@@ -119,8 +119,10 @@ KEYS: dict[str, str] = {
     "resolve.pair_supported": (
         "resolve.mode pair.mode; target.format source.format; device.independentResolve device.independentResolveNone"
     ),
-    "resolve.pass_could_resolve": "source.extent target.extent; commands",
-    "resolve.target_too_small": "target.extent",
+    "resolve.pass_could_resolve": (
+        "source.extent target.extent; source.extent.width source.extent.height target.extent.width target.extent.height; commands"
+    ),
+    "resolve.target_too_small": "target.extent; target.extent.width target.extent.height",
     "resolve.target_stored": "resolve.mode target.format; target.store",
     "resolve.target_read": "resolve.mode target.format; target.image; target.usage; commands",
     "resolve.may_be_none": "resolve.mode; device.independentResolve device.independentResolveNone",
@@ -172,7 +174,7 @@ KEYS: dict[str, str] = {
     "read.fetched_samples": "read.pipeline",
     "read.highest_sample": "read.pipeline",
     "read.as_all": "read.pipeline",
-    "read.pass_could_resolve": "image.extent; commands",
+    "read.pass_could_resolve": "image.extent; image.extent.width image.extent.height; commands",
     "copy.source_samples": "copy.samples",
     "copy.target_samples": "copy.samples",
     "copy.multisampled": "copy.samples",

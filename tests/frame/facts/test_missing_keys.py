@@ -180,7 +180,7 @@ def test_an_explanation_names_what_was_removed_or_what_else_says_it(example: Any
 
 STRUCTURAL = frozenset(
     {
-        "pipeline", "image", "texture", "srcImage", "resolveImage", "colorAttachments", "renderPass", "resolveMode", "resolves",
+        "pipeline", "image", "texture", "srcImage", "dstImage", "resolveImage", "colorAttachments", "renderPass", "resolveMode", "resolves",
         "srcStageMask", "loadAction",
     }
 )  # fmt: skip

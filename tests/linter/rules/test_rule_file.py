@@ -223,7 +223,7 @@ CONDITION = "when: image.samples > 2"
         (
             "subject: image",
             "subject: ⟦images⟧",
-            "expected one of image, attachment, aspect, pass, subpass, resolve, pipeline, dependency, read, choice, found ",
+            "expected one of image, attachment, aspect, pass, subpass, resolve, pipeline, dependency, read, copy, choice, found ",
         ),
         ("code: ACME001", "code: MSAA999", "the code must be 2 to 12 capital letters other than MSAA and a number"),
         ("code: ACME001", "code: acme", "the code must be 2 to 12 capital letters other than MSAA and a number"),

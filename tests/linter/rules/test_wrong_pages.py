@@ -24,7 +24,7 @@ WHEN = "when: image.samples > 2 && image.is_color"
 MESSAGE = 'message: "`{image.name}` has {image.samples} samples"'
 FENCES = "a rule page must begin with front matter between two `---` lines"
 CODE = "the code must be 2 to 12 capital letters other than MSAA and a number, for example ACME001"
-SUBJECTS = "image, attachment, aspect, pass, subpass, resolve, pipeline, dependency, read, choice"
+SUBJECTS = "image, attachment, aspect, pass, subpass, resolve, pipeline, dependency, read, copy, choice"
 KEYS = "code, severity, confidence, subject, when, message, at, labels, cases, help, fix, vendors, edition, references, supersedes, apis, "
 KEYS += "passes"
 
