@@ -191,8 +191,9 @@ class FrameObjects(DeviceObjects):
         subpasses = []
         for s in frame_pass.subpasses:
             chained_structures = []
-            if s.depth_resolve:
-                target = self._reference(s.depth_resolve[0])
+            if s.depth_resolve or (s.single_sampled and (s.depth_mode or s.stencil_mode)):
+                # Multisampled rendering to a single-sampled attachment has modes of a resolve, and no attachment to resolve to.
+                target = self._reference(s.depth_resolve[0]) if s.depth_resolve else None
                 chained_structures.append(
                     vk.VkSubpassDescriptionDepthStencilResolve(
                         depthResolveMode=s.depth_mode, stencilResolveMode=s.stencil_mode, pDepthStencilResolveAttachment=target

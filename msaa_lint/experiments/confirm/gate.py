@@ -229,12 +229,14 @@ def _resolves(plan: Plan, frame_pass: Pass, offered: DeviceSupport) -> Iterator[
     if not frame_pass.single_sampled and any(r.image != NONE and r.mode and r.resolve_image == NONE for r in frame_pass.rendered):
         yield "it resolves without an image to resolve to"
     for subpass in frame_pass.subpasses:
-        if not subpass.depth_resolve:
+        # Rendering with more samples than its attachments have resolves depth and stencil to themselves.
+        targets = subpass.depth_resolve or (subpass.depth_stencil if subpass.single_sampled else ())
+        if not targets:
             continue
         if not subpass.depth_stencil:
             yield "it resolves depth or stencil in a subpass without a depth-stencil attachment"
             continue
-        source_format, target = (frame_pass.attachments[r[0].attachment].format for r in (subpass.depth_stencil, subpass.depth_resolve))
+        source_format, target = (frame_pass.attachments[r[0].attachment].format for r in (subpass.depth_stencil, targets))
         aspects = _aspects(source_format) & _aspects(target)
         yield from _modes(subpass.depth_mode, subpass.stencil_mode, aspects, offered)
     modes = {r.role: r.mode for r in frame_pass.rendered if r.role != "color" and r.image != NONE}

@@ -43,12 +43,14 @@ def references(rule: str) -> list[str]:
 
 ASIDE = {
     ("attachment-untouched", "BestPractices-vkCmdEndRenderPass-redundant-attachment-on-tile"),  # confirm draws a scene of its own
+    ("attachment-untouched", "VUID-VkRenderPassFragmentDensityMapCreateInfoEXT-fragmentDensityMapAttachment-02548"),  # why one is excused
     ("clear-command-instead-of-load-op", "BestPractices-AMD-ClearAttachment-ClearImage-color,"),  # AMD's, for reasons of its own
     ("clear-value-without-clear", "BestPractices-ClearValueCountHigherThanAttachmentCount"),  # confirm gives values of its own
     ("clear-value-without-clear", "VUID-VkRenderPassBeginInfo-clearValueCount-00902"),  # what must hold besides
     ("depth-resolve-unread", "VUID-VkSubpassDescriptionDepthStencilResolve-pDepthStencilResolveAttachment-03178"),  # likewise
     ("multisampled-image-not-transient", "VUID-VkImageCreateInfo-usage-00963"),  # why some images are excused
     ("sample-shading-feature-missing", "VUID-VkShaderModuleCreateInfo-pCode-08740"),  # of this capability only: its text tells
+    ("sample-shading-ineffective", "VUID-VkPipelineMultisampleStateCreateInfo-sampleShadingEnable-00784"),  # what must hold besides
     ("resolve-read-unsynchronised", "VUID-VkSubpassDependency-srcAccessMask-00868"),  # what must hold besides
     # How a program comes to its count, of which no device is asked.
     ("source-sample-count-maximum", "BestPractices-Arm-vkCreateImage-too-large-sample-count"),
