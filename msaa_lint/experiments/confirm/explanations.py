@@ -137,6 +137,12 @@ EXPLANATIONS = (
         'image.tiling == "LINEAR" && device.known && device.vendor != "nvidia"',
         "the described device is another vendor's",
     ),
+    Explanation(
+        "multisampled-blending",
+        "pipeline",
+        "device.accelerates_float_blending && size(pipeline.blended_float_formats) > 0",
+        "the described device blends 16-bit floats in hardware; the layer does not tell GPU generations apart",
+    ),
     Explanation("nvidia-linear-tiling", "image", 'image.tiling == "LINEAR" && !image.is_render_target', "nothing renders to the image"),
     Explanation(
         "rasterization-samples",
