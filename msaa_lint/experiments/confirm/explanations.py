@@ -184,6 +184,7 @@ CONSEQUENCES = (
         ("load-from-undefined", "discarded-then-loaded"),
         "the load itself is the mistake",
     ),
+    Consequence(("discarded-then-loaded",), ("load-from-undefined",), "the load itself is the mistake"),
     Consequence(("image-requires-memory",), ("resolve-target-multisampled",), "the resolve target is stored and should have one sample"),
     Consequence(
         ("attachment-needs-readback", "image-requires-memory", "discarded-then-loaded", "redundant-store"),

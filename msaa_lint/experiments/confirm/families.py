@@ -65,6 +65,7 @@ _IMAGE = r"VkImageCreateInfo"
 _ATTACHMENT = r"VkAttachmentDescription2?"
 
 _DRAWN_LOAD = 'aspect.load == "LOAD" && attachment.drawn'
+_ATTACHABLE = '"COLOR_ATTACHMENT" in image.usage || "DEPTH_STENCIL_ATTACHMENT" in image.usage'
 _AMD = '"STORAGE" in image.usage || "MUTABLE_FORMAT" in image.flags'
 
 FAMILIES = (
@@ -441,7 +442,13 @@ FAMILIES = (
         ("attachment-blocks-compression",),
         ("vkImage-AvoidConcurrentRenderTargets", "vkImage-DontUseMutableRenderTargets", "vkImage-DontUseStorageRenderTargets"),
         "a render target has STORAGE usage, MUTABLE_FORMAT or CONCURRENT sharing",
-        scope=CheckScope(vendors=("amd",), when=(("image", _AMD, "it checks usage and flags; sharing only with several queue families"),)),
+        scope=CheckScope(
+            vendors=("amd",),
+            when=(
+                ("image", _AMD, "it checks usage and flags; sharing only with several queue families"),
+                ("image", _ATTACHABLE, "it checks images with the usage of an attachment"),
+            ),
+        ),
     ),
     Family(
         "nvidia-linear-tiling",

@@ -114,6 +114,7 @@ UNHEARD = {
     "should-be-transient": "lavapipe has no lazily allocated memory",
     "non-lazy-transient-image": "lavapipe has no lazily allocated memory",
     "depth-resolve-structure": "confirm enables depth-stencil resolve wherever it is there",
+    "storage-image-multisample-feature": "confirm enables shaderStorageImageMultisample wherever it is there",
     "resolve-target-uses": "the layer does not look at what a resolve writes",
     "framebuffer-size": "confirm clips framebuffers and render areas to their images",
     "resolve-mode-none": "the layer says it since 1.3.278",
