@@ -158,6 +158,12 @@ EXPLANATIONS = (
         "the described device supports VK_EXT_multisampled_render_to_single_sampled, which allows it if it is enabled",
     ),
     Explanation(
+        "rasterization-samples",
+        "pipeline",
+        "device.mixed_samples && pipeline.rasterization_samples > pipeline.attachment_samples",
+        "the described device supports mixed samples, which allow it if they are enabled",
+    ),
+    Explanation(
         "resolve-source-samples",
         "resolve",
         "resolve.single_sampled_render",

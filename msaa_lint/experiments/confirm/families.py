@@ -86,11 +86,14 @@ FAMILIES = (
         rf"{_SUBPASS}|VkRenderingInfo",
         r"[Ss]ubpass.*(sample|color).*(differ|inconsistent|match|same)|sample count.*(differ|inconsistent|match|same)"
         r"|MultisampledRenderToSingleSampled.*not VK_SAMPLE_COUNT_1",
+        scope=CheckScope(
+            when=(("subpass", "!subpass.mixed_depth_stencil_samples", "it checks depth and stencil against color, not against each other"),)
+        ),
     ),
     Family(
         "rasterization-samples",
         ("rasterization-samples-mismatch",),
-        _ids("06853 06854 00757 01505 01411 01412 04740 07284 07285 07286 07287 08644 07935 09211 06185 06186 06187 07474"),
+        _ids("06853 06854 00757 01505 01411 01412 04740 07284 07285 07286 07287 08644 07935 09211 06185 06186 06187 07474 06856"),
         "a pipeline's rasterizationSamples is not the sample count of what it draws to",
         r"VkGraphicsPipelineCreateInfo|vkCmdDraw\w*",
         r"(rasterizationSamples|PipelineMultisampleState|VkPipeline|sample count).*(match|equal|!=|same)",
@@ -234,7 +237,7 @@ FAMILIES = (
     Family(
         "layout-usage",
         ("image-usage-missing",),
-        _ids("01208 01209 01211 01212 01213 00895 01758 02842 02844 03094 03096"),
+        _ids("01208 01209 01210 01211 01212 01213 00895 01758 02842 02844 03094 03096"),
         "an image is in a layout whose usage it lacks",
         scope=CheckScope(instead="the layouts of barriers, some of which are those of confirm"),
     ),
