@@ -85,7 +85,8 @@ def run(session: Session, plan: Plan, passes: Sequence[int] | None, want: RunOpt
                 for at in made:
                     built.create_pass(at)
                 submitter = Submitter(opened)
-                recorder = Recorder(built, poisons=True)
+                # Samples are read back as they were drawn, whether or not the pass stores them.
+                recorder = Recorder(built, poisons=sampled is None)
                 for at, steps in segments(plan, made):
                     emit({"event": "pass", "pass": at})
                     _drawn(recorder, submitter, steps)

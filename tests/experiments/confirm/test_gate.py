@@ -409,6 +409,15 @@ def test_a_target_without_stencil_resolves_depth_alone(device: Mapping[str, Any]
     assert "independentResolveNone" in refused(depth_resolve(modes, "D32_SFLOAT_S8_UINT"), device)
 
 
+def test_rendering_several_samples_to_one_resolves_with_a_mode_of_the_device(device: Mapping[str, Any]) -> None:
+    """VUID-VkSubpassDescription2-pNext-06871: the structure has modes, and no attachment."""
+    single = "multisampledRenderToSingleSampled: {rasterizationSamples: 4}, depthStencilResolve"
+    text = depth_resolve("depthResolveMode: MIN", "D32_SFLOAT").replace("samples: 4", "samples: 1").replace("attachment: r, ", "")
+    text = text.replace("depthStencilResolve", single)
+    assert refused(text, device) == "the device does not resolve depth with MIN (supportedDepthResolveModes: SAMPLE_ZERO | AVERAGE)"
+    assert refused(text.replace("MIN", "AVERAGE"), device) == ""
+
+
 def test_a_resolve_of_no_depth_is_refused(device: Mapping[str, Any]) -> None:
     words = "it resolves depth or stencil in a subpass without a depth-stencil attachment"
     assert refused(depth_resolve(ZERO).replace("depthStencilAttachment: d, ", ""), device) == words
