@@ -258,8 +258,8 @@ def leaves_of(
 
 
 FREE_KINDS = {"int", "number", "share"}
-FREE_MEMBERS = {"label", "name", "tile", "compression"}
-"""What a person chooses. The entries of `tile` and `compression` have their own test, since their values depend on their keys."""
+FREE_MEMBERS = {"label", "name", "pNext", "tile", "compression"}
+"""What a person chooses, and structures that have no keys. The entries of `tile` and `compression` have their own test, since their values depend on their keys."""
 
 NAMED = "images: {i: {}}\nrenderPasses: {r: {attachments: {a: {}}, subpasses: [{}]}}\nframebuffers: {f: {}}\npipelines: {p: {}}\n"
 METAL = "metal: {textures: {t: {}}, renderPasses: {q: {}}, renderPipelines: {s: {}}}\n"
