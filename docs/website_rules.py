@@ -12,7 +12,7 @@ import jinja2
 
 from msaa_lint.cli import report
 from msaa_lint.cli.report.html.frames import graph_section
-from msaa_lint.cli.report.summary import price_text
+from msaa_lint.cli.report.summary import is_choice, price_text
 from msaa_lint.cli.rule import FAMILIES as FAMILY_NAMES
 from msaa_lint.core.finding import Finding
 from msaa_lint.frame.cost.amounts import Terms
@@ -100,8 +100,11 @@ def _price(rule: Rule, shown: Example | None) -> str:
         return f'!!! note "Price"\n\n    The cost model puts no figure on this mistake: {reason}.\n'
     where = "with the frame that it states" if shown.states_frame else "in a frame of 1920x1080 pixels at 60 Hz"
     which = "The first example" if shown.text in _BAD.findall(markdown(rule))[:1] else "An example"
+    clause = f"{which} costs **{price}** {where}"
+    if is_choice(shown.finding):
+        clause = f"The fix of {which[0].lower()}{which[1:]} changes the cost by **{price.removeprefix('if chosen: ')}** {where}"
     return (
-        f'!!! warning "Price"\n\n    {which} costs **{price}** {where}, by the [cost model](../docs/cost.md),'
+        f'!!! warning "Price"\n\n    {clause}, by the [cost model](../docs/cost.md),'
         " at 100 mW per GB/s unless its device states another figure.\n"
     )
 

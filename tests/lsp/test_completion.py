@@ -259,7 +259,7 @@ def leaves_of(
 
 FREE_KINDS = {"int", "number", "share"}
 FREE_MEMBERS = {"label", "name", "pNext", "tile", "compression"}
-"""What a person chooses, and structures that have no keys. The entries of `tile` and `compression` have their own test, since their values depend on their keys."""
+"""What a person chooses, and unread structures. The entries of `tile` and `compression` have their own test: values depend on keys."""
 
 NAMED = "images: {i: {}}\nrenderPasses: {r: {attachments: {a: {}}, subpasses: [{}]}}\nframebuffers: {f: {}}\npipelines: {p: {}}\n"
 METAL = "metal: {textures: {t: {}}, renderPasses: {q: {}}, renderPipelines: {s: {}}}\n"
