@@ -1,8 +1,8 @@
 """Random small mistakes in the code, one at a time, and the share of them that a test notices.
 
 `python tests/mutants.py [--count 200] [--seed 34] [--room facts]...` changes an operator, a condition, or a number in a copy of the tree,
-runs the tests of its room and those of the rules until one fails, and prints the mutants that none noticed, then the share that died, by
-room. A mutant that runs longer than `--timeout` has died: what it changed never ends.
+runs the tests of its room and those of the rules until one fails, and prints what became of each mutant, then the share that died, by room.
+A mutant that runs longer than `--timeout` has died: what it changed never ends.
 """
 
 from __future__ import annotations
@@ -118,24 +118,29 @@ def mutants(room: str) -> list[Mutant]:
     return found
 
 
+def fails(room: str, tree: Path, timeout: float) -> bool:
+    """Whether a test of a room fails in a copy of the tree, or does not end."""
+    environment = {**os.environ, "PYTHONPATH": str(tree), "PYTHONDONTWRITEBYTECODE": "1"}
+    options = ["-x", "-q", "--no-header", "-p", "no:cacheprovider", "-n", "0"]
+    nearest, *others = ROOMS[room][1]
+    for tests in ([nearest], FIRST, others):
+        command = [sys.executable, "-m", "pytest", *options, *tests]
+        try:
+            done = subprocess.run(command, cwd=tree, env=environment, capture_output=True, timeout=timeout, check=False)
+        except subprocess.TimeoutExpired:
+            return True
+        if done.returncode:
+            return True
+    return False
+
+
 def dies(mutant: Mutant, tree: Path, timeout: float) -> bool:
     """Whether a test notices a mutant, in a copy of the tree."""
     file = tree / mutant.file.relative_to(ROOT)
     original = file.read_text(encoding="utf-8")
     file.write_text(mutant.text, encoding="utf-8")
-    environment = {**os.environ, "PYTHONPATH": str(tree), "PYTHONDONTWRITEBYTECODE": "1"}
-    options = ["-x", "-q", "--no-header", "-p", "no:cacheprovider", "-p", "no:randomly", "-n", "0"]
     try:
-        nearest, *others = ROOMS[mutant.room][1]
-        for tests in ([nearest], FIRST, others):
-            command = [sys.executable, "-m", "pytest", *options, *tests]
-            try:
-                done = subprocess.run(command, cwd=tree, env=environment, capture_output=True, timeout=timeout, check=False)
-            except subprocess.TimeoutExpired:
-                return True
-            if done.returncode:
-                return True
-        return False
+        return fails(mutant.room, tree, timeout)
     finally:
         file.write_text(original, encoding="utf-8")
 
@@ -156,6 +161,10 @@ def main() -> int:
         trees = [Path(folder, str(number)) for number in range(given.jobs)]
         for tree in trees:
             shutil.copytree(ROOT, tree, ignore=shutil.ignore_patterns(".git", ".venv", ".*_cache", "__pycache__", "build"))
+        for room in dict.fromkeys(mutant.room for mutant in chosen):
+            if fails(room, trees[0], given.timeout):
+                print(f"tests of {room} fail without a mutant", file=sys.stderr)
+                return 2
         free = [*trees]
 
         def verdict(mutant: Mutant) -> tuple[Mutant, bool]:
@@ -168,8 +177,7 @@ def main() -> int:
         for mutant, dead in pool.map(verdict, chosen):
             tried[mutant.room] += 1
             died[mutant.room] += dead
-            if not dead:
-                print(f"survived: {mutant}", flush=True)
+            print(f"{'died' if dead else 'survived'}: {mutant}", flush=True)
     for room in tried:
         print(f"{room}: {died[room]} of {tried[room]} died")
     print(f"{died.total()} of {tried.total()} died ({died.total() / tried.total():.0%}), seed {given.seed}")
