@@ -1,4 +1,4 @@
-// Samples that a shader of its own resolves, for tone mapping: stored and readable with reason. Nothing to report.
+// Samples that a shader of its own resolves, for tone mapping: stored with reason, though a tile function could resolve them on the tile.
 import Metal
 import QuartzCore
 
@@ -43,7 +43,7 @@ final class HDRRenderer {
         let main = MTLRenderPassDescriptor()
         main.colorAttachments[0].texture = hdrColor
         main.colorAttachments[0].loadAction = .clear
-        main.colorAttachments[0].storeAction = .store
+        main.colorAttachments[0].storeAction = .store  // expect: MSAA409
         main.depthAttachment.texture = hdrDepth
         main.depthAttachment.clearDepth = 0
         let encoder = buffer.makeRenderCommandEncoder(descriptor: main)!
