@@ -51,7 +51,10 @@ def _pass(render_pass: Json, images: Json, bound: list[str | None]) -> Json:
         of_image = {key: image[key] for key in ("format", "samples") if key in image}
         attachments.append({**of_image, **{k: v for k, v in attachment.items() if k != "image"}})
     subpasses = [_subpass(subpass, names) for subpass in render_pass.get("subpasses", [])]
-    return {**render_pass, "attachments": attachments, "subpasses": subpasses}
+    made = {**render_pass, "attachments": attachments, "subpasses": subpasses}
+    if "fragmentDensityMapAttachment" in made:
+        made["fragmentDensityMapAttachment"] = _reference(made["fragmentDensityMapAttachment"], names)
+    return made
 
 
 def _subpass(subpass: Json, names: list[str]) -> Json:
@@ -59,8 +62,9 @@ def _subpass(subpass: Json, names: list[str]) -> Json:
     for member in (*LISTS, "preserveAttachments"):
         if member in out:
             out[member] = [_reference(each, names) for each in out[member]]
-    if "depthStencilAttachment" in out:
-        out["depthStencilAttachment"] = _reference(out["depthStencilAttachment"], names)
+    for member in ("depthStencilAttachment", "fragmentShadingRateAttachment"):
+        if member in out:
+            out[member] = _reference(out[member], names)
     if "depthStencilResolve" in out and "attachment" in out["depthStencilResolve"]:
         chained = out["depthStencilResolve"]
         out["depthStencilResolve"] = {**chained, "attachment": _reference(chained["attachment"], names)}
@@ -76,7 +80,7 @@ def _reference(stated: Json, names: list[str]) -> Json:
 
 def _needs_version_2(render_pass: Json) -> bool:
     subpasses, attachments = render_pass["subpasses"], render_pass["attachments"]
-    chained = ("depthStencilResolve", "multisampledRenderToSingleSampled", "viewMask")
+    chained = ("depthStencilResolve", "multisampledRenderToSingleSampled", "fragmentShadingRateAttachment", "pNext", "viewMask")
     return any(k in s for s in subpasses for k in chained) or any(k in a for a in attachments for k in SEPARATE_LAYOUTS)
 
 
@@ -114,9 +118,14 @@ def _dumped_pass(render_pass: Json, version: int) -> Json:
         for member in ("srcSubpass", "dstSubpass"):
             if each.get(member) == "EXTERNAL":
                 each[member] = UNUSED
+    chain: Json = _unread(render_pass)
+    if "fragmentDensityMapAttachment" in render_pass:
+        density = _dumped_reference(render_pass["fragmentDensityMapAttachment"], "")
+        stype = "VK_STRUCTURE_TYPE_RENDER_PASS_FRAGMENT_DENSITY_MAP_CREATE_INFO_EXT"
+        chain = {"sType": stype, "pNext": chain, "fragmentDensityMapAttachment": density}
     return {
         "sType": f"VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO{suffix}",
-        "pNext": "NULL",
+        "pNext": chain,
         "flags": "0",
         "attachmentCount": len(attachments),
         "pAttachments": attachments or "NULL",
@@ -127,9 +136,17 @@ def _dumped_pass(render_pass: Json, version: int) -> Json:
     }
 
 
+def _unread(stated: Json) -> Json:
+    """The chain of the structures that a description names by `pNext`."""
+    chain: Json = "NULL"
+    for stype in reversed(stated.get("pNext", [])):
+        chain = {"sType": stype, "pNext": chain}
+    return chain
+
+
 def _structure(kind: str, stated: Json, stype: str, suffix: str = "2") -> Json:
     """A structure's members by the shapes of its record, under their names in C."""
-    out: Json = {"sType": f"VK_STRUCTURE_TYPE_{stype}", "pNext": "NULL"} if suffix else {}
+    out: Json = {"sType": f"VK_STRUCTURE_TYPE_{stype}", "pNext": _unread(stated)} if suffix else {}
     for member, value in stated.items():
         shape = RECORDS[kind].SHAPE[member]
         if shape[0] in ("enum", "flags", "samples", "bool", "int", "number", "subpass"):
@@ -189,6 +206,11 @@ def _dumped_subpass(stated: Json, suffix: str) -> Json:
         chained["pDepthStencilResolveAttachment"] = _dumped_reference(target, suffix) if target is not None else "NULL"
         chained["pNext"] = out["pNext"]
         out["pNext"] = chained
+    if "fragmentShadingRateAttachment" in stated:
+        rate = {"pFragmentShadingRateAttachment": _dumped_reference(stated["fragmentShadingRateAttachment"], suffix)}
+        size = stated.get("shadingRateAttachmentTexelSize")
+        rate |= {"shadingRateAttachmentTexelSize": size} if size is not None else {}
+        out["pNext"] = {"sType": "VK_STRUCTURE_TYPE_FRAGMENT_SHADING_RATE_ATTACHMENT_INFO_KHR", "pNext": out["pNext"], **rate}
     if "multisampledRenderToSingleSampled" in stated:
         single = stated["multisampledRenderToSingleSampled"]
         chained = _structure("RenderToSingleSampled", single, "MULTISAMPLED_RENDER_TO_SINGLE_SAMPLED_INFO_EXT")
