@@ -65,7 +65,9 @@ class TestDepth:
         text = opening * (100_000 if stack == "libyaml" else 1_000)
         problem = trouble(text)
         assert len(events_read) < 400
-        assert problem == ("MSAA906", "the nesting exceeds the limit of 100", Span(at, at + 1), ())
+        # libyaml from 0.2.6 on gives up at its own limit, 1000, where it reads that far ahead before the first event.
+        start = 1000 if (stack, opening) == ("libyaml", "[") and len(events_read) < at else at
+        assert problem == ("MSAA906", "the nesting exceeds the limit of 100", Span(start, start + 1), ())
 
     def test_indented_ever_further(self) -> None:
         text = "".join(" " * depth + "a:\n" for depth in range(300))
