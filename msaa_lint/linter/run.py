@@ -39,7 +39,7 @@ PRICED_FORMATS = _UNSUMMARIZED_FORMATS.union(TABLE_FORMATS) | {"full", "json", "
 RULE_PAGE_FORMATS = frozenset({"sarif", "html"})
 """The outputs that contain the pages of rules."""
 
-SUMMARIZED_FORMATS = PRICED_FORMATS - _UNSUMMARIZED_FORMATS.union(TABLE_FORMATS) | {"concise"}
+SUMMARIZED_FORMATS = PRICED_FORMATS - _UNSUMMARIZED_FORMATS | {"concise"}
 """The outputs that say what fixes save; for the others fixes are not tried."""
 
 
@@ -80,7 +80,7 @@ class _Run:
             prices=request.by_price or limited or not PRICED_FORMATS.isdisjoint(outputs),
             savings=limited or request.fix is not None or not SUMMARIZED_FORMATS.isdisjoint(outputs),
             frames="html" in outputs,
-            passes=not set(TABLE_FORMATS).isdisjoint(outputs),
+            passes=not outputs.isdisjoint(TABLE_FORMATS),
         )
         render = self._render(outputs, results is not None)
         self.linter = PartLinter(self.workspace, contents, self.baseline, results, render)

@@ -109,7 +109,7 @@ def test_a_test_report_has_no_failure_of_them(folder: Path) -> None:
     arguments = ("check", "a.msaa.yaml", "--isolated", "--select", "OWN001", "--output", "junit", "--rules", "low")
     done = run(folder, *arguments)
     assert 'tests="1" failures="0" errors="0"' in done.stdout
-    assert "<system-out>line 8, column 50, stored (+1991 MB/s written, +199 mW)</system-out>" in done.stdout
+    assert "<system-out>line 8, column 50, stored (+1991 MB/s written, +199 mW on a tile-based GPU)</system-out>" in done.stdout
     assert 'tests="1" failures="1" errors="0"' in run(folder, *arguments, "--fail-confidence", "low").stdout
 
 
