@@ -95,9 +95,9 @@ PROGRAMS = {
 }
 
 
-def findings(path: Path) -> list[dict[str, Any]]:
+def findings(path: Path, *arguments: str) -> list[dict[str, Any]]:
     """What is found, with confidence medium or high."""
-    done = run(path.parent, "check", "--isolated", "--output", "json", path.name)
+    done = run(path.parent, "check", "--isolated", "--output", "json", *arguments, path.name)
     assert done.returncode in (0, 1), done.stderr
     return [each for each in json.loads(done.stdout)["findings"] if each["confidence"] != "low"]
 
@@ -110,7 +110,8 @@ def expect(program: Program, path: Path) -> None:
     assert {code: codes[code] for code in rules if codes[code]} == program.findings
     assert {each["seen"]["of"] for each in found if each.get("seen")} <= {program.frames}
     prices: dict[str, float] = defaultdict(float)
-    for each in found:
+    # The software driver that drew the frame has no tiles to load or store.
+    for each in findings(path, "--profile", "mali-g76"):
         if each["code"] in program.prices:
             prices[each["code"]] += each["price"][program.prices[each["code"]][0]]
     assert prices == {code: pytest.approx(price, rel=0.02) for code, (_, price) in program.prices.items()}
