@@ -72,5 +72,10 @@ def _layout(table: Table, narrow: bool) -> TextTable:
         if narrow:
             texts = [" ".join(filter(None, texts))]
         figures = [figure.replace(" ", "") for figure in row.figures] if narrow else row.figures
-        rows.append((_STYLES[row.kind], [Text(text) for text in (*texts, *figures)]))
+        rows.append((_STYLES[row.kind], [Text(text) for text in (*texts, *map(_broken, figures))]))
     return TextTable(columns, rows, 1 if narrow else 2)
+
+
+def _broken(figure: str) -> str:
+    """A figure; a range of large ones, which have no decimals, takes two lines."""
+    return figure if "." in figure else figure.replace("–", "–\n")

@@ -141,9 +141,8 @@ def _figures(
 
 
 def _range(values: Sequence[float]) -> str:
-    """`265.59–603.61`; one figure if the least and the most are equal, none without them. A long one takes two lines."""
-    figures = [*dict.fromkeys(map(figure, values))]
-    return ("–\n" if sum(map(len, figures)) > 12 else "–").join(figures)
+    """`265.59–603.61`; one figure if the least and the most are equal, none without them."""
+    return "–".join(dict.fromkeys(map(figure, values)))
 
 
 def _share(amount: Amount, budget: float | None) -> str:

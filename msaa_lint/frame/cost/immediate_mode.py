@@ -11,7 +11,7 @@ from msaa_lint.frame.devices import DeviceProfile
 from msaa_lint.frame.facts.parts import Attachment, Pass, Resolve
 
 from .sizes import Area
-from .traffic import NOT_STATED, Lines, Stored, aspect_bytes, pass_pixels
+from .traffic import NOT_STATED, Lines, Stored, aspect_bytes, pass_pixels, resolve_write
 
 ASSUMED = (
     "{} is an immediate-mode GPU: a pass writes each sample that it draws once, and its resolves read the samples; load and store"
@@ -79,14 +79,7 @@ def _resolve(lines: Lines, render_pass: Pass, resolve: Resolve, area: Area) -> N
     if isinstance(target, Attachment):
         _add(lines, render_pass, target, resolve.aspect, "resolve", "write", 1, area)
         return
-    format = target.format or source.format
-    texel = aspect_bytes(format, resolve.aspect) if format is not None else None
-    if texel is None:
-        lines.missing(f"`{target.title}`: {NOT_STATED['format']}")
-        return
-    size = pass_pixels(render_pass, source, area) * texel
-    stored = Stored(format, 1, target.image)
-    lines.add(target.name, target.name, resolve.aspect, 1, "resolve", "write", size, resolve.target_at, stored)
+    resolve_write(lines, render_pass, resolve, source, target, area)
 
 
 def _add(

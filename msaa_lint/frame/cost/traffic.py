@@ -24,7 +24,7 @@ from msaa_lint.frame.facts.commands import (
 )
 from msaa_lint.frame.facts.compression import compresses
 from msaa_lint.frame.facts.frame import Frame
-from msaa_lint.frame.facts.parts import RENDERING, Attachment, Pass, Target
+from msaa_lint.frame.facts.parts import RENDERING, Attachment, Pass, Resolve, Target
 from msaa_lint.frame.vulkan.formats import Format
 
 from .amounts import Line
@@ -200,14 +200,19 @@ def _rendering_resolves(lines: Lines, render_pass: Pass, area: Area) -> None:
         if resolve.mode is None:
             lines.missing(f"whether `{source.title}` is resolved: resolveMode is not stated")
             continue
-        format = target.format or source.format
-        texel = aspect_bytes(format, resolve.aspect) if format is not None else None
-        if texel is None:
-            lines.missing(f"`{target.title}`: {NOT_STATED['format']}")
-            continue
-        size = pass_pixels(render_pass, source, area) * texel
-        stored = Stored(format, 1, target.image)
-        lines.add(target.name, target.name, resolve.aspect, 1, "resolve", "write", size, resolve.target_at, stored)
+        resolve_write(lines, render_pass, resolve, source, target, area)
+
+
+def resolve_write(lines: Lines, render_pass: Pass, resolve: Resolve, source: Attachment, target: Target, area: Area) -> None:
+    """Adds what a resolve writes to an image that is not an attachment: one sample of each pixel."""
+    format = target.format or source.format
+    texel = aspect_bytes(format, resolve.aspect) if format is not None else None
+    if texel is None:
+        lines.missing(f"`{target.title}`: {NOT_STATED['format']}")
+        return
+    size = pass_pixels(render_pass, source, area) * texel
+    stored = Stored(format, 1, target.image)
+    lines.add(target.name, target.name, resolve.aspect, 1, "resolve", "write", size, resolve.target_at, stored)
 
 
 def pass_pixels(render_pass: Pass, attachment: Attachment, area: Area) -> int:
