@@ -1,4 +1,6 @@
-"""Generates the tables of docs/agreement.md from the data of `confirm`; `--check` only tests whether they are up to date."""
+"""Generates the tables of docs/agreement.md from the data of `confirm`; `--check` only tests
+whether they are up to date.
+"""
 
 from __future__ import annotations
 
@@ -6,20 +8,31 @@ import sys
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
-from msaa_lint.experiments.confirm.explanations import CONSEQUENCES, EXPLANATIONS, NOISE, Explanation
+from msaa_lint.experiments.confirm.explanations import (
+    CONSEQUENCES,
+    EXPLANATIONS,
+    NOISE,
+    Explanation,
+)
 from msaa_lint.experiments.confirm.families import FAMILIES, CheckScope
 from msaa_lint.linter.rules.registry import load
 
 PAGE = Path(__file__).parent / "agreement.md"
 NAMES = {"arm": "Arm", "img": "IMG", "amd": "AMD", "nvidia": "NVIDIA"}
-PASSES = {"renderPass": "vkCreateRenderPass", "renderPass2": "vkCreateRenderPass2", "rendering": "vkCmdBeginRendering"}
+PASSES = {
+    "renderPass": "vkCreateRenderPass",
+    "renderPass2": "vkCreateRenderPass2",
+    "rendering": "vkCmdBeginRendering",
+}
 
 
 def table(head: Iterable[str], rows: Iterable[Iterable[str]]) -> str:
     """A table in Markdown."""
     head = list(head)
     lines = [head, ["---"] * len(head), *(list(row) for row in rows)]
-    return "\n".join("| " + " | ".join(cell.replace("|", "\\|") for cell in line) + " |" for line in lines)
+    return "\n".join(
+        "| " + " | ".join(cell.replace("|", "\\|") for cell in line) + " |" for line in lines
+    )
 
 
 def linked(rules: Iterable[str]) -> str:
@@ -47,9 +60,18 @@ def looks(at: CheckScope) -> str:
 
 def families() -> str:
     rows = (
-        (f"`{f.name}`", f.description, linked(f.rules) or "none", looks(f.scope), " ".join(f"`{id}`" for id in f.ids)) for f in FAMILIES
+        (
+            f"`{f.name}`",
+            f.description,
+            linked(f.rules) or "none",
+            looks(f.scope),
+            " ".join(f"`{id}`" for id in f.ids),
+        )
+        for f in FAMILIES
     )
-    return table(("family", "the layer reports", "rules", "it checks", "VUIDs and best practices"), rows)
+    return table(
+        ("family", "the layer reports", "rules", "it checks", "VUIDs and best practices"), rows
+    )
 
 
 def alone() -> str:
@@ -60,17 +82,28 @@ def alone() -> str:
 
 def noise() -> str:
     reasons = dict.fromkeys(each.reason for each in NOISE)
-    ids = {reason: [id for each in NOISE if each.reason == reason for id in each.ids] for reason in reasons}
-    return table(("why", "messages"), ((reason, " ".join(f"`{id}`" for id in ids[reason])) for reason in reasons))
+    ids = {
+        reason: [id for each in NOISE if each.reason == reason for id in each.ids]
+        for reason in reasons
+    }
+    return table(
+        ("why", "messages"),
+        ((reason, " ".join(f"`{id}`" for id in ids[reason])) for reason in reasons),
+    )
 
 
 def explained(keep: Callable[[Explanation], bool]) -> str:
-    rows = ((f"`{e.family}`", f"{e.subject}: `{e.when}`", e.reason) for e in EXPLANATIONS if keep(e))
+    rows = (
+        (f"`{e.family}`", f"{e.subject}: `{e.when}`", e.reason) for e in EXPLANATIONS if keep(e)
+    )
     return table(("family", "where", "why"), rows)
 
 
 def consequences() -> str:
-    rows = ((" ".join(f"`{id}`" for id in each.ids), linked(each.rules), each.reason) for each in CONSEQUENCES)
+    rows = (
+        (" ".join(f"`{id}`" for id in each.ids), linked(each.rules), each.reason)
+        for each in CONSEQUENCES
+    )
     return table(("family or VUID", "follows from", "why"), rows)
 
 

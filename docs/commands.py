@@ -21,7 +21,9 @@ def help_of(*words: str) -> str:
     """The help of the program or a command, in 80 columns."""
     environment = {**os.environ, "COLUMNS": "80"}
     command = [sys.executable, "-m", "msaa_lint", *words, "--help"]
-    return subprocess.run(command, env=environment, capture_output=True, text=True, check=True).stdout.strip()
+    return subprocess.run(
+        command, env=environment, capture_output=True, text=True, check=True
+    ).stdout.strip()
 
 
 if __name__ == "__main__":

@@ -1,4 +1,6 @@
-"""Generates docs/finding.svg, which shows what the README's first command prints in a terminal: `python docs/finding.py [--check]`."""
+"""Generates docs/finding.svg, which shows what the README's first command prints in a terminal:
+`python docs/finding.py [--check]`.
+"""
 
 from __future__ import annotations
 
@@ -21,8 +23,21 @@ WIDTH = 140
 def picture() -> str:
     """The SVG of a terminal with the run."""
     environment = {**os.environ, "COLUMNS": str(WIDTH)}
-    done = subprocess.run([sys.executable, "-m", "msaa_lint", *ARGUMENTS], cwd=ROOT, env=environment, capture_output=True, check=False)
-    console = Console(record=True, width=WIDTH, file=io.StringIO(), force_terminal=True, color_system="standard", legacy_windows=False)
+    done = subprocess.run(
+        [sys.executable, "-m", "msaa_lint", *ARGUMENTS],
+        cwd=ROOT,
+        env=environment,
+        capture_output=True,
+        check=False,
+    )
+    console = Console(
+        record=True,
+        width=WIDTH,
+        file=io.StringIO(),
+        force_terminal=True,
+        color_system="standard",
+        legacy_windows=False,
+    )
     console.print(Text.from_ansi(done.stdout.decode()))
     svg = console.export_svg(title=f"msaa-lint check {EXAMPLE}", unique_id="finding")
     # Fonts of another site, which a picture does not load on GitHub anyway.

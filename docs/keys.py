@@ -25,7 +25,13 @@ def table(name: str) -> str:
     for key, entry in structure.keys.items():
         parts = key_parts(kind, key)
         rows.append(
-            row(f"`{key}`", f"**{entry.title}.** {entry.meaning}", parts.unit, parts.absent.replace("unknown", ""), parts.references)
+            row(
+                f"`{key}`",
+                f"**{entry.title}.** {entry.meaning}",
+                parts.unit,
+                parts.absent.replace("unknown", ""),
+                parts.references,
+            )
         )
     text = (inspect.getdoc(kind) or "").partition("\n\n")[0]
     return "\n".join([f"## {structure.title}", "", text, "", *rows])
@@ -39,6 +45,13 @@ if __name__ == "__main__":
     for enum, values in ENUMERANTS.items():
         print(
             "\n".join(
-                ["", f"## {enum}", "", row("value", "meaning"), row("---", "---"), *(row(f"`{v}`", text) for v, text in values.items())]
+                [
+                    "",
+                    f"## {enum}",
+                    "",
+                    row("value", "meaning"),
+                    row("---", "---"),
+                    *(row(f"`{v}`", text) for v, text in values.items()),
+                ]
             )
         )

@@ -1,4 +1,5 @@
-"""Compares the coverage of a device with the simulation, sample by sample: the samples are read back from the device.
+"""Compares the coverage of a device with the simulation, sample by sample: the samples are read
+back from the device.
 
 `python -m docs.measured --device NVIDIA --size 3840x2160 edge-fan` prints a table in Markdown.
 """
@@ -28,8 +29,9 @@ from tests.experiments.study.spans import masks
 
 @dataclasses.dataclass
 class Measured:
-    """A technique on a device. Errors are of coverage over the pixels that an edge crosses; `differ` is the number of samples that differ
-    from the simulation."""
+    """A technique on a device. Errors are of coverage over the pixels that an edge crosses;
+    `differ` is the number of samples that differ from the simulation.
+    """
 
     technique: str
     samples: int
@@ -43,7 +45,9 @@ class Measured:
 def simulate(corners: np.ndarray, width: int, height: int, samples: int, fused: bool) -> np.ndarray:
     """The samples that triangles cover in the simulation."""
     triangles = snap.snapped(viewport(corners[..., :2], width, height, fused))
-    return masks(coverage.rows(triangles, width, height, locations.standard(samples)), width, height, samples)
+    return masks(
+        coverage.rows(triangles, width, height, locations.standard(samples)), width, height, samples
+    )
 
 
 def measured(made: Scene, technique: Technique, session: Session, fused: bool) -> Measured:
@@ -56,13 +60,17 @@ def measured(made: Scene, technique: Technique, session: Session, fused: bool) -
         drawn = covered(session, corners, width, height, samples)
     except Unusable as error:
         return Measured(technique.name, samples * width * height, reason=str(error))
-    share = drawn.reshape(made.height, side, made.width, side, samples).mean(axis=(1, 3, 4), dtype=np.float64)
+    share = drawn.reshape(made.height, side, made.width, side, samples).mean(
+        axis=(1, 3, 4), dtype=np.float64
+    )
     exact = truth(made, technique)
     error_sum = ErrorSum()
     error_sum.add(difference(share, exact.image[..., 3])[exact.edge_pixels])
     errors = error_sum.errors()
     differ = int((drawn != simulate(corners, width, height, samples, fused)).sum())
-    return Measured(technique.name, samples * width * height, errors.rmse, errors.bias, errors.greatest, differ)
+    return Measured(
+        technique.name, samples * width * height, errors.rmse, errors.bias, errors.greatest, differ
+    )
 
 
 def table(found: list[Measured]) -> Iterator[str]:
@@ -70,7 +78,10 @@ def table(found: list[Measured]) -> Iterator[str]:
     yield "| technique | RMSE at edges | worst | bias | samples that differ from the simulation |"
     yield "|---|---:|---:|---:|---:|"
     for each in found:
-        figures = f"{each.rmse:.4f} | {each.greatest:.3f} | {each.bias:+.4f} | {each.differ} of {each.samples}"
+        figures = (
+            f"{each.rmse:.4f} | {each.greatest:.3f} | {each.bias:+.4f} | {each.differ} of "
+            f"{each.samples}"
+        )
         yield f"| {each.technique} | {each.reason or figures} |"
 
 
@@ -84,14 +95,29 @@ def main() -> None:
     arguments = parser.parse_args()
     width, height = map(int, arguments.size.split("x"))
     counts = tuple(map(int, arguments.samples.split(",")))
-    with Session(arguments.device, validation=False, limits=Limits(seconds=120), environment=environment(arguments.device)) as session:
+    with Session(
+        arguments.device,
+        validation=False,
+        limits=Limits(seconds=120),
+        environment=environment(arguments.device),
+    ) as session:
         device = about(session.open()).name
         for name in arguments.scenes:
             made = scene(name, width, height)
             print(f"\n{name}, {width}x{height}, {device}\n")
             # Sample shading covers what its sample count covers.
             compared = techniques((MSAA, SSAA), counts)
-            print("\n".join(table([measured(made, technique, session, "llvmpipe" in device) for technique in compared])), flush=True)
+            print(
+                "\n".join(
+                    table(
+                        [
+                            measured(made, technique, session, "llvmpipe" in device)
+                            for technique in compared
+                        ]
+                    )
+                ),
+                flush=True,
+            )
 
 
 if __name__ == "__main__":

@@ -1,11 +1,12 @@
-"""Writes the section about real programs in docs/captures-and-the-layer.md: the validation layer beside the rules, by class of messages.
+"""Writes the section about real programs in docs/captures-and-the-layer.md: the validation layer
+beside the rules, by class of messages.
 
     PYTHONPATH=. python docs/programs_replayed.py FOLDER
 
-captures the programs of tests/programs into FOLDER, replays each capture with `gfxrecon-replay` under
-VK_LAYER_KHRONOS_validation, and lints it. Captures that FOLDER has (NAME/scene.gfxr and .gfxr.jsonl) are not made again, and those of
-further programs are included. Requires gfxreconstruct, xvfb, vulkan-validationlayers, and the
-packages that it names.
+captures the programs of tests/programs into FOLDER, replays each capture with `gfxrecon-replay`
+under VK_LAYER_KHRONOS_validation, and lints it. Captures that FOLDER has (NAME/scene.gfxr and
+.gfxr.jsonl) are not made again, and those of further programs are included. Requires
+gfxreconstruct, xvfb, vulkan-validationlayers, and the packages that it names.
 """
 
 from __future__ import annotations
@@ -29,29 +30,43 @@ from tests.programs.test_programs import PROGRAMS
 DISPLAY = ("xvfb-run", "--auto-servernum", "--server-args=-screen 0 1024x768x24")
 
 ELSEWHERE = {("attachment-needs-readback", "resolve-target-loaded")}
-"""Families and rules that are about different attachments of these programs: the resolve targets are cleared, not loaded."""
+"""Families and rules that are about different attachments of these programs: the resolve targets
+are cleared, not loaded.
+"""
 
 RIGHT = {
-    "non-transient-ms-image": "msaa-lint: the other images are loaded, read by a shader, or resolved by a command, which transient images"
+    "non-transient-ms-image": "msaa-lint: the other images are loaded, read by a shader, or "
+    "resolved by a command, which transient images"
     " do not allow, or replaced before anything is drawn (SDL); the layer sees only their creation",
-    "image-requires-memory": "msaa-lint: the layer also counts the render passes that wgpu creates for pipelines and no command begins, and"
+    "image-requires-memory": "msaa-lint: the layer also counts the render passes that wgpu creates "
+    "for pipelines and no command begins, and"
     " a store of depth that a shader reads (wgpu-depth)",
     "attachment-needs-readback": "both: the layer for each frame",
-    "redundant-store": "both about color and depth of wgpu-store; the other messages are about single-sampled results, which programs"
+    "redundant-store": "both about color and depth of wgpu-store; the other messages are about "
+    "single-sampled results, which programs"
     " without a window keep",
-    "amd-render-targets": "the layer, for AMD: zink's swapchains are mutable. The rules are checked for a Mali, and do not know the flags"
+    "amd-render-targets": "the layer, for AMD: zink's swapchains are mutable. The rules are "
+    "checked for a Mali, and do not know the flags"
     " of swapchains",
-    "multisampled-attachment-stored": "msaa-lint: the layer does not check the stores of dynamic rendering (zink)",
+    "multisampled-attachment-stored": "msaa-lint: the layer does not check the stores of dynamic "
+    "rendering (zink)",
     "multisampled-depth-stored": "msaa-lint: likewise",
     "multisampled-stencil-stored": "msaa-lint: likewise",
-    "multisampled-attachment-loaded": "msaa-lint: the layer does not check the loads of dynamic rendering (zink)",
-    "resolve-target-loaded": "msaa-lint: the resolve targets are cleared before a resolve overwrites them",
+    "multisampled-attachment-loaded": "msaa-lint: the layer does not check the loads of dynamic "
+    "rendering (zink)",
+    "resolve-target-loaded": "msaa-lint: the resolve targets are cleared before a resolve "
+    "overwrites them",
     "resolve-outside-pass": "msaa-lint: the layer's check is Arm's, and crashes (see Limitations)",
-    "depth-read-without-resolve": "open: only the shader shows whether it needs every sample of depth",
-    "multisampled-image-per-swapchain-image": "msaa-lint: Qt creates a multisampled image for each image of the swapchain",
-    "resolve-then-copy": "msaa-lint: SDL resolves to a texture of its own and blits that to the swapchain",
+    "depth-read-without-resolve": "open: only the shader shows whether it needs every sample of "
+    "depth",
+    "multisampled-image-per-swapchain-image": "msaa-lint: Qt creates a multisampled image for each "
+    "image of the swapchain",
+    "resolve-then-copy": "msaa-lint: SDL resolves to a texture of its own and blits that to the "
+    "swapchain",
 }
-"""Who is right, by reading the calls: by the name of a family, or of a rule where the layer is silent."""
+"""Who is right, by reading the calls: by the name of a family, or of a rule where the layer is
+silent.
+"""
 
 
 class Rule(NamedTuple):
@@ -62,14 +77,18 @@ class Rule(NamedTuple):
 
 
 class Program(NamedTuple):
-    """The layer's messages about a program by vendor, None where the replay crashed, and the findings by rule."""
+    """The layer's messages about a program by vendor, None where the replay crashed, and the
+    findings by rule.
+    """
 
     messages: dict[str, Counter[str] | None]
     rules: Counter[Rule]
 
 
 def captures(folder: Path) -> Iterator[tuple[str, Path]]:
-    """The captures by program, each with its `.jsonl` beside it; programs that cannot be captured here are named on standard error."""
+    """The captures by program, each with its `.jsonl` beside it; programs that cannot be captured
+    here are named on standard error.
+    """
     further = sorted(path.parent.name for path in folder.glob("*/scene.gfxr"))
     for name in dict.fromkeys((*PROGRAMS, *further)):
         raw = folder / name / "scene.gfxr"
@@ -113,7 +132,11 @@ def by_family(programs: Mapping[str, Program]) -> dict[str, dict[str, tuple[int,
                 for vendor, ids in seen.messages.items()
                 if ids is not None
             }
-            vendors = ("",) if counts.get("") else tuple(vendor for vendor, count in counts.items() if count)
+            vendors = (
+                ("",)
+                if counts.get("")
+                else tuple(vendor for vendor, count in counts.items() if count)
+            )
             if vendors:
                 found.setdefault(family.name, {})[name] = max(counts.values()), vendors
     return found
@@ -128,7 +151,10 @@ def listed(counts: Mapping[str, int]) -> str:
 def right(name: str) -> str:
     """Who is right about a class of messages or a rule."""
     if name not in RIGHT:
-        raise SystemExit(f"docs/programs_replayed.py: nothing says who is right about {name}; read the calls, and add it to RIGHT")
+        raise SystemExit(
+            f"docs/programs_replayed.py: nothing says who is right about {name}; read the calls, "
+            f"and add it to RIGHT"
+        )
     return RIGHT[name]
 
 
@@ -137,8 +163,9 @@ def link(rule: Rule) -> str:
 
 
 def rows(programs: Mapping[str, Program]) -> Iterator[list[str]]:
-    """A row for each class of messages, with the findings of its rules about the same programs, and one for each rule where the layer is
-    silent."""
+    """A row for each class of messages, with the findings of its rules about the same programs, and
+    one for each rule where the layer is silent.
+    """
     layer = by_family(programs)
     silent = {name: Counter(seen.rules) for name, seen in programs.items()}
     for family in FAMILIES:
@@ -154,25 +181,48 @@ def rows(programs: Mapping[str, Program]) -> Iterator[list[str]]:
                     silent[name].pop(rule, None)
         cells = [f"{link(rule)}: {listed(counts)}" for rule, counts in sorted(ours.items())]
         counts = {name: count for name, (count, _) in theirs.items()}
-        yield [f"`{family.name}` ({', '.join(vendors)})", listed(counts), "<br>".join(cells) or "0", right(family.name)]
+        yield [
+            f"`{family.name}` ({', '.join(vendors)})",
+            listed(counts),
+            "<br>".join(cells) or "0",
+            right(family.name),
+        ]
     covered = {rule for family in FAMILIES for rule in family.rules}
     for rule in sorted({rule for found in silent.values() for rule in found}):
         counts = {name: found[rule] for name, found in silent.items() if found[rule]}
-        yield [f"{link(rule)} {rule.name}", "silent" if rule.name in covered else "no check", listed(counts), right(rule.name)]
+        yield [
+            f"{link(rule)} {rule.name}",
+            "silent" if rule.name in covered else "no check",
+            listed(counts),
+            right(rule.name),
+        ]
 
 
 def others(programs: Mapping[str, Program]) -> dict[str, int]:
     """The messages that are not about multisampling, by id, with the number of programs."""
     ids: Counter[str] = Counter()
     for seen in programs.values():
-        ids.update({id for found in seen.messages.values() if found is not None for id in found if family_of(id) is None})
+        ids.update(
+            {
+                id
+                for found in seen.messages.values()
+                if found is not None
+                for id in found
+                if family_of(id) is None
+            }
+        )
     return dict(sorted(ids.items()))
 
 
 def crashed(programs: Mapping[str, Program]) -> str:
     """The programs whose replay crashed, by vendor."""
-    found = {who: [name for name, seen in programs.items() if seen.messages[vendor] is None] for vendor, who in VENDORS.items()}
-    return "; ".join(f"{who}: {', '.join(names)}" for who, names in found.items() if names) or "none"
+    found = {
+        who: [name for name, seen in programs.items() if seen.messages[vendor] is None]
+        for vendor, who in VENDORS.items()
+    }
+    return (
+        "; ".join(f"{who}: {', '.join(names)}" for who, names in found.items() if names) or "none"
+    )
 
 
 def packages(programs: Collection[str]) -> str:
@@ -186,7 +236,9 @@ def packages(programs: Collection[str]) -> str:
                 versions[package] = version(package)
             except PackageNotFoundError:
                 versions[package] = "version unknown"
-    found = subprocess.run(["dpkg-query", "-Wf${Version}", "love"], capture_output=True, text=True, check=False)
+    found = subprocess.run(
+        ["dpkg-query", "-Wf${Version}", "love"], capture_output=True, text=True, check=False
+    )
     if "love" in programs and found.stdout:
         versions["LÖVE"] = re.split(r"[+-]", found.stdout)[0]
     return ", ".join(f"{package} {number}" for package, number in sorted(versions.items()))
@@ -204,7 +256,10 @@ def section(programs: Mapping[str, Program]) -> str:
         others=len(found),
         most=", ".join(f"`{id}`" for id, _ in sorted(found.items(), key=lambda item: -item[1])[:5]),
     )
-    before, after = (textwrap.fill(part.strip(), 140, break_long_words=False, break_on_hyphens=False) for part in text.split("TABLE"))
+    before, after = (
+        textwrap.fill(part.strip(), 140, break_long_words=False, break_on_hyphens=False)
+        for part in text.split("TABLE")
+    )
     return f"{before}\n\n{table(head, rows(programs))}\n\n{after}\n"
 
 
@@ -226,7 +281,9 @@ def main() -> None:
     programs = {name: program(raw) for name, raw in captures(Path(sys.argv[1]))}
     text = PAGE.read_text(encoding="utf-8")
     before, rest = text.split(BEGIN)
-    PAGE.write_text(f"{before}{BEGIN}\n{section(programs)}{END}{rest.split(END)[1]}", encoding="utf-8")
+    PAGE.write_text(
+        f"{before}{BEGIN}\n{section(programs)}{END}{rest.split(END)[1]}", encoding="utf-8"
+    )
 
 
 if __name__ == "__main__":

@@ -1,10 +1,12 @@
-"""Writes docs/captures-and-the-layer.md, which compares the validation layer with the rules for the captures of examples/capture.
+"""Writes docs/captures-and-the-layer.md, which compares the validation layer with the rules for the
+captures of examples/capture.
 
     PYTHONPATH=. python docs/replayed.py
 
-captures `forward` with all its mistakes, with none, and with each alone, replays each capture with `gfxrecon-replay` under
-VK_LAYER_KHRONOS_validation, and lints it. `--times` only measures the times and keeps the rest of the page. Requires
-vulkan-validationlayers and the requirements of examples/capture/capture.sh; takes two minutes on two idle cores.
+captures `forward` with all its mistakes, with none, and with each alone, replays each capture with
+`gfxrecon-replay` under VK_LAYER_KHRONOS_validation, and lints it. `--times` only measures the times
+and keeps the rest of the page. Requires vulkan-validationlayers and the requirements of
+examples/capture/capture.sh; takes two minutes on two idle cores.
 """
 
 from __future__ import annotations
@@ -32,10 +34,14 @@ DRIVERS = Path("/usr/share/vulkan/icd.d")
 MANIFEST = Path("/usr/share/vulkan/explicit_layer.d/VkLayer_khronos_validation.json")
 
 VENDORS = {"": "all", "ARM": "Arm", "IMG": "IMG", "AMD": "AMD", "NVIDIA": "NVIDIA"}
-"""The vendors whose checks are enabled, one per replay, so that a crash only loses that vendor's messages."""
+"""The vendors whose checks are enabled, one per replay, so that a crash only loses that vendor's
+messages.
+"""
 
 PROFILE = "mali-g76"
-"""The device for the rules. The captures are from lavapipe, which is not tile-based; the layer's vendor checks ignore the device."""
+"""The device for the rules. The captures are from lavapipe, which is not tile-based; the layer's
+vendor checks ignore the device.
+"""
 
 BEGIN, END = "<!-- programs: made by docs/programs_replayed.py -->", "<!-- end of programs -->"
 """The section of real programs on the page."""
@@ -45,8 +51,10 @@ UNRELATED = ("DevLimit-MissingQueryCount", "vkCreateSampler-lod-clamping")
 
 REASONS = {
     4: "the layer has no check for sample shading",
-    6: "the layer has no check across frames; synchronization validation, which is disabled here, does not report it either",
-    7: "`image-requires-memory` only covers vkCreateRenderPass; the other messages require a clear in the next frame, or TRANSIENT usage",
+    6: "the layer has no check across frames; synchronization validation, which is disabled here, "
+    "does not report it either",
+    7: "`image-requires-memory` only covers vkCreateRenderPass; the other messages require a clear "
+    "in the next frame, or TRANSIENT usage",
     8: "no message names stencil: the layer treats depth and stencil as one",
     9: "the layer has no check for the mode of a depth resolve",
     10: "the layer has no check for contents that a resolve overwrites",
@@ -76,7 +84,9 @@ class Finding(NamedTuple):
 
 
 class Capture(NamedTuple):
-    """The results for a capture: the layer's messages by vendor and id, the vendors whose replay crashed, and the findings with lines."""
+    """The results for a capture: the layer's messages by vendor and id, the vendors whose replay
+    crashed, and the findings with lines.
+    """
 
     messages: dict[str, Counter[str]]
     crashed: list[str]
@@ -95,14 +105,22 @@ def mistakes() -> list[Mistake]:
     """The mistakes, from the comments in forward.c."""
     text = (EXAMPLE / "forward.c").read_text(encoding="utf-8")
     comments = re.findall(r"/\* Mistake (\d+), ([a-z-]+), (\w+): (.*?)\. \*/", text, re.DOTALL)
-    return sorted(Mistake(int(number), rule, place, " ".join(words.split())) for number, rule, place, words in comments)
+    return sorted(
+        Mistake(int(number), rule, place, " ".join(words.split()))
+        for number, rule, place, words in comments
+    )
 
 
 def capture_forward(folder: Path, *arguments: str) -> Path:
     """Captures a run of forward with arguments. A `.jsonl` is written beside the capture."""
     folder.mkdir()
     environment = {**os.environ, "TOOLS": "gfxreconstruct"}
-    subprocess.run([EXAMPLE / "capture.sh", folder, *arguments], env=environment, check=True, stdout=subprocess.DEVNULL)
+    subprocess.run(
+        [EXAMPLE / "capture.sh", folder, *arguments],
+        env=environment,
+        check=True,
+        stdout=subprocess.DEVNULL,
+    )
     return folder / "forward.gfxr"
 
 
@@ -119,7 +137,11 @@ def layer_environment(folder: Path, vendors: Iterable[str]) -> dict[str, str]:
     }
     lines = "".join(f"khronos_validation.{key} = {value}\n" for key, value in settings.items())
     (folder / "vk_layer_settings.txt").write_text(lines, encoding="utf-8")
-    return {**lavapipe_environment(), "VK_INSTANCE_LAYERS": "VK_LAYER_KHRONOS_validation", "VK_LAYER_SETTINGS_PATH": str(folder)}
+    return {
+        **lavapipe_environment(),
+        "VK_INSTANCE_LAYERS": "VK_LAYER_KHRONOS_validation",
+        "VK_LAYER_SETTINGS_PATH": str(folder),
+    }
 
 
 def lavapipe_environment() -> dict[str, str]:
@@ -133,37 +155,66 @@ def replay(capture: Path) -> list[str]:
 
 
 def messages(capture: Path, vendor: str, command: Sequence[str] = ()) -> Counter[str] | None:
-    """The ids of the layer's messages about multisampling, with counts. None if the replay, by `command` if stated, crashes."""
+    """The ids of the layer's messages about multisampling, with counts. None if the replay, by
+    `command` if stated, crashes.
+    """
     log = capture.parent / "log.txt"
     log.unlink(missing_ok=True)
     environment = layer_environment(capture.parent, [vendor])
-    process = subprocess.run(command or replay(capture), cwd=capture.parent, env=environment, capture_output=True, check=False)
+    process = subprocess.run(
+        command or replay(capture),
+        cwd=capture.parent,
+        env=environment,
+        capture_output=True,
+        check=False,
+    )
     if process.returncode:
         return None
     counts: Counter[str] = Counter()
-    for id, text in re.findall(r"^([\w-]+)\((?:ERROR|WARN)[^)]*\): msgNum: (.*)$", log.read_text(encoding="utf-8"), re.MULTILINE):
+    for id, text in re.findall(
+        r"^([\w-]+)\((?:ERROR|WARN)[^)]*\): msgNum: (.*)$",
+        log.read_text(encoding="utf-8"),
+        re.MULTILINE,
+    ):
         if bare(id) not in UNRELATED and not isinstance(classify(id, text), Noise):
             counts[id.removeprefix("UNASSIGNED-").removeprefix("BestPractices-")] += 1
     return counts
 
 
 def lint(jsonl: Path) -> list[str]:
-    return [sys.executable, "-m", "msaa_lint", "check", "--isolated", "--profile", PROFILE, "--output", "json", str(jsonl)]
+    return [
+        sys.executable,
+        "-m",
+        "msaa_lint",
+        "check",
+        "--isolated",
+        "--profile",
+        PROFILE,
+        "--output",
+        "json",
+        str(jsonl),
+    ]
 
 
 def findings(jsonl: Path) -> dict[Finding, list[int]]:
-    """The findings for a tile-based device: the lines that describe the captured device are removed."""
+    """The findings for a tile-based device: the lines that describe the captured device are
+    removed.
+    """
     text = jsonl.read_text(encoding="utf-8")
     with tempfile.NamedTemporaryFile("w", suffix=".jsonl", encoding="utf-8") as file:
         file.write(re.sub(r'^.*"name":"vkGetPhysicalDevice.*$', "", text, flags=re.MULTILINE))
         file.flush()
-        process = subprocess.run(lint(Path(file.name)), cwd=ROOT, capture_output=True, text=True, check=False)
+        process = subprocess.run(
+            lint(Path(file.name)), cwd=ROOT, capture_output=True, text=True, check=False
+        )
     if not process.stdout:
         raise SystemExit(f"{jsonl}: {process.stderr}")
     lines_by_finding: dict[Finding, list[int]] = {}
     for entry in json.loads(process.stdout)["findings"]:
         subject = re.sub(r"^commands\[\d+\]\.", "", entry["subject"])
-        lines_by_finding.setdefault(Finding(entry["rule"], entry["code"], subject), []).append(entry["line"])
+        lines_by_finding.setdefault(Finding(entry["rule"], entry["code"], subject), []).append(
+            entry["line"]
+        )
     return lines_by_finding
 
 
@@ -186,7 +237,9 @@ def vendors_of(messages: Mapping[str, Counter[str]], id: str) -> tuple[str, int]
 def measure(command: Sequence[str], folder: Path, environment: Mapping[str, str]) -> Usage:
     """Measures one run of a command."""
     start = time.perf_counter()
-    process = subprocess.Popen(command, cwd=folder, env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    process = subprocess.Popen(
+        command, cwd=folder, env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+    )
     _, status, usage = os.wait4(process.pid, 0)
     seconds = time.perf_counter() - start
     process.returncode = os.waitstatus_to_exitcode(status)
@@ -198,7 +251,9 @@ def measure(command: Sequence[str], folder: Path, environment: Mapping[str, str]
 def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     """A Markdown table."""
     lines = [head, ["---"] * len(head), *rows]
-    return "\n".join("| " + " | ".join(cell.replace("|", "\\|") for cell in line) + " |" for line in lines)
+    return "\n".join(
+        "| " + " | ".join(cell.replace("|", "\\|") for cell in line) + " |" for line in lines
+    )
 
 
 def link(finding: Finding) -> str:
@@ -209,7 +264,9 @@ def at(lines: Sequence[int]) -> str:
     return ", line " + " and ".join(map(str, lines)) if lines else ""
 
 
-def rows(captures: Mapping[Mistake, Capture], shown: Mapping[Finding, Sequence[int]]) -> Iterator[list[str]]:
+def rows(
+    captures: Mapping[Mistake, Capture], shown: Mapping[Finding, Sequence[int]]
+) -> Iterator[list[str]]:
     """A row for each mistake: the layer's messages and the findings if it is the only mistake."""
     for mistake, capture in captures.items():
         ids = sorted({id for counts in capture.messages.values() for id in counts})
@@ -218,22 +275,48 @@ def rows(captures: Mapping[Mistake, Capture], shown: Mapping[Finding, Sequence[i
             layer.append(f"*{REASONS[mistake.number]}*")
         cells = [
             f"{link(finding)} {finding.rule}, `{finding.subject}`" + at(shown.get(finding, ()))
-            for finding in sorted(capture.findings, key=lambda finding: (finding.rule != mistake.rule, finding))
+            for finding in sorted(
+                capture.findings, key=lambda finding: (finding.rule != mistake.rule, finding)
+            )
         ]
-        yield [f"{mistake.number}", f"{mistake.place}: {mistake.text}", "<br>".join(layer) or "nothing", "<br>".join(cells) or "nothing"]
+        yield [
+            f"{mistake.number}",
+            f"{mistake.place}: {mistake.text}",
+            "<br>".join(layer) or "nothing",
+            "<br>".join(cells) or "nothing",
+        ]
 
 
 def answers(together: Capture, captures: Mapping[Mistake, Capture]) -> Iterator[list[str]]:
-    """A row for each message id in the capture with all mistakes: its count, and the corresponding mistakes and rules."""
+    """A row for each message id in the capture with all mistakes: its count, and the corresponding
+    mistakes and rules.
+    """
     for id in sorted({id for counts in together.messages.values() for id in counts}, key=str.lower):
-        causes = [mistake for mistake, capture in captures.items() if any(id in counts for counts in capture.messages.values())]
-        family = classify("UNASSIGNED-BestPractices-" + id) if not id.startswith("VUID") else classify(id)
+        causes = [
+            mistake
+            for mistake, capture in captures.items()
+            if any(id in counts for counts in capture.messages.values())
+        ]
+        family = (
+            classify("UNASSIGNED-BestPractices-" + id)
+            if not id.startswith("VUID")
+            else classify(id)
+        )
         rules = family.rules if isinstance(family, Family) else ()
         links = dict.fromkeys(
-            link(finding) for mistake in causes for finding in captures[mistake].findings if finding.rule in (*rules, mistake.rule)
+            link(finding)
+            for mistake in causes
+            for finding in captures[mistake].findings
+            if finding.rule in (*rules, mistake.rule)
         )
         who, count = vendors_of(together.messages, id)
-        yield [f"`{id}`", who, str(count), ", ".join(str(mistake.number) for mistake in causes), ", ".join(links) or "none"]
+        yield [
+            f"`{id}`",
+            who,
+            str(count),
+            ", ".join(str(mistake.number) for mistake in causes),
+            ", ".join(links) or "none",
+        ]
 
 
 def times(folder: Path) -> Iterator[list[str]]:
@@ -244,8 +327,14 @@ def times(folder: Path) -> Iterator[list[str]]:
         here = capture.parent
         commands: dict[str, tuple[list[str], dict[str, str]]] = {
             "gfxrecon-replay without the layer": (replay(capture), lavapipe_environment()),
-            "gfxrecon-replay under the layer, best practices, all four vendors": (replay(capture), layer_environment(here, VENDORS)),
-            "gfxrecon-convert": (["gfxrecon-convert", "--output", str(here / "again.jsonl"), str(capture)], lavapipe_environment()),
+            "gfxrecon-replay under the layer, best practices, all four vendors": (
+                replay(capture),
+                layer_environment(here, VENDORS),
+            ),
+            "gfxrecon-convert": (
+                ["gfxrecon-convert", "--output", str(here / "again.jsonl"), str(capture)],
+                lavapipe_environment(),
+            ),
             "msaa-lint check": (lint(jsonl), {**os.environ, "PYTHONPATH": str(ROOT)}),
         }
         taken: dict[str, list[Usage]] = {name: [] for name in commands}
@@ -255,7 +344,14 @@ def times(folder: Path) -> Iterator[list[str]]:
         for name, runs in taken.items():
             size = (jsonl if name.startswith("msaa-lint") else capture).stat().st_size / 1e6
             best = Usage(*map(min, zip(*runs, strict=True)))
-            yield [f"{frames}", f"{size:.2f}", name, f"{best.seconds:.2f}", f"{best.processor:.2f}", f"{best.memory:.0f}"]
+            yield [
+                f"{frames}",
+                f"{size:.2f}",
+                name,
+                f"{best.seconds:.2f}",
+                f"{best.processor:.2f}",
+                f"{best.memory:.0f}",
+            ]
 
 
 def time_table(folder: Path) -> str:
@@ -265,17 +361,39 @@ def time_table(folder: Path) -> str:
 def page(folder: Path) -> str:
     """The page, with new measurements."""
     together, fixed = results(folder / "together"), results(folder / "fixed", "--fixed")
-    captures = {mistake: results(folder / f"mistake-{mistake.number}", "--mistake", str(mistake.number)) for mistake in mistakes()}
+    captures = {
+        mistake: results(folder / f"mistake-{mistake.number}", "--mistake", str(mistake.number))
+        for mistake in mistakes()
+    }
     committed = findings(EXAMPLE / "forward.jsonl")
-    unexplained = [m.number for m, capture in captures.items() if not any(capture.messages.values()) and m.number not in REASONS]
+    unexplained = [
+        m.number
+        for m, capture in captures.items()
+        if not any(capture.messages.values()) and m.number not in REASONS
+    ]
     if unexplained:
-        raise SystemExit(f"docs/replayed.py: the layer is silent about {unexplained}; add the reasons to REASONS")
-    missed = [str(m.number) for m, capture in captures.items() if m.rule not in {finding.rule for finding in capture.findings}]
-    silent = [str(m.number) for m, capture in captures.items() if not any(capture.messages.values())]
+        raise SystemExit(
+            f"docs/replayed.py: the layer is silent about {unexplained}; add the reasons to REASONS"
+        )
+    missed = [
+        str(m.number)
+        for m, capture in captures.items()
+        if m.rule not in {finding.rule for finding in capture.findings}
+    ]
+    silent = [
+        str(m.number) for m, capture in captures.items() if not any(capture.messages.values())
+    ]
     crashed = {who for capture in (together, fixed, *captures.values()) for who in capture.crashed}
     layer = json.loads(MANIFEST.read_text(encoding="utf-8"))["layer"]["api_version"]
-    tool = subprocess.run(["gfxrecon-replay", "--version"], capture_output=True, text=True, check=True).stdout
-    mesa = subprocess.run(["dpkg-query", "-Wf${Version}", "mesa-vulkan-drivers"], capture_output=True, text=True, check=True).stdout
+    tool = subprocess.run(
+        ["gfxrecon-replay", "--version"], capture_output=True, text=True, check=True
+    ).stdout
+    mesa = subprocess.run(
+        ["dpkg-query", "-Wf${Version}", "mesa-vulkan-drivers"],
+        capture_output=True,
+        text=True,
+        check=True,
+    ).stdout
     version = re.search(r"GFXReconstruct Version ([\d.]+)", tool)
     return TEMPLATE.format(
         count=len(captures),
@@ -283,13 +401,18 @@ def page(folder: Path) -> str:
         tool=version[1] if version else "?",
         mesa=mesa.partition("-")[0],
         profile=PROFILE,
-        mistakes=table(("", "mistake", "validation layer, replay", "msaa-lint check"), rows(captures, committed)),
+        mistakes=table(
+            ("", "mistake", "validation layer, replay", "msaa-lint check"),
+            rows(captures, committed),
+        ),
         fixed_messages=sum(sum(found.values()) for found in fixed.messages.values()) or "nothing",
         fixed_findings=len(fixed.findings) or "nothing",
         silent=", ".join(silent) or "none",
         missed=", ".join(missed) or "none",
         crashed=", ".join(sorted(crashed)) or "none",
-        answers=table(("message", "checks", "count", "mistakes", "rules"), answers(together, captures)),
+        answers=table(
+            ("message", "checks", "count", "mistakes", "rules"), answers(together, captures)
+        ),
         findings=sum(map(len, together.findings.values())),
         programs=BEGIN + PAGE.read_text(encoding="utf-8").split(BEGIN)[1].split(END)[0] + END,
         times=time_table(folder),
@@ -368,7 +491,11 @@ def timed(text: str, folder: Path) -> str:
 def main() -> None:
     """Writes the page, or only its table of times."""
     with tempfile.TemporaryDirectory() as folder:
-        text = timed(PAGE.read_text(encoding="utf-8"), Path(folder)) if "--times" in sys.argv else page(Path(folder))
+        text = (
+            timed(PAGE.read_text(encoding="utf-8"), Path(folder))
+            if "--times" in sys.argv
+            else page(Path(folder))
+        )
     PAGE.write_text(text, encoding="utf-8")
 
 

@@ -1,4 +1,6 @@
-"""Prints rows.md: the tables of `--output parquet` and `sqlite`, and what `msaa-lint corpus` makes of them."""
+"""Prints rows.md: the tables of `--output parquet` and `sqlite`, and what `msaa-lint corpus` makes
+of them.
+"""
 
 from msaa_lint.linter.corpus.tables import SCHEMA, TABLES, Table
 
@@ -67,9 +69,18 @@ data: they are not escaped, except that what UTF-8 cannot hold is written as `\\
 
 def table(each: Table) -> str:
     """The columns of a table."""
-    rows = [f"| `{column.name}` | {column.kind} | {column.unit} | {column.meaning} |" for column in each.columns]
+    rows = [
+        f"| `{column.name}` | {column.kind} | {column.unit} | {column.meaning} |"
+        for column in each.columns
+    ]
     return "\n".join(
-        [f"\n## The table `{each.name}`\n", f"{each.meaning}\n", "| column | type | unit | meaning |", "|---|---|---|---|", *rows]
+        [
+            f"\n## The table `{each.name}`\n",
+            f"{each.meaning}\n",
+            "| column | type | unit | meaning |",
+            "|---|---|---|---|",
+            *rows,
+        ]
     )
 
 

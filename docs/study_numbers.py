@@ -1,4 +1,5 @@
-"""Generates the table of docs/study-numbers.md: hard cases, the exact answer, and the results of naive float32, float64 and the study.
+"""Generates the table of docs/study-numbers.md: hard cases, the exact answer, and the results of
+naive float32, float64 and the study.
 
 `python -m docs.study_numbers` writes it. Exact answers use rational arithmetic (fractions).
 """
@@ -58,10 +59,14 @@ def written(value: float, digits: int = 5) -> str:
 
 
 def cell(row: Row, value: float) -> str:
-    """A result, struck through where it is wrong, with enough digits to differ from the exact answer."""
+    """A result, struck through where it is wrong, with enough digits to differ from the exact
+    answer.
+    """
     if row.right(value):
         return written(value)
-    digits = next((count for count in range(5, 17) if written(value, count) != written(row.exact, count)), 17)
+    digits = next(
+        (count for count in range(5, 17) if written(value, count) != written(row.exact, count)), 17
+    )
     return f"~~{written(value, digits)}~~"
 
 
@@ -69,7 +74,13 @@ def tables(cases: Sequence[Row]) -> str:
     """A table in Markdown for each group of cases."""
     lines: list[str] = []
     for group, members in itertools.groupby(cases, lambda row: row.group):
-        lines += ["", f"### {group[0].upper()}{group[1:]}", "", "| case | exact | naive | float64 | ours |", "|---|---:|---:|---:|---:|"]
+        lines += [
+            "",
+            f"### {group[0].upper()}{group[1:]}",
+            "",
+            "| case | exact | naive | float64 | ours |",
+            "|---|---:|---:|---:|---:|",
+        ]
         for row in members:
             results = " | ".join(cell(row, value) for value in (row.naive, row.double, row.ours))
             lines.append(f"| {row.case} | {written(row.exact)} | {results} |")

@@ -14,8 +14,26 @@ from typing import Any
 
 def confirmed(arguments: argparse.Namespace, samples: int) -> dict[str, Any]:
     """The report of one sample count."""
-    command = [sys.executable, "-m", "msaa_lint", "confirm", "--isolated", "--output", "json", "--time"]
-    command += ["--device", arguments.device, "--size", arguments.size, "--samples", str(samples), "--repeats", str(arguments.repeats)]
+    command = [
+        sys.executable,
+        "-m",
+        "msaa_lint",
+        "confirm",
+        "--isolated",
+        "--output",
+        "json",
+        "--time",
+    ]
+    command += [
+        "--device",
+        arguments.device,
+        "--size",
+        arguments.size,
+        "--samples",
+        str(samples),
+        "--repeats",
+        str(arguments.repeats),
+    ]
     done = subprocess.run([*command, *arguments.paths], stdout=subprocess.PIPE, check=False)
     if done.returncode == 2:
         raise SystemExit(2)
@@ -25,7 +43,9 @@ def confirmed(arguments: argparse.Namespace, samples: int) -> dict[str, Any]:
 
 def cell(timing: dict[str, float] | None) -> str:
     """A median with its interval, in milliseconds."""
-    return f"{timing['median']:.3f} ({timing['low']:.3f} to {timing['high']:.3f})" if timing else "-"
+    return (
+        f"{timing['median']:.3f} ({timing['low']:.3f} to {timing['high']:.3f})" if timing else "-"
+    )
 
 
 def main() -> None:
@@ -37,7 +57,10 @@ def main() -> None:
     parser.add_argument("--samples", default="1,2,4,8")
     parser.add_argument("--repeats", type=int, default=31)
     arguments = parser.parse_args()
-    print("| samples | file | pass | as written, ms | fixed, ms | difference |\n|---:|---|---|---:|---:|---|")
+    print(
+        "| samples | file | pass | as written, ms | fixed, ms | difference |\n"
+        "|---:|---|---|---:|---:|---|"
+    )
     device: dict[str, Any] = {}
     for samples in map(int, arguments.samples.split(",")):
         report = confirmed(arguments, samples)
@@ -45,13 +68,19 @@ def main() -> None:
         for each in report["passes"]:
             name = each["file"].rsplit("/", 1)[-1].removesuffix(".msaa.yaml")
             if each["time_ms"] is None:
-                print(f"| {samples} | {name} | {each['name']} | {each['status']}: {each['reason']} | | |")
+                print(
+                    f"| {samples} | {name} | {each['name']} | {each['status']}: {each['reason']} | "
+                    f"| |"
+                )
                 continue
             times = each["time_ms"]
             told = times.get("difference") or {}
             cells = [cell(times["as_written"]), cell(times.get("fixed")), told.get("says", "")]
             print(f"| {samples} | {name} | {each['name']} | {' | '.join(cells)} |")
-    print(f"\n{device.get('name')}, {device.get('driver')}, {arguments.size}, {arguments.repeats} repeats: median and its 95 % interval.")
+    print(
+        f"\n{device.get('name')}, {device.get('driver')}, {arguments.size}, {arguments.repeats} "
+        f"repeats: median and its 95 % interval."
+    )
 
 
 if __name__ == "__main__":

@@ -1,8 +1,9 @@
-"""Arranges README, docs/, rules/, and examples/ as the pages of a site: `python -m docs.website FOLDER [ADDRESS]`, which `docs/build` runs.
+"""Arranges README, docs/, rules/, and examples/ as the pages of a site: `python -m docs.website
+FOLDER [ADDRESS]`, which `docs/build` runs.
 
-Writes FOLDER/pages and FOLDER/zensical.toml, whose `site_dir` is FOLDER/html. The pages keep their places in the repository, so that the
-address of a rule's page is `rules/NAME/`; README.md becomes the index of its folder. Links to what is no page become links to a copy of the
-file, or plain text.
+Writes FOLDER/pages and FOLDER/zensical.toml, whose `site_dir` is FOLDER/html. The pages keep their
+places in the repository, so that the address of a rule's page is `rules/NAME/`; README.md becomes
+the index of its folder. Links to what is no page become links to a copy of the file, or plain text.
 """
 
 from __future__ import annotations
@@ -21,9 +22,23 @@ from msaa_lint.core.package import DOCUMENTATION
 
 ROOT = Path(__file__).resolve().parent.parent
 
-GUIDES = {"Engine team": "engine", "Continuous integration": "ci", "Editor": "editor", "Student": "student"}
+GUIDES = {
+    "Engine team": "engine",
+    "Continuous integration": "ci",
+    "Editor": "editor",
+    "Student": "student",
+}
 REFERENCE = {
-    "Using msaa-lint": ["commands", "configuration", "ci", "editors", "html-report", "rows", "facts", "security"],
+    "Using msaa-lint": [
+        "commands",
+        "configuration",
+        "ci",
+        "editors",
+        "html-report",
+        "rows",
+        "facts",
+        "security",
+    ],
     "Inputs": ["format", "keys", "captures", "source-code", "impeller", "devices"],
     "Models and measurements": ["cost", "confirm", "study", "study-numbers", "speed", "scale"],
     "Comparisons": ["captures-and-the-layer", "agreement", "texts"],
@@ -38,7 +53,12 @@ _RUN_NOTE = re.compile(r"^<!-- (?:in |not run)[^\n]*-->\n\n?", re.MULTILINE)
 def sources() -> list[str]:
     """The pages of the repository, as paths in it."""
     found = [ROOT / name for name in ("README.md", "CHANGELOG.md", "CONTRIBUTING.md")]
-    found += [*ROOT.glob("docs/*.md"), *ROOT.glob("docs/guides/*.md"), *ROOT.glob("examples/**/*.md"), ROOT / "editors/vscode/README.md"]
+    found += [
+        *ROOT.glob("docs/*.md"),
+        *ROOT.glob("docs/guides/*.md"),
+        *ROOT.glob("examples/**/*.md"),
+        ROOT / "editors/vscode/README.md",
+    ]
     return sorted(path.relative_to(ROOT).as_posix() for path in found)
 
 
@@ -57,7 +77,10 @@ def main(folder: str, address: str) -> None:
     def write(source: str, text: str) -> None:
         file = pages / target_of(source)
         file.parent.mkdir(parents=True, exist_ok=True)
-        file.write_text(_outside_fences(text, lambda part: _relink(part, source, known, copied)), encoding="utf-8")
+        file.write_text(
+            _outside_fences(text, lambda part: _relink(part, source, known, copied)),
+            encoding="utf-8",
+        )
 
     for source in sources():
         write(source, _RUN_NOTE.sub("", (ROOT / source).read_text(encoding="utf-8")))
@@ -74,7 +97,9 @@ def main(folder: str, address: str) -> None:
 
 
 def _outside_fences(text: str, change: Callable[[str], str]) -> str:
-    """A page whose text between fenced code is changed. The fences of examples get classes and titles, which Python-Markdown reads."""
+    """A page whose text between fenced code is changed. The fences of examples get classes and
+    titles, which Python-Markdown reads.
+    """
     parts, end = [], 0
     for fence in _FENCES.finditer(text):
         parts += [change(text[end : fence.start()]), _fence(fence)]
@@ -91,7 +116,9 @@ def _fence(fence: re.Match[str]) -> str:
 
 
 def _relink(text: str, source: str, known: set[str], copied: set[str]) -> str:
-    """The text of a page with the links of the site; adds the files that it links to to `copied`."""
+    """The text of a page with the links of the site; adds the files that it links to to
+    `copied`.
+    """
 
     def replace(link: re.Match[str]) -> str:
         image, label, path, anchor = link[1], link[2], link[3], link[4] or ""
@@ -132,30 +159,45 @@ def navigation() -> list[object]:
         {"Home": "index.md"},
         {"Guides": [{title: f"docs/guides/{name}.md"} for title, name in GUIDES.items()]},
         {"Rules": rules},
-        {"Reference": [*reference, {"Editors": [{"Visual Studio Code": "editors/vscode/index.md"}]}]},
+        {
+            "Reference": [
+                *reference,
+                {"Editors": [{"Visual Studio Code": "editors/vscode/index.md"}]},
+            ]
+        },
         {"Examples": ["examples/index.md", "examples/capture/index.md"]},
         {"Project": ["CONTRIBUTING.md", "CHANGELOG.md"]},
     ]
 
 
 def configuration(address: str) -> str:
-    """Zensical's configuration. Nothing is loaded from elsewhere: no fonts, and not the plugin `offline`, which loads a script."""
+    """Zensical's configuration. Nothing is loaded from elsewhere: no fonts, and not the plugin
+    `offline`, which loads a script.
+    """
     # In this order, the first of which follows the system.
-    modes = (("(prefers-color-scheme)", "", "sun-moon", "light"), ("(prefers-color-scheme: light)", "default", "sun", "dark"))
+    modes = (
+        ("(prefers-color-scheme)", "", "sun-moon", "light"),
+        ("(prefers-color-scheme: light)", "default", "sun", "dark"),
+    )
     palette = [
         {
             "media": media,
             **({"scheme": scheme} if scheme else {}),
             "toggle": {"icon": f"lucide/{icon}", "name": f"Switch to {following} mode"},
         }
-        for media, scheme, icon, following in (*modes, ("(prefers-color-scheme: dark)", "slate", "moon", "the system's"))
+        for media, scheme, icon, following in (
+            *modes,
+            ("(prefers-color-scheme: dark)", "slate", "moon", "the system's"),
+        )
     ]
     features = [
-        "content.code.copy", "navigation.indexes", "navigation.prune", "navigation.tabs", "navigation.top", "toc.follow",
+        "content.code.copy", "navigation.indexes", "navigation.prune", "navigation.tabs",
+        "navigation.top", "toc.follow",
     ]  # fmt: skip
     project: dict[str, object] = {
         "site_name": "msaa-lint",
-        "site_description": "Finds multisampling mistakes in Vulkan and Metal frames that cost bandwidth, memory, power, or correctness",
+        "site_description": "Finds multisampling mistakes in Vulkan and Metal frames that cost "
+        "bandwidth, memory, power, or correctness",
         **({"site_url": address.rstrip("/") + "/"} if address else {}),
         "docs_dir": "pages",
         "site_dir": "html",
@@ -170,20 +212,33 @@ def configuration(address: str) -> str:
             "md_in_html": {},
             "tables": {},
             # As GitHub names headings, so that links between pages work on both.
-            "toc": {"permalink": True, "slugify": {"object": "pymdownx.slugs.slugify", "kwds": {"case": "lower"}}},
+            "toc": {
+                "permalink": True,
+                "slugify": {"object": "pymdownx.slugs.slugify", "kwds": {"case": "lower"}},
+            },
             "pymdownx.highlight": {},
             "pymdownx.superfences": {},
         },
     }
-    return "[project]\n" + "".join(f"{json.dumps(key)} = {_toml(value)}\n" for key, value in project.items())
+    return "[project]\n" + "".join(
+        f"{json.dumps(key)} = {_toml(value)}\n" for key, value in project.items()
+    )
 
 
 def _toml(value: object) -> str:
     """A value in TOML, on one line."""
     if isinstance(value, dict):
-        return "{" + ", ".join(f"{json.dumps(key)} = {_toml(each)}" for key, each in value.items()) + "}"
-    return "[" + ", ".join(map(_toml, value)) + "]" if isinstance(value, list) else json.dumps(value)
+        return (
+            "{"
+            + ", ".join(f"{json.dumps(key)} = {_toml(each)}" for key, each in value.items())
+            + "}"
+        )
+    return (
+        "[" + ", ".join(map(_toml, value)) + "]" if isinstance(value, list) else json.dumps(value)
+    )
 
 
 if __name__ == "__main__":
-    main(sys.argv[1], sys.argv[2] if len(sys.argv) > 2 else os.environ.get("SITE_URL", DOCUMENTATION))
+    main(
+        sys.argv[1], sys.argv[2] if len(sys.argv) > 2 else os.environ.get("SITE_URL", DOCUMENTATION)
+    )

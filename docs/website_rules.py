@@ -1,4 +1,6 @@
-"""The pages of rules on the site: what a rule page states, what its first example costs, and the list of rules with filters."""
+"""The pages of rules on the site: what a rule page states, what its first example costs, and the
+list of rules with filters.
+"""
 
 from __future__ import annotations
 
@@ -32,16 +34,22 @@ _ENGINE = Engine(_REGISTRY)
 RULES = _REGISTRY.rules
 
 _HTML = Path(report.__file__).parent / "html"
-_FIGURE = jinja2.Environment(loader=jinja2.FileSystemLoader(_HTML / "templates"), autoescape=True).from_string(
-    '{% import "frame.html" as parts %}{{ parts.graph(section) }}'
-)
+_FIGURE = jinja2.Environment(
+    loader=jinja2.FileSystemLoader(_HTML / "templates"), autoescape=True
+).from_string('{% import "frame.html" as parts %}{{ parts.graph(section) }}')
 _BAD = re.compile(r"^```(?:yaml|json) bad\b[^\n]*\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 _FRAME = "frame: {width: 1920, height: 1080, fps: 60}\n"
-_SAFETY = {"safe": "safe: `--fix`", "unsafe": "unsafe: `--fix --unsafe-fixes`", "shown": "shown, not applied"}
+_SAFETY = {
+    "safe": "safe: `--fix`",
+    "unsafe": "unsafe: `--fix --unsafe-fixes`",
+    "shown": "shown, not applied",
+}
 
 
 class Example(NamedTuple):
-    """An example of a mistake, a finding of the rule in it, its document, and whether it states the frame's size."""
+    """An example of a mistake, a finding of the rule in it, its document, and whether it states the
+    frame's size.
+    """
 
     text: str
     finding: Finding
@@ -50,12 +58,16 @@ class Example(NamedTuple):
 
 
 def example(rule: Rule) -> Example | None:
-    """The first example of a description that the rule has a finding in; one with a price before one without."""
+    """The first example of a description that the rule has a finding in; one with a price before
+    one without.
+    """
     found: Example | None = None
     for text in _BAD.findall(markdown(rule)):
         states_frame = "frame:" in text
         result = _ENGINE.lint(
-            (text if states_frame else _FRAME + text).encode(), f"{folder()}/{rule.name}.yaml", LintOptions(_severity, prices=True)
+            (text if states_frame else _FRAME + text).encode(),
+            f"{folder()}/{rule.name}.yaml",
+            LintOptions(_severity, prices=True),
         )
         for finding in result.findings:
             if finding.rule == rule.name and (found is None or price_text(finding)):
@@ -72,37 +84,61 @@ def _severity(rule: object, suggested: str, vendor: str | None) -> str:
 def rule_page(rule: Rule) -> str:
     """The page of a rule."""
     apis = " and ".join({"vulkan": "Vulkan", "metal": "Metal"}[api] for api in rule.apis)
-    facts = {"code": rule.code, "severity": rule.severity, "confidence": rule.confidence, "API": apis, "subject": rule.subject}
+    facts = {
+        "code": rule.code,
+        "severity": rule.severity,
+        "confidence": rule.confidence,
+        "API": apis,
+        "subject": rule.subject,
+    }
     cells = [" | ".join(facts), " | ".join("---" for _ in facts), " | ".join(facts.values())]
     table = "".join(f"| {row} |\n" for row in cells)
-    head = f"---\ntitle: {json.dumps(rule.name)}\ndescription: {json.dumps(rule.summary)}\n---\n\n# {rule.name}\n\n"
+    head = (
+        f"---\ntitle: {json.dumps(rule.name)}\ndescription: {json.dumps(rule.summary)}\n---\n\n"
+        f"# {rule.name}\n\n"
+    )
     shown = example(rule)
     return (
-        f"{head}{table}\n{_fixes(rule)}{_price(rule, shown)}\n{frame_picture(shown) if shown is not None else ''}"
+        f"{head}{table}\n{_fixes(rule)}{_price(rule, shown)}\n"
+        f"{frame_picture(shown) if shown is not None else ''}"
         f"{markdown(rule).rstrip()}\n\n{_references(rule)}"
     )
 
 
 def _fixes(rule: Rule) -> str:
-    """The fixes, each with how it is applied; one that is safe in some cases only has several ways."""
+    """The fixes, each with how it is applied; one that is safe in some cases only has several
+    ways.
+    """
     ways: dict[str, list[str]] = {}
     for fix in rule.fix_specs:
         title = re.sub(r"`?\{[^{}]*\}`?", "…", fix.title)
         ways.setdefault(title, []).append(_SAFETY[fix.safety])
-    return "".join(f"Fix: {title} ({', or '.join(safeties)}).\n\n" for title, safeties in ways.items())
+    return "".join(
+        f"Fix: {title} ({', or '.join(safeties)}).\n\n" for title, safeties in ways.items()
+    )
 
 
 def _price(rule: Rule, shown: Example | None) -> str:
     """What an example costs, in words."""
     price = price_text(shown.finding) if shown is not None else ""
     if shown is None or not price:
-        reason = "it makes a frame wrong or invalid, or what it costs depends on the device or the shaders"
+        reason = (
+            "it makes a frame wrong or invalid, or what it costs depends on the device or the "
+            "shaders"
+        )
         return f'!!! note "Price"\n\n    The cost model puts no figure on this mistake: {reason}.\n'
-    where = "with the frame that it states" if shown.states_frame else "in a frame of 1920x1080 pixels at 60 Hz"
+    where = (
+        "with the frame that it states"
+        if shown.states_frame
+        else "in a frame of 1920x1080 pixels at 60 Hz"
+    )
     which = "The first example" if shown.text in _BAD.findall(markdown(rule))[:1] else "An example"
     clause = f"{which} costs **{price}** {where}"
     if is_choice(shown.finding):
-        clause = f"The fix of {which[0].lower()}{which[1:]} changes the cost by **{price.removeprefix('if chosen: ')}** {where}"
+        clause = (
+            f"The fix of {which[0].lower()}{which[1:]} changes the cost by "
+            f"**{price.removeprefix('if chosen: ')}** {where}"
+        )
     return (
         f'!!! warning "Price"\n\n    {clause}, by the [cost model](../docs/cost.md),'
         " at 100 mW per GB/s unless its device states another figure.\n"
@@ -110,7 +146,9 @@ def _price(rule: Rule, shown: Example | None) -> str:
 
 
 def frame_picture(shown: Example) -> str:
-    """The passes, images, and resolves of an example, and the bytes between them; empty for one whose frame has none."""
+    """The passes, images, and resolves of an example, and the bytes between them; empty for one
+    whose frame has none.
+    """
     frame = Frame(shown.document.document)
     cost = frame_cost(frame, shown.document.device, Terms())
     graph = frame_graph(frame, cost)
@@ -123,7 +161,10 @@ def frame_picture(shown: Example) -> str:
 
 
 def _references(rule: Rule) -> str:
-    lines = [f"- [{_brackets(each)}]({address})" if (address := link(each)) else f"- {each}" for each in rule.references]
+    lines = [
+        f"- [{_brackets(each)}]({address})" if (address := link(each)) else f"- {each}"
+        for each in rule.references
+    ]
     return "## References\n\n" + "\n".join(lines) + "\n"
 
 
@@ -134,7 +175,9 @@ def _brackets(text: str) -> str:
 def picture_style() -> str:
     """The rules of the HTML report's style that are about graphs."""
     rules = re.findall(
-        r"^\.(?:graph|box|life|flow|key)\b[^{\n]*\{[^}\n]*\}$", (_HTML / "style.css").read_text(encoding="utf-8"), re.MULTILINE
+        r"^\.(?:graph|box|life|flow|key)\b[^{\n]*\{[^}\n]*\}$",
+        (_HTML / "style.css").read_text(encoding="utf-8"),
+        re.MULTILINE,
     )
     return "\n".join(rules) + "\n"
 
@@ -153,10 +196,13 @@ def rule_list() -> str:
     rows = "".join(_row(rule) for rule in RULES)
     return (
         "# Rules\n\n"
-        f"{len(RULES)} rules. A rule's page has its reasons, with numbers and their source, its examples, and the price of its mistake; "
-        "`msaa-lint rule NAME` prints it. [Custom rules](../docs/configuration.md#custom-rules) are pages of the same form.\n\n"
+        f"{len(RULES)} rules. A rule's page has its reasons, with numbers and their source, its "
+        f"examples, and the price of its mistake; "
+        "`msaa-lint rule NAME` prints it. [Custom rules](../docs/configuration.md#custom-rules) "
+        "are pages of the same form.\n\n"
         f'<form class="rule-filters" autocomplete="off">\n{boxes}</form>\n\n'
-        '<table class="rules">\n<thead><tr><th>Code</th><th>Rule</th><th>Severity</th><th>Fix</th></tr></thead>\n'
+        '<table class="rules">\n'
+        "<thead><tr><th>Code</th><th>Rule</th><th>Severity</th><th>Fix</th></tr></thead>\n"
         f"<tbody>\n{rows}</tbody>\n</table>\n"
     )
 
@@ -168,7 +214,9 @@ def _box(name: str, value: str, label: str) -> str:
 def _row(rule: Rule) -> str:
     safeties = {fix.safety for fix in rule.fix_specs}
     fix = "safe" if "safe" in safeties else "other" if safeties else "none"
-    words = {"safe": "safe", "other": "unsafe" if "unsafe" in safeties else "shown", "none": ""}[fix]
+    words = {"safe": "safe", "other": "unsafe" if "unsafe" in safeties else "shown", "none": ""}[
+        fix
+    ]
     apis = " ".join(f"api-{api}" for api in rule.apis)
     return (
         f'<tr class="severity-{rule.severity} fix-{fix} {apis}"><td>{rule.code}</td>'

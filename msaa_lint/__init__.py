@@ -27,17 +27,29 @@ def lint(
     config: str | None = None,
     isolated: bool = False,
 ) -> "Result":
-    """Lints files and folders, or a `text` with the name `filename`, as `msaa-lint check` does; the other arguments are its options.
+    """Lints files and folders, or a `text` with the name `filename`, as `msaa-lint check` does; the
+    other arguments are its options.
 
-    The location of a finding is a span of offsets into `result.sources[finding.file].text`; `Source.position` converts an offset to a line
-    and a column. A problem of an input, a rule page or the configuration is a finding (MSAA9xx), never an exception.
+    The location of a finding is a span of offsets into `result.sources[finding.file].text`;
+    `Source.position` converts an offset to a line and a column. A problem of an input, a rule page
+    or the configuration is a finding (MSAA9xx), never an exception.
     """
     from .linter.request import Request
     from .linter.run import run
 
     overrides = {
-        "select": select, "extend_select": extend_select, "ignore": ignore, "rules": rules, "profile": profile, "edition": edition,
+        "select": select, "extend_select": extend_select, "ignore": ignore, "rules": rules,
+        "profile": profile, "edition": edition,
     }  # fmt: skip
     data = text.encode("utf-8", "surrogatepass") if isinstance(text, str) else text
     inputs = [*paths, "-"] if text is not None else paths
-    return run(Request(inputs, overrides, config, isolated, stdin_filename=filename if text is not None else None, data=data)).result
+    return run(
+        Request(
+            inputs,
+            overrides,
+            config,
+            isolated,
+            stdin_filename=filename if text is not None else None,
+            data=data,
+        )
+    ).result

@@ -1,6 +1,7 @@
 """`msaa-lint`, and `python -m msaa_lint`.
 
-Until `isolate` returns, this module and the package import nothing that a file of the working folder could replace: no `__future__` either.
+Until `isolate` returns, this module and the package import nothing that a file of the working
+folder could replace: no `__future__` either.
 """
 
 import gc
@@ -13,8 +14,9 @@ if TYPE_CHECKING:
 
 def main() -> None:
     """Runs the command that the arguments name, and exits with its code."""
-    # A run creates many small objects that live to its end, and collecting in between costs a third of the time of reading large inputs.
-    # `linter.run` collects between inputs where garbage accumulates.
+    # A run creates many small objects that live to its end, and collecting in between costs a third
+    # of the time of reading large inputs. `linter.run` collects between inputs where garbage
+    # accumulates.
     gc.disable()
     if sys.argv[1:] == ["--version"] and sys.stdout is not None:
         # Needs no other module, unless it cannot be written.

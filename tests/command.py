@@ -41,7 +41,13 @@ def run(folder: Path, *arguments: str, stdin: bytes = b"", **environment: str) -
     here = os.getcwd()
     code: object = 0
     with (
-        mock.patch.multiple(sys, argv=["msaa-lint", *arguments], stdin=streams[0], stdout=streams[1], stderr=streams[2]),
+        mock.patch.multiple(
+            sys,
+            argv=["msaa-lint", *arguments],
+            stdin=streams[0],
+            stdout=streams[1],
+            stderr=streams[2],
+        ),
         mock.patch.dict(os.environ, environment_of(environment), clear=True),
     ):
         os.chdir(folder)
@@ -73,7 +79,9 @@ def run_process(folder: Path, *arguments: str, stdin: bytes = b"", **environment
         timeout=300,
     )
     assert b"Traceback" not in done.stderr
-    return subprocess.CompletedProcess(done.args, done.returncode, done.stdout.decode(), done.stderr.decode())
+    return subprocess.CompletedProcess(
+        done.args, done.returncode, done.stdout.decode(), done.stderr.decode()
+    )
 
 
 def read_terminal(master: int) -> bytes:

@@ -1,8 +1,10 @@
-"""What the documentation tells to run: its fenced blocks and inline commands, page by page, in order.
+"""What the documentation tells to run: its fenced blocks and inline commands, page by page, in
+order.
 
-A comment `<!-- not run: REASON -->` above a block excludes it. From `<!-- in a clone -->` on, commands run in a clone of the repository; at
-first, and from `<!-- in an empty folder -->` on, in an empty folder. A block whose first line is a comment with a file name is the
-content of that file. `python -m tests.doc_blocks` counts the commands that are run, and those that are not by reason.
+A comment `<!-- not run: REASON -->` above a block excludes it. From `<!-- in a clone -->` on,
+commands run in a clone of the repository; at first, and from `<!-- in an empty folder -->` on, in
+an empty folder. A block whose first line is a comment with a file name is the content of that file.
+`python -m tests.doc_blocks` counts the commands that are run, and those that are not by reason.
 """
 
 from __future__ import annotations
@@ -21,7 +23,11 @@ _PATTERNS = (
     *("README.md", "CONTRIBUTING.md", "docs/*.md", "docs/guides/*.md"),
     *("examples/README.md", "examples/*/README.md", "rules/README.md"),
 )
-PAGES = tuple(path.relative_to(ROOT).as_posix() for pattern in _PATTERNS for path in sorted(ROOT.glob(pattern)))
+PAGES = tuple(
+    path.relative_to(ROOT).as_posix()
+    for pattern in _PATTERNS
+    for path in sorted(ROOT.glob(pattern))
+)
 COMMAND = re.compile(r"(?:[A-Z_]+=\S+ )*(?:msaa-lint|python3?|sh|pip|apt|git) (?!-$)\S.*")
 """Inline code that is a command."""
 FILE_NAME = re.compile(r"(?:#|//) ([\w./-]+\.\w+)\n")
@@ -55,8 +61,16 @@ class Block(NamedTuple):
         if self.language == "inline":
             return [self.text]
         if self.language == "sh":
-            return [line for line in self.text.replace("\\\n", " ").splitlines() if line.strip() and not line.startswith("#")]
-        return [line[2:] for line in self.text.splitlines() if self.language == "console" and line.startswith("$ ")]
+            return [
+                line
+                for line in self.text.replace("\\\n", " ").splitlines()
+                if line.strip() and not line.startswith("#")
+            ]
+        return [
+            line[2:]
+            for line in self.text.splitlines()
+            if self.language == "console" and line.startswith("$ ")
+        ]
 
 
 def blocks(page: str) -> Iterator[Block]:
@@ -70,12 +84,21 @@ def blocks(page: str) -> Iterator[Block]:
             where = re.search(r"<!-- in (a clone|an empty folder) -->", token.content)
             in_clone = where[1] == "a clone" if where else in_clone
         elif token.type in ("fence", "code_block"):
-            yield Block(page, line, token.info.strip() if token.type == "fence" else "indented", token.content, skipped, in_clone)
+            yield Block(
+                page,
+                line,
+                token.info.strip() if token.type == "fence" else "indented",
+                token.content,
+                skipped,
+                in_clone,
+            )
             skipped = ""
         elif token.type == "inline":
             for child in token.children or ():
                 if child.type == "code_inline" and COMMAND.fullmatch(child.content):
-                    yield Block(page, line, "inline", child.content, _not_run(child.content), in_clone)
+                    yield Block(
+                        page, line, "inline", child.content, _not_run(child.content), in_clone
+                    )
 
 
 def _not_run(command: str) -> str:
@@ -90,14 +113,23 @@ def _not_run(command: str) -> str:
     if not words:
         return "inline: the name of a command"
     flags = {word[2:].replace("-", "_") for word in words if word.startswith("--")}
-    needs_path = name in COMMANDS and COMMANDS[name].paths.min > 0 and not flags & {*COMMANDS[name].standalone}
-    return "inline: without the input that it needs" if needs_path and len(flags) == len(words) else ""
+    needs_path = (
+        name in COMMANDS
+        and COMMANDS[name].paths.min > 0
+        and not flags & {*COMMANDS[name].standalone}
+    )
+    return (
+        "inline: without the input that it needs" if needs_path and len(flags) == len(words) else ""
+    )
 
 
 def main() -> None:
     """Prints the counts."""
     counts = Counter(
-        "run" if not block.skipped else f"not run: {block.skipped}" for page in PAGES for block in blocks(page) for _ in block.commands()
+        "run" if not block.skipped else f"not run: {block.skipped}"
+        for page in PAGES
+        for block in blocks(page)
+        for _ in block.commands()
     )
     for reason, count in counts.most_common():
         print(f"{count:4} {reason}")

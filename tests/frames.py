@@ -17,9 +17,13 @@ SECTIONS = {
 
 
 def joined(description: Json) -> Json:
-    """A description with every name, index and list of images made to fit the sections there are."""
+    """A description with every name, index and list of images made to fit the sections there
+    are.
+    """
     # Frames in other words are none of Vulkan's; what they state is fitted to itself.
-    description = {key: value for key, value in description.items() if key not in ("metal", "renderTargets")}
+    description = {
+        key: value for key, value in description.items() if key not in ("metal", "renderTargets")
+    }
     names = {section: list(description.get(section, {})) for section in SECTIONS}
     own = {member: section for section, members in SECTIONS.items() for member in members}
     fitted = _fitted(description, names, own)
@@ -58,7 +62,9 @@ def _in_order(commands: list[Json]) -> list[Json]:
     return kept
 
 
-def _fitted(value: Json, names: dict[str, list[str]], own: dict[str, str], member: str = "") -> Json:
+def _fitted(
+    value: Json, names: dict[str, list[str]], own: dict[str, str], member: str = ""
+) -> Json:
     section = own.get(member)
     if section is not None and isinstance(value, (str, int)):
         return _one_of(value, names[section])
@@ -66,12 +72,24 @@ def _fitted(value: Json, names: dict[str, list[str]], own: dict[str, str], membe
         return [_one_of(each, names[section]) for each in value if names[section]]
     if isinstance(value, dict):
         fitted = {key: _fitted(inner, names, own, key) for key, inner in value.items()}
-        return {key: inner for key, inner in fitted.items() if inner is not ... and (key not in own or inner is not None)}
+        return {
+            key: inner
+            for key, inner in fitted.items()
+            if inner is not ... and (key not in own or inner is not None)
+        }
     if isinstance(value, list):
-        if member == "attachments" and all(each is None or isinstance(each, (str, int)) for each in value):
-            return [None if each is None or not names["images"] else _one_of(each, names["images"]) for each in value]
+        if member == "attachments" and all(
+            each is None or isinstance(each, (str, int)) for each in value
+        ):
+            return [
+                None if each is None or not names["images"] else _one_of(each, names["images"])
+                for each in value
+            ]
         if member == "images":
-            each_fitted = [_one_of(i, names["images"]) if isinstance(i, (str, int)) else _fitted(i, names, own) for i in value]
+            each_fitted = [
+                _one_of(i, names["images"]) if isinstance(i, (str, int)) else _fitted(i, names, own)
+                for i in value
+            ]
             return [each for each in each_fitted if each is not ...]
         return [_fitted(inner, names, own) for inner in value]
     return value
@@ -87,18 +105,29 @@ def _slots(render_pass: dict[str, Any]) -> None:
     count = len(render_pass.get("attachments", []))
     subpasses = render_pass.get("subpasses", [])
     if "fragmentDensityMapAttachment" in render_pass:
-        render_pass["fragmentDensityMapAttachment"] = _slot(render_pass["fragmentDensityMapAttachment"], count)
+        render_pass["fragmentDensityMapAttachment"] = _slot(
+            render_pass["fragmentDensityMapAttachment"], count
+        )
     for subpass in subpasses:
-        for member in ("inputAttachments", "colorAttachments", "resolveAttachments", "preserveAttachments"):
+        for member in (
+            "inputAttachments",
+            "colorAttachments",
+            "resolveAttachments",
+            "preserveAttachments",
+        ):
             if member in subpass:
                 subpass[member] = [_slot(each, count) for each in subpass[member]]
         if {"colorAttachments", "resolveAttachments"} <= subpass.keys():
-            subpass["resolveAttachments"] = subpass["resolveAttachments"][: len(subpass["colorAttachments"])]
+            subpass["resolveAttachments"] = subpass["resolveAttachments"][
+                : len(subpass["colorAttachments"])
+            ]
         for member in ("depthStencilAttachment", "fragmentShadingRateAttachment"):
             if member in subpass:
                 subpass[member] = _slot(subpass[member], count)
         if "attachment" in subpass.get("depthStencilResolve", {}):
-            subpass["depthStencilResolve"]["attachment"] = _slot(subpass["depthStencilResolve"]["attachment"], count)
+            subpass["depthStencilResolve"]["attachment"] = _slot(
+                subpass["depthStencilResolve"]["attachment"], count
+            )
     for dependency in render_pass.get("dependencies", []):
         for member in ("srcSubpass", "dstSubpass"):
             if isinstance(dependency.get(member), int) and dependency[member] >= len(subpasses):
@@ -124,7 +153,9 @@ METAL_NAMES = {
 
 
 def _metal(value: Json, names: dict[str, list[str]]) -> Json:
-    """A part of a frame in Metal's words with every name made to fit; a command that would name nothing is left out."""
+    """A part of a frame in Metal's words with every name made to fit; a command that would name
+    nothing is left out.
+    """
     if isinstance(value, list):
         return [each for each in (_metal(inner, names) for inner in value) if each != {}]
     if not isinstance(value, dict):
@@ -143,7 +174,11 @@ def _metal(value: Json, names: dict[str, list[str]]) -> Json:
 def _in_metals_words(whole: tuple[Json, Json]) -> Json:
     description, metal = whole
     names = {section: list(metal.get(section, {})) for section in ("textures", "renderPasses")}
-    beside = {key: value for key, value in joined(description).items() if key in ("frame", "device", "scene")}
+    beside = {
+        key: value
+        for key, value in joined(description).items()
+        if key in ("frame", "device", "scene")
+    }
     return {**beside, "metal": _metal(metal, names)}
 
 

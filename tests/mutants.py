@@ -1,8 +1,9 @@
 """Random small mistakes in the code, one at a time, and the share of them that a test notices.
 
-`python tests/mutants.py [--count 200] [--seed 34] [--room facts]...` changes an operator, a condition, or a number in a copy of the tree,
-runs the tests of its room and those of the rules until one fails, and prints what became of each mutant, then the share that died, by room.
-A mutant that runs longer than `--timeout` has died: what it changed never ends.
+`python tests/mutants.py [--count 200] [--seed 34] [--room facts]...` changes an operator, a
+condition, or a number in a copy of the tree, runs the tests of its room and those of the rules
+until one fails, and prints what became of each mutant, then the share that died, by room. A mutant
+that runs longer than `--timeout` has died: what it changed never ends.
 """
 
 from __future__ import annotations
@@ -27,17 +28,22 @@ ROOMS = {
     "facts": ("frame/facts", ("tests/frame/facts", "tests/linter", "tests/frame")),
     "cost": ("frame/cost", ("tests/frame/cost", "tests/linter", "tests/cli")),
     "fixes": ("linter/fixes", ("tests/linter", "tests/frame/metal")),
-    "readers": ("input/readers", ("tests/input/readers", "tests/frame/metal", "tests/input/impeller")),
+    "readers": (
+        "input/readers",
+        ("tests/input/readers", "tests/frame/metal", "tests/input/impeller"),
+    ),
     "reports": ("cli/report", ("tests/cli/report", "tests/cli")),
 }
 """By room: its folder in the package, and the tests that are asked, nearest first."""
 
 _COMPARED: dict[type[ast.cmpop], type[ast.cmpop]] = {
-    ast.Eq: ast.NotEq, ast.NotEq: ast.Eq, ast.Lt: ast.LtE, ast.LtE: ast.Lt, ast.Gt: ast.GtE, ast.GtE: ast.Gt, ast.In: ast.NotIn,
+    ast.Eq: ast.NotEq, ast.NotEq: ast.Eq, ast.Lt: ast.LtE, ast.LtE: ast.Lt, ast.Gt: ast.GtE,
+    ast.GtE: ast.Gt, ast.In: ast.NotIn,
     ast.NotIn: ast.In, ast.Is: ast.IsNot, ast.IsNot: ast.Is,
 }  # fmt: skip
 _CALCULATED: dict[type[ast.operator], type[ast.operator]] = {
-    ast.Add: ast.Sub, ast.Sub: ast.Add, ast.Mult: ast.FloorDiv, ast.FloorDiv: ast.Mult, ast.Div: ast.Mult, ast.BitOr: ast.BitAnd,
+    ast.Add: ast.Sub, ast.Sub: ast.Add, ast.Mult: ast.FloorDiv, ast.FloorDiv: ast.Mult,
+    ast.Div: ast.Mult, ast.BitOr: ast.BitAnd,
     ast.BitAnd: ast.BitOr, ast.Mod: ast.Add,
 }  # fmt: skip
 
@@ -54,18 +60,28 @@ class Mutant(NamedTuple):
     """The whole module with the change."""
 
     def __str__(self) -> str:
-        return f"{self.file.relative_to(ROOT).as_posix()}:{self.line}: `{self.before}` -> `{self.after}`"
+        return (
+            f"{self.file.relative_to(ROOT).as_posix()}:{self.line}: `{self.before}` -> "
+            f"`{self.after}`"
+        )
 
 
 def changed(node: ast.AST) -> ast.expr | None:
     """A node with a mistake in it, if it is one that has an operator, a condition, or a number."""
     if isinstance(node, ast.Compare) and type(node.ops[0]) in _COMPARED:
-        return ast.Compare(node.left, [_COMPARED[type(node.ops[0])](), *node.ops[1:]], node.comparators)
+        return ast.Compare(
+            node.left, [_COMPARED[type(node.ops[0])](), *node.ops[1:]], node.comparators
+        )
     if isinstance(node, ast.BoolOp):
         return ast.BoolOp(ast.And() if isinstance(node.op, ast.Or) else ast.Or(), node.values)
     if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.Not):
         return node.operand
-    if isinstance(node, ast.BinOp) and type(node.op) in _CALCULATED and not _is_text(node.left) and not _is_text(node.right):
+    if (
+        isinstance(node, ast.BinOp)
+        and type(node.op) in _CALCULATED
+        and not _is_text(node.left)
+        and not _is_text(node.right)
+    ):
         return ast.BinOp(node.left, _CALCULATED[type(node.op)](), node.right)
     if isinstance(node, ast.IfExp):
         return ast.IfExp(ast.UnaryOp(ast.Not(), node.test), node.body, node.orelse)
@@ -77,7 +93,9 @@ def changed(node: ast.AST) -> ast.expr | None:
 
 
 def _is_text(node: ast.AST) -> bool:
-    return isinstance(node, ast.JoinedStr) or (isinstance(node, ast.Constant) and isinstance(node.value, str))
+    return isinstance(node, ast.JoinedStr) or (
+        isinstance(node, ast.Constant) and isinstance(node.value, str)
+    )
 
 
 def _nodes(tree: ast.AST) -> list[ast.AST]:
@@ -92,7 +110,9 @@ def _nodes(tree: ast.AST) -> list[ast.AST]:
             skipped = [node.returns]
         elif isinstance(node, (ast.AnnAssign, ast.arg)):
             skipped = [node.annotation]
-        elif isinstance(node, ast.JoinedStr) or (isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING"):
+        elif isinstance(node, ast.JoinedStr) or (
+            isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING"
+        ):
             continue
         remaining += [child for child in ast.iter_child_nodes(node) if child not in skipped]
     return found
@@ -110,11 +130,20 @@ def mutants(room: str) -> list[Mutant]:
             after = changed(node)
             if after is None:
                 continue
-            assert isinstance(node, ast.expr) and node.end_lineno is not None and node.end_col_offset is not None
-            begin, end = starts[node.lineno - 1] + node.col_offset, starts[node.end_lineno - 1] + node.end_col_offset
+            assert (
+                isinstance(node, ast.expr)
+                and node.end_lineno is not None
+                and node.end_col_offset is not None
+            )
+            begin, end = (
+                starts[node.lineno - 1] + node.col_offset,
+                starts[node.end_lineno - 1] + node.end_col_offset,
+            )
             spelled = f"({ast.unparse(ast.fix_missing_locations(after))})"
             text = source.encode()[:begin] + spelled.encode() + source.encode()[end:]
-            found.append(Mutant(room, file, node.lineno, ast.unparse(node), spelled[1:-1], text.decode()))
+            found.append(
+                Mutant(room, file, node.lineno, ast.unparse(node), spelled[1:-1], text.decode())
+            )
     return found
 
 
@@ -126,7 +155,14 @@ def fails(room: str, tree: Path, timeout: float) -> bool:
     for tests in ([nearest], FIRST, others):
         command = [sys.executable, "-m", "pytest", *options, *tests]
         try:
-            done = subprocess.run(command, cwd=tree, env=environment, capture_output=True, timeout=timeout, check=False)
+            done = subprocess.run(
+                command,
+                cwd=tree,
+                env=environment,
+                capture_output=True,
+                timeout=timeout,
+                check=False,
+            )
         except subprocess.TimeoutExpired:
             return True
         if done.returncode:
@@ -146,7 +182,9 @@ def dies(mutant: Mutant, tree: Path, timeout: float) -> bool:
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("--count", type=int, default=200, help="how many mutants")
     parser.add_argument("--seed", type=int, default=34)
     parser.add_argument("--room", action="append", choices=ROOMS, help="default: all")
@@ -160,7 +198,11 @@ def main() -> int:
     with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(given.jobs) as pool:
         trees = [Path(folder, str(number)) for number in range(given.jobs)]
         for tree in trees:
-            shutil.copytree(ROOT, tree, ignore=shutil.ignore_patterns(".git", ".venv", ".*_cache", "__pycache__", "build"))
+            shutil.copytree(
+                ROOT,
+                tree,
+                ignore=shutil.ignore_patterns(".git", ".venv", ".*_cache", "__pycache__", "build"),
+            )
         for room in dict.fromkeys(mutant.room for mutant in chosen):
             if fails(room, trees[0], given.timeout):
                 print(f"tests of {room} fail without a mutant", file=sys.stderr)
@@ -180,7 +222,10 @@ def main() -> int:
             print(f"{'died' if dead else 'survived'}: {mutant}", flush=True)
     for room in tried:
         print(f"{room}: {died[room]} of {tried[room]} died")
-    print(f"{died.total()} of {tried.total()} died ({died.total() / tried.total():.0%}), seed {given.seed}")
+    print(
+        f"{died.total()} of {tried.total()} died ({died.total() / tried.total():.0%}), seed "
+        f"{given.seed}"
+    )
     return 0
 
 

@@ -1,7 +1,8 @@
 """Conditions of rules without one of their operands: each must make an example of its page fail.
 
-`python -m tests.operands [RULE...]` lists the operands of `&&` and `||` that no example holds, and exits with 1 if more than 3 % of all are
-so. An operand that no example holds is either not needed, or lacks a `good` example that looks bad (or a `bad` one that looks good).
+`python -m tests.operands [RULE...]` lists the operands of `&&` and `||` that no example holds, and
+exits with 1 if more than 3 % of all are so. An operand that no example holds is either not needed,
+or lacks a `good` example that looks bad (or a `bad` one that looks good).
 """
 
 from __future__ import annotations
@@ -37,11 +38,19 @@ def operands(condition: str) -> list[Operand]:
     found: list[Operand] = []
     for start, end in _groups(condition):
         disjuncts = [*_split(condition, start, end, "||")]
-        for parts in (disjuncts, *([*_split(condition, *disjunct, "&&")] for disjunct in disjuncts)):
+        for parts in (
+            disjuncts,
+            *([*_split(condition, *disjunct, "&&")] for disjunct in disjuncts),
+        ):
             for number, (first, last) in enumerate(parts if len(parts) > 1 else ()):
                 # With the operator before it; of the first, with the one after.
                 cut = (parts[number - 1][1], last) if number else (first, parts[1][0])
-                found.append(Operand(condition[first:last].strip(), f"{condition[: cut[0]]} {condition[cut[1] :]}"))
+                found.append(
+                    Operand(
+                        condition[first:last].strip(),
+                        f"{condition[: cut[0]]} {condition[cut[1] :]}",
+                    )
+                )
     return found
 
 
@@ -84,11 +93,17 @@ def lint(engine: Engine, example: Example) -> FileResult:
     name = str(RULES / f"example.{example.language}")
     options = LintOptions(lambda rule, suggested, vendor: suggested)
     data = example.text.encode()
-    return engine.lint(read_source_file(data, name, example.language) if example.language in PROGRAMS else data, name, options)
+    return engine.lint(
+        read_source_file(data, name, example.language) if example.language in PROGRAMS else data,
+        name,
+        options,
+    )
 
 
 def not_held(rule: Rule) -> tuple[int, list[Operand]]:
-    """How many operands a rule's condition has, and those that it can lose while every example of its page gives what it gave."""
+    """How many operands a rule's condition has, and those that it can lose while every example of
+    its page gives what it gave.
+    """
     every = operands(rule.when)
     variants = [
         rule._replace(code=f"{rule.code}-{n}", name=f"{rule.name}-{n}", when=text)
@@ -101,7 +116,11 @@ def not_held(rule: Rule) -> tuple[int, list[Operand]]:
         places: dict[str, list[object]] = {variant.name: [] for variant in variants}
         for finding in lint(engine, example).findings:
             places[finding.rule].append(finding.span)
-        remaining = {n: operand for n, operand in remaining.items() if places[variants[n].name] == places[variants[0].name]}
+        remaining = {
+            n: operand
+            for n, operand in remaining.items()
+            if places[variants[n].name] == places[variants[0].name]
+        }
     return len(every), list(remaining.values())
 
 

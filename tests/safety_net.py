@@ -1,10 +1,13 @@
-"""What the commands print for inputs that stay the same, stored, and compared with what another commit prints.
+"""What the commands print for inputs that stay the same, stored, and compared with what another
+commit prints.
 
-`python tests/safety_net.py store FOLDER` writes a file for each command and input: the output of check (in every format, for several
-devices, and what fixes change), cost, convert, facts, rule, and schema, for the examples, the examples of the rule pages, and tests/data.
+`python tests/safety_net.py store FOLDER` writes a file for each command and input: the output of
+check (in every format, for several devices, and what fixes change), cost, convert, facts, rule, and
+schema, for the examples, the examples of the rule pages, and tests/data.
 
-`python tests/safety_net.py against COMMIT` runs a commit and the working tree on the inputs of that commit, prints each difference as a
-diff, and exits with 1 if there is one. JSON is compared value by value, in the order of its keys.
+`python tests/safety_net.py against COMMIT` runs a commit and the working tree on the inputs of that
+commit, prints each difference as a diff, and exits with 1 if there is one. JSON is compared value
+by value, in the order of its keys.
 """
 
 from __future__ import annotations
@@ -25,7 +28,8 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 
 CHECK_FORMATS = (
-    "full", "concise", "json", "sarif", "github", "gitlab", "azure", "teamcity", "rdjson", "junit", "markdown", "html",
+    "full", "concise", "json", "sarif", "github", "gitlab", "azure", "teamcity", "rdjson", "junit",
+    "markdown", "html",
 )  # fmt: skip
 COST_FORMATS = ("full", "json", "markdown", "html")
 PROFILES = ("mali-g76", "adreno-650", "nvidia", "apple")
@@ -38,7 +42,9 @@ Commands = dict[str, list[str]]
 
 
 def write_inputs(tree: Path, folder: Path) -> None:
-    """Writes the inputs that a tree has: its examples, tests/data, and a file for each example of a rule page."""
+    """Writes the inputs that a tree has: its examples, tests/data, and a file for each example of a
+    rule page.
+    """
     shutil.copytree(tree / "examples", folder / "examples")
     shutil.copytree(tree / "tests" / "data", folder / "data")
     (folder / "rules").mkdir()
@@ -51,20 +57,33 @@ def write_inputs(tree: Path, folder: Path) -> None:
 
 def commands(tree: Path, inputs: Path) -> Commands:
     """The commands to run in the folder of inputs."""
-    found: Commands = {f"check/{format}": ["check", ".", "--output", format] for format in CHECK_FORMATS}
-    found |= {f"check/profile-{name}": ["check", ".", "--profile", name, "--output", "json"] for name in PROFILES}
+    found: Commands = {
+        f"check/{format}": ["check", ".", "--output", format] for format in CHECK_FORMATS
+    }
+    found |= {
+        f"check/profile-{name}": ["check", ".", "--profile", name, "--output", "json"]
+        for name in PROFILES
+    }
     found["check/statistics"] = ["check", ".", "--statistics"]
     found["check/explain-undecided"] = ["check", ".", "--explain-undecided"]
     found["check/fail-on-cost"] = ["check", ".", "--fail-on-cost", "50MB/s", "--output", "concise"]
     found["check/safe-fixes.diff"] = ["check", ".", "--diff"]
     found["check/unsafe-fixes.diff"] = ["check", ".", "--diff", "--unsafe-fixes"]
     found |= {f"cost/{format}": ["cost", ".", "--output", format] for format in COST_FORMATS}
-    found |= {f"cost/profile-{name}": ["cost", ".", "--profile", name, "--output", "json"] for name in PROFILES}
-    found |= {f"rule/{format}": ["rule", "--all", "--output", format] for format in ("text", "markdown", "json")}
+    found |= {
+        f"cost/profile-{name}": ["cost", ".", "--profile", name, "--output", "json"]
+        for name in PROFILES
+    }
+    found |= {
+        f"rule/{format}": ["rule", "--all", "--output", format]
+        for format in ("text", "markdown", "json")
+    }
     pages = sorted(page.stem for page in (tree / "rules").glob("*.md") if page.name != "README.md")
     found |= {f"rule/{name}.txt": ["rule", name] for name in pages}
     found |= {f"schema/{name}": ["schema", name] for name in SCHEMAS}
-    found |= {f"facts/{format}": ["facts", "--output", format] for format in ("text", "json", "markdown")}
+    found |= {
+        f"facts/{format}": ["facts", "--output", format] for format in ("text", "json", "markdown")
+    }
     for path in sorted(inputs.rglob("*")):
         name = path.relative_to(inputs).as_posix()
         if path.suffix in (".yaml", ".yml", ".json"):
@@ -75,7 +94,9 @@ def commands(tree: Path, inputs: Path) -> Commands:
 
 
 def run_all(tree: Path, inputs: Path, out: Path) -> subprocess.Popen[bytes]:
-    """Starts a process that runs the commands by the package of a tree and stores what they print."""
+    """Starts a process that runs the commands by the package of a tree and stores what they
+    print.
+    """
     environment = {
         **{name: os.environ[name] for name in ("PATH", "HOME") if name in os.environ},
         "PYTHONPATH": str(tree),
@@ -91,7 +112,9 @@ def run_all(tree: Path, inputs: Path, out: Path) -> subprocess.Popen[bytes]:
 
 
 def run(out: Path) -> None:
-    """Runs the commands that standard input names, in this process, and stores what each prints and its exit code."""
+    """Runs the commands that standard input names, in this process, and stores what each prints and
+    its exit code.
+    """
     from msaa_lint.__main__ import main
 
     for name, arguments in json.load(sys.stdin).items():
@@ -137,12 +160,24 @@ def store(tree: Path, inputs_of: Path, folder: Path) -> subprocess.Popen[bytes]:
 def differences(before: Path, after: Path) -> list[str]:
     """The lines of a diff between the outputs in two folders."""
     found: list[str] = []
-    names = sorted({path.relative_to(folder).as_posix() for folder in (before, after) for path in folder.rglob("*") if path.is_file()})
+    names = sorted(
+        {
+            path.relative_to(folder).as_posix()
+            for folder in (before, after)
+            for path in folder.rglob("*")
+            if path.is_file()
+        }
+    )
     for name in names:
-        texts = [(folder / name).read_text(encoding="utf-8") if (folder / name).exists() else "" for folder in (before, after)]
+        texts = [
+            (folder / name).read_text(encoding="utf-8") if (folder / name).exists() else ""
+            for folder in (before, after)
+        ]
         if texts[0] != texts[1]:
             first, second = (text.splitlines() for text in texts)
-            found += difflib.unified_diff(first, second, f"before/{name}", f"after/{name}", n=2, lineterm="")
+            found += difflib.unified_diff(
+                first, second, f"before/{name}", f"after/{name}", n=2, lineterm=""
+            )
     return found
 
 
@@ -151,9 +186,14 @@ def against(commit: str) -> int:
     with tempfile.TemporaryDirectory() as folder:
         base = Path(folder, "tree")
         base.mkdir()
-        archive = subprocess.run(["git", "archive", commit], cwd=ROOT, capture_output=True, check=True)
+        archive = subprocess.run(
+            ["git", "archive", commit], cwd=ROOT, capture_output=True, check=True
+        )
         subprocess.run(["tar", "-x", "-C", str(base)], input=archive.stdout, check=True)
-        sides = [store(tree, base, Path(folder, name)) for name, tree in (("before", base), ("after", ROOT))]
+        sides = [
+            store(tree, base, Path(folder, name))
+            for name, tree in (("before", base), ("after", ROOT))
+        ]
         codes = [side.wait() for side in sides]
         if any(codes):
             return 2
@@ -163,7 +203,9 @@ def against(commit: str) -> int:
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     actions = parser.add_subparsers(dest="action", required=True)
     actions.add_parser("store").add_argument("folder", type=Path)
     actions.add_parser("against").add_argument("commit")
@@ -172,7 +214,11 @@ def main() -> int:
     if given.action == "run":
         run(given.folder)
         return 0
-    return store(ROOT, ROOT, given.folder.resolve()).wait() if given.action == "store" else against(given.commit)
+    return (
+        store(ROOT, ROOT, given.folder.resolve()).wait()
+        if given.action == "store"
+        else against(given.commit)
+    )
 
 
 if __name__ == "__main__":

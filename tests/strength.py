@@ -12,7 +12,9 @@ settings.register_profile("thorough", deadline=None, max_examples=60)
 
 
 def load_profile() -> None:
-    """Selects `thorough` in CI and `quick` elsewhere; pytest's `--hypothesis-profile` overrides it."""
+    """Selects `thorough` in CI and `quick` elsewhere; pytest's `--hypothesis-profile` overrides
+    it.
+    """
     settings.load_profile("thorough" if os.environ.get("CI") else "quick")
 
 

@@ -1,4 +1,6 @@
-"""The documentation shows what the program does: generated pages are fresh (UPDATE=1 regenerates them), and links work."""
+"""The documentation shows what the program does: generated pages are fresh (UPDATE=1 regenerates
+them), and links work.
+"""
 
 from __future__ import annotations
 
@@ -30,7 +32,9 @@ for a new rule page, also run `PYTHONPATH=. python docs/agreement.py`"""
 
 @pytest.mark.parametrize("page", GENERATED)
 def test_generated_pages_are_fresh(page: str) -> None:
-    done = subprocess.run([sys.executable, *GENERATED[page]], cwd=ROOT, capture_output=True, text=True, check=True)
+    done = subprocess.run(
+        [sys.executable, *GENERATED[page]], cwd=ROOT, capture_output=True, text=True, check=True
+    )
     if os.environ.get("UPDATE"):
         (ROOT / page).write_text(done.stdout, encoding="utf-8")
     assert (ROOT / page).read_text(encoding="utf-8") == done.stdout, STALE
@@ -58,7 +62,12 @@ def test_every_setting_is_documented_with_its_default() -> None:
 
 def test_the_picture_of_a_finding_is_fresh() -> None:
     check = [] if os.environ.get("UPDATE") else ["--check"]
-    assert subprocess.run([sys.executable, "docs/finding.py", *check], cwd=ROOT, check=False).returncode == 0
+    assert (
+        subprocess.run(
+            [sys.executable, "docs/finding.py", *check], cwd=ROOT, check=False
+        ).returncode
+        == 0
+    )
 
 
 PAGES = [
@@ -78,7 +87,9 @@ def anchors(path: Path) -> set[str]:
 @pytest.mark.parametrize("page", PAGES)
 def test_links_lead_somewhere(page: str) -> None:
     path = ROOT / page
-    for target, anchor in re.findall(r"\]\(([^)#:]*)(?:#([^)]*))?\)", path.read_text(encoding="utf-8")):
+    for target, anchor in re.findall(
+        r"\]\(([^)#:]*)(?:#([^)]*))?\)", path.read_text(encoding="utf-8")
+    ):
         linked = path.parent / target if target else path
         assert linked.exists(), f"{page} links to {target}"
         assert not anchor or anchor in anchors(linked), f"{page} links to {target}#{anchor}"

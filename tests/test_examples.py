@@ -21,7 +21,10 @@ EXPECTED: dict[str, list[tuple[int, str]]] = {
         (14, "multisampled-depth-stored"),
     ],
     "khronos-msaa/color-separate.msaa.yaml": [(30, "resolve-outside-pass")],
-    "khronos-msaa/depth-unresolved.msaa.yaml": [(16, "depth-read-without-resolve"), (29, "resolve-outside-pass")],
+    "khronos-msaa/depth-unresolved.msaa.yaml": [
+        (16, "depth-read-without-resolve"),
+        (29, "resolve-outside-pass"),
+    ],
     "phone/frame.msaa.yaml": [
         (8, "multisampled-image-not-transient"),
         (18, "multisampled-depth-stored"),

@@ -1,7 +1,8 @@
 """What a run of `check` loads, and who knows whom.
 
-Python starts in 15 ms and pydantic alone takes 70: what a start costs is what it imports. The clock says little on a shared machine, so
-this looks at the imports themselves; tests/benchmarks has the clock.
+Python starts in 15 ms and pydantic alone takes 70: what a start costs is what it imports. The clock
+says little on a shared machine, so this looks at the imports themselves; tests/benchmarks has the
+clock.
 """
 
 from __future__ import annotations
@@ -23,18 +24,26 @@ from tests.paths import ROOT
 PACKAGE = ROOT / "msaa_lint"
 
 HEAVY = frozenset({
-    "annotated_types", "asyncio", "click", "concurrent", "dataclasses", "duckdb", "email", "hashlib", "html", "http", "importlib.metadata",
-    "importlib.resources", "inspect", "jsonschema", "logging", "multiprocessing", "numpy", "pathlib", "pathspec", "pyarrow", "pydantic",
-    "pydantic_core", "rich", "shellingham", "socket", "sqlite3", "ssl", "subprocess", "tempfile", "tomllib", "tree_sitter",
-    "tree_sitter_c", "tree_sitter_cpp", "tree_sitter_glsl", "tree_sitter_swift", "typer", "unicodedata", "urllib", "vulkan", "xml",
-    "msaa_lint.cli.app", "msaa_lint.frame.description.pydantic_models", "msaa_lint.frame.description.reference",
+    "annotated_types", "asyncio", "click", "concurrent", "dataclasses", "duckdb", "email",
+    "hashlib", "html", "http", "importlib.metadata",
+    "importlib.resources", "inspect", "jsonschema", "logging", "multiprocessing", "numpy",
+    "pathlib", "pathspec", "pyarrow", "pydantic",
+    "pydantic_core", "rich", "shellingham", "socket", "sqlite3", "ssl", "subprocess", "tempfile",
+    "tomllib", "tree_sitter",
+    "tree_sitter_c", "tree_sitter_cpp", "tree_sitter_glsl", "tree_sitter_swift", "typer",
+    "unicodedata", "urllib", "vulkan", "xml",
+    "msaa_lint.cli.app", "msaa_lint.frame.description.pydantic_models",
+    "msaa_lint.frame.description.reference",
     "msaa_lint.frame.facts.metal", "msaa_lint.frame.metal", "msaa_lint.frame.spirv",
     "msaa_lint.input.code", "msaa_lint.input.compression", "msaa_lint.input.converters",
     "msaa_lint.input.impeller", "msaa_lint.input.readers.metal",
-    "msaa_lint.input.shader_modules", "msaa_lint.input.source_file", "msaa_lint.linter.settings.config_keys",
+    "msaa_lint.input.shader_modules", "msaa_lint.input.source_file",
+    "msaa_lint.linter.settings.config_keys",
     "msaa_lint.linter.settings.toml_text", "msaa_lint.linter.suppress.baseline",
 })  # fmt: skip
-"""Nothing of this, nor anything below it, on the way of a run without a configuration file, whatever it finds."""
+"""Nothing of this, nor anything below it, on the way of a run without a configuration file,
+whatever it finds.
+"""
 
 NEAREST = frozenset({"difflib"})
 """Only to say what was meant by a misspelt word."""
@@ -45,13 +54,30 @@ WRITING = frozenset({"json"})
 MISSPELT = CLEAN.replace("storeOp: DONT_CARE", "storeOp: DONT_CAER")
 
 
-def imported(folder: Path, text: str, *arguments: str) -> tuple[subprocess.CompletedProcess[str], frozenset[str]]:
+def imported(
+    folder: Path, text: str, *arguments: str
+) -> tuple[subprocess.CompletedProcess[str], frozenset[str]]:
     """A run of `check` on a description, and every module that it imported."""
     (folder / "one.msaa.yaml").write_text(text)
-    environment = {name: value for name, value in os.environ.items() if not name.startswith(("MSAA_LINT_", "COVERAGE", "COV_CORE"))}
+    environment = {
+        name: value
+        for name, value in os.environ.items()
+        if not name.startswith(("MSAA_LINT_", "COVERAGE", "COV_CORE"))
+    }
     environment["PYTHONPATH"] = str(ROOT)
-    command = [sys.executable, "-X", "importtime", "-m", "msaa_lint", "check", *arguments, "one.msaa.yaml"]
-    done = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, check=False)
+    command = [
+        sys.executable,
+        "-X",
+        "importtime",
+        "-m",
+        "msaa_lint",
+        "check",
+        *arguments,
+        "one.msaa.yaml",
+    ]
+    done = subprocess.run(
+        command, cwd=folder, env=environment, capture_output=True, text=True, check=False
+    )
     found = frozenset(re.findall(r"^import time:.*\|\s*([\w.]+)\s*$", done.stderr, re.MULTILINE))
     assert {"msaa_lint.linter.run", "msaa_lint.core.text.tree", "yaml"} <= found, done.stderr
     return done, found
@@ -59,7 +85,11 @@ def imported(folder: Path, text: str, *arguments: str) -> tuple[subprocess.Compl
 
 def below(found: frozenset[str], names: frozenset[str]) -> list[str]:
     """Those of the modules that are one of the names, or within one."""
-    return sorted(module for module in found if any(module == name or module.startswith(f"{name}.") for name in names))
+    return sorted(
+        module
+        for module in found
+        if any(module == name or module.startswith(f"{name}.") for name in names)
+    )
 
 
 @pytest.mark.parametrize("output", ["concise", "full"])
@@ -99,7 +129,10 @@ def test_source_code_that_is_passed_over_loads_no_grammar(tmp_path: Path) -> Non
     done, found = imported(tmp_path, CLEAN, ".")
     assert done.returncode == 0, done.stdout
     assert "msaa_lint.input.code.mentions" in found
-    light = {f"msaa_lint.input.code{module}" for module in ("", ".languages", ".mentions", ".project", ".project.index")}
+    light = {
+        f"msaa_lint.input.code{module}"
+        for module in ("", ".languages", ".mentions", ".project", ".project.index")
+    }
     assert below(found - light, HEAVY | NEAREST | WRITING) == []
 
 
@@ -119,7 +152,10 @@ MAX_ENTRIES = 8
 
 MAX_LEVELS = 9
 
-MODULES = {".".join(path.relative_to(PACKAGE).with_suffix("").parts): path for path in sorted(PACKAGE.rglob("*.py"))}
+MODULES = {
+    ".".join(path.relative_to(PACKAGE).with_suffix("").parts): path
+    for path in sorted(PACKAGE.rglob("*.py"))
+}
 """By name below the package, `report.full` or `report.__init__`."""
 
 ONLY_IN = {
@@ -127,7 +163,11 @@ ONLY_IN = {
     "typer": {"cli.app"},
     "yaml": {"core.text"},
     "cel_expr_python": {"linter.rules.condition"},
-    "orjson": {"input.captures.json_stream", "input.code.project", "input.readers.fossilize_objects"},
+    "orjson": {
+        "input.captures.json_stream",
+        "input.code.project",
+        "input.readers.fossilize_objects",
+    },
     "vulkan": {"experiments.confirm.binding"},
     "tree_sitter": {"input.code"},
     "backports": {"core.zstd"},
@@ -148,7 +188,9 @@ def module_of(name: str) -> str | None:
 
 @cache
 def imports(module: str) -> frozenset[str]:
-    """What a module imports, anywhere in it: modules of ours with a dot in front, packages of others by their first name."""
+    """What a module imports, anywhere in it: modules of ours with a dot in front, packages of
+    others by their first name.
+    """
     return frozenset(_imports(module))
 
 
@@ -158,7 +200,11 @@ def _imports(module: str) -> Iterator[str]:
         if isinstance(node, ast.Import):
             for alias in node.names:
                 own = alias.name.startswith("msaa_lint")
-                yield f".{module_of(alias.name.partition('.')[2])}" if own else alias.name.split(".")[0]
+                yield (
+                    f".{module_of(alias.name.partition('.')[2])}"
+                    if own
+                    else alias.name.split(".")[0]
+                )
         elif isinstance(node, ast.ImportFrom):
             if not node.level and not (node.module or "").startswith("msaa_lint"):
                 yield (node.module or "").split(".")[0]
@@ -178,7 +224,12 @@ def _imports(module: str) -> Iterator[str]:
 @cache
 def arrows() -> frozenset[tuple[str, str]]:
     """Which module imports which."""
-    return frozenset((module, name[1:]) for module in MODULES for name in imports(module) if name.startswith(".") and name[1:] != module)
+    return frozenset(
+        (module, name[1:])
+        for module in MODULES
+        for name in imports(module)
+        if name.startswith(".") and name[1:] != module
+    )
 
 
 def circles(targets_of: Mapping[str, set[str]]) -> set[str]:
@@ -193,7 +244,9 @@ def circles(targets_of: Mapping[str, set[str]]) -> set[str]:
 
 
 def within(folder: str) -> dict[str, set[str]]:
-    """The arrows between the entries of a folder, a subfolder being one entry; `` is the package itself."""
+    """The arrows between the entries of a folder, a subfolder being one entry; `` is the package
+    itself.
+    """
     depth = len(folder.split(".")) if folder else 0
     found: dict[str, set[str]] = {}
     for source, target in arrows():
@@ -219,7 +272,11 @@ def test_the_top_is_easy_to_take_in() -> None:
 @pytest.mark.parametrize("room", ROOMS)
 def test_a_room_imports_only_rooms_below_it(room: str) -> None:
     below = {*ROOMS[: ROOMS.index(room) + 1]}
-    assert {arrow for arrow in arrows() if arrow[0].split(".")[0] == room and arrow[1].split(".")[0] not in below} == set()
+    assert {
+        arrow
+        for arrow in arrows()
+        if arrow[0].split(".")[0] == room and arrow[1].split(".")[0] not in below
+    } == set()
 
 
 def test_no_module_is_in_a_circle() -> None:
@@ -249,5 +306,9 @@ def test_rooms_are_few_levels_deep() -> None:
 @pytest.mark.parametrize("package", ONLY_IN)
 def test_a_package_is_known_in_one_place(package: str) -> None:
     knowing = {module for module in MODULES if package in imports(module)}
-    assert {module for module in knowing if not any(f"{module}.".startswith(f"{place}.") for place in ONLY_IN[package])} == set()
+    assert {
+        module
+        for module in knowing
+        if not any(f"{module}.".startswith(f"{place}.") for place in ONLY_IN[package])
+    } == set()
     assert knowing

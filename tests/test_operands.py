@@ -12,7 +12,10 @@ from tests import operands
     [
         ("a && b", {"a", "b"}),
         ("a || b && !c", {"a", "b && !c", "a || b", "a || !c"}),
-        ("(a || b) && x in ['&&']", {"(a || b)", "x in ['&&']", "(a ) && x in ['&&']", "( b) && x in ['&&']"}),
+        (
+            "(a || b) && x in ['&&']",
+            {"(a || b)", "x in ['&&']", "(a ) && x in ['&&']", "( b) && x in ['&&']"},
+        ),
         ("a ? b && c : d", {"a ? c : d", "a ? b : d"}),
         ("size(x) > 0", set()),
     ],
@@ -27,7 +30,9 @@ def test_examples_hold_the_operands(capsys: pytest.CaptureFixture[str]) -> None:
 
 
 def test_an_operand_that_nothing_needs_is_found() -> None:
-    rule = next(rule for rule in operands.built_in().rules if rule.name == "multisampled-attachment-stored")
+    rule = next(
+        rule for rule in operands.built_in().rules if rule.name == "multisampled-attachment-stored"
+    )
     count, loose = operands.not_held(rule._replace(when=f"(1 == 1) && ({rule.when})"))
     assert count > 2
     assert "(1 == 1)" in [operand.text for operand in loose]

@@ -26,14 +26,22 @@ EXAMPLES = all_examples((*DESCRIPTIONS, *PROGRAMS))
 
 
 def as_written(rule: Rule, suggested: str, vendor: str | None) -> str:
-    """Severities without configuration: a vendor's rule is a note unless the device is that vendor's."""
+    """Severities without configuration: a vendor's rule is a note unless the device is that
+    vendor's.
+    """
     return "note" if rule.vendors and vendor not in rule.vendors else suggested
 
 
-def lint(text: str, severity: Callable[[Rule, str, str | None], str | None] = as_written, language: str = "yaml") -> FileResult:
+def lint(
+    text: str,
+    severity: Callable[[Rule, str, str | None], str | None] = as_written,
+    language: str = "yaml",
+) -> FileResult:
     name = str(RULES / f"example.{language}")
     if language in PROGRAMS:
-        return ENGINE.lint(read_source_file(text.encode(), name, language), name, LintOptions(severity))
+        return ENGINE.lint(
+            read_source_file(text.encode(), name, language), name, LintOptions(severity)
+        )
     return ENGINE.lint(text.encode(), name, LintOptions(severity))
 
 
@@ -42,7 +50,10 @@ def places(linted: FileResult, rule: str) -> list[tuple[int, int, int]]:
     for finding in linted.findings:
         if finding.rule == rule:
             assert linted.source is not None and finding.span is not None
-            start, end = linted.source.position(finding.span.start), linted.source.position(finding.span.end)
+            start, end = (
+                linted.source.position(finding.span.start),
+                linted.source.position(finding.span.end),
+            )
             assert start.line == end.line, f"{rule} points at several lines"
             found.append((start.line, start.column, end.column))
     return sorted(found)
@@ -50,7 +61,9 @@ def places(linted: FileResult, rule: str) -> list[tuple[int, int, int]]:
 
 def test_every_page_loads() -> None:
     assert not CATALOGUE.problems
-    assert len(CATALOGUE.rules) == len([page for page in RULES.glob("*.md") if page.name != "README.md"])
+    assert len(CATALOGUE.rules) == len(
+        [page for page in RULES.glob("*.md") if page.name != "README.md"]
+    )
 
 
 @pytest.mark.parametrize("rule", CATALOGUE.rules, ids=lambda rule: rule.name)
@@ -72,7 +85,9 @@ def test_page(rule: Rule) -> None:
 
 @pytest.mark.parametrize("rule", CATALOGUE.rules, ids=lambda rule: rule.name)
 def test_page_has_examples(rule: Rule) -> None:
-    kinds = [example.kind for example in examples(RULES / f"{rule.name}.md", (*DESCRIPTIONS, *PROGRAMS))]
+    kinds = [
+        example.kind for example in examples(RULES / f"{rule.name}.md", (*DESCRIPTIONS, *PROGRAMS))
+    ]
     assert "bad" in kinds
     assert "good" in kinds
     assert ("fixed" in kinds) == any(spec.do not in PRICE_ONLY for spec in rule.fix_specs)
@@ -83,12 +98,16 @@ def test_bad_example_fires_at_its_marks(example: Example) -> None:
     linted = lint(example.text, language=example.language)
     assert not [finding for finding in linted.findings if finding.fatal]
     assert example.marks, "a bad example marks where"
-    assert places(linted, example.rule) == sorted((mark.line, mark.column, mark.end_column) for mark in example.marks)
+    assert places(linted, example.rule) == sorted(
+        (mark.line, mark.column, mark.end_column) for mark in example.marks
+    )
     for mark in example.marks:
         at = [
             f
             for f in linted.findings
-            if f.rule == example.rule and linted.source and linted.source.position(f.span.start)[:2] == (mark.line, mark.column)
+            if f.rule == example.rule
+            and linted.source
+            and linted.source.position(f.span.start)[:2] == (mark.line, mark.column)
         ]
         if mark.severity is not None:
             assert at[0].severity == mark.severity
@@ -124,17 +143,22 @@ NAMED = {
     r"devices in reports|devices that report": r"gpuinfo",
     r"(?:issues?|pull request) \d": r"(?:issues?|pull request) \d",
 }
-"""What the text of a page may name, and what a reference for that names. Statistics of devices and measurements name any vendor."""
+"""What the text of a page may name, and what a reference for that names. Statistics of devices and
+measurements name any vendor.
+"""
 
 
 @pytest.mark.parametrize("rule", CATALOGUE.rules, ids=lambda rule: rule.name)
 def test_what_a_page_names_has_a_reference(rule: Rule) -> None:
-    """A vendor, a measurement, and a report of somebody else's are quoted from somewhere, which the page names."""
+    """A vendor, a measurement, and a report of somebody else's are quoted from somewhere, which the
+    page names.
+    """
     text = re.sub(r"^```.*?^```$", "", markdown(rule), flags=re.MULTILINE | re.DOTALL)
     text = text.partition("## References")[0]
     missing = [
         named
         for named, source in NAMED.items()
-        if re.search(rf"\b(?:{named})", text) and not any(re.search(rf"{source}|gpuinfo|Measured", each) for each in rule.references)
+        if re.search(rf"\b(?:{named})", text)
+        and not any(re.search(rf"{source}|gpuinfo|Measured", each) for each in rule.references)
     ]
     assert not missing, f"{rule.name}: {rule.references}"

@@ -1,4 +1,6 @@
-"""Rules that ask a shader's module: what is found, where, at which price; and modules that cannot be used."""
+"""Rules that ask a shader's module: what is found, where, at which price; and modules that cannot
+be used.
+"""
 
 from __future__ import annotations
 
@@ -26,7 +28,9 @@ def linted(folder: Path, text: str, *modules: str) -> Result:
     """What is found in a description beside which some modules lie, in `shaders/`."""
     (folder / "shaders").mkdir(exist_ok=True)
     for name in modules:
-        source = next(path for path in (OWN / f"{name}.spv", RULES / f"{name}.spv") if path.exists())
+        source = next(
+            path for path in (OWN / f"{name}.spv", RULES / f"{name}.spv") if path.exists()
+        )
         shutil.copy(source, folder / "shaders" / f"{name}.spv")
     (folder / "frame.msaa.yaml").write_text(text, encoding="utf-8")
     return lint(str(folder / "frame.msaa.yaml"), isolated=True)
@@ -65,30 +69,66 @@ pipelines:
     ("module", "state", "expected"),
     [
         ("glints.frag", "rasterizationSamples: 4", ["sample-shading-implied high"]),
-        ("glints.frag", "rasterizationSamples: 4, sampleShadingEnable: false", ["sample-shading-implied high"]),
-        ("glints.frag", "rasterizationSamples: 4, sampleShadingEnable: true, minSampleShading: 0.25", ["sample-shading-implied high"]),
-        ("glints.frag", "rasterizationSamples: 4, sampleShadingEnable: true, minSampleShading: 0.5", ["sample-shading-everywhere high"]),
-        ("glints.frag", "rasterizationSamples: 4, sampleShadingEnable: true, minSampleShading: 1.0", ["sample-shading-everywhere high"]),
+        (
+            "glints.frag",
+            "rasterizationSamples: 4, sampleShadingEnable: false",
+            ["sample-shading-implied high"],
+        ),
+        (
+            "glints.frag",
+            "rasterizationSamples: 4, sampleShadingEnable: true, minSampleShading: 0.25",
+            ["sample-shading-implied high"],
+        ),
+        (
+            "glints.frag",
+            "rasterizationSamples: 4, sampleShadingEnable: true, minSampleShading: 0.5",
+            ["sample-shading-everywhere high"],
+        ),
+        (
+            "glints.frag",
+            "rasterizationSamples: 4, sampleShadingEnable: true, minSampleShading: 1.0",
+            ["sample-shading-everywhere high"],
+        ),
         ("glints.frag", "rasterizationSamples: 4, sampleShadingEnable: true", []),
-        ("glints.frag", "rasterizationSamples: 1, sampleShadingEnable: true, minSampleShading: 1.0", ["sample-shading-ineffective high"]),
+        (
+            "glints.frag",
+            "rasterizationSamples: 1, sampleShadingEnable: true, minSampleShading: 1.0",
+            ["sample-shading-ineffective high"],
+        ),
         ("glints.frag", "sampleShadingEnable: false", []),
         ("fur.frag", "rasterizationSamples: 4", ["sample-shading-implied medium"]),
-        ("fur.frag", "rasterizationSamples: 4, sampleShadingEnable: true, minSampleShading: 0.2", ["sample-shading-implied medium"]),
+        (
+            "fur.frag",
+            "rasterizationSamples: 4, sampleShadingEnable: true, minSampleShading: 0.2",
+            ["sample-shading-implied medium"],
+        ),
         ("per_sample.frag", "rasterizationSamples: 8", ["sample-shading-implied high"]),
-        ("plain.frag", "rasterizationSamples: 4, sampleShadingEnable: true, minSampleShading: 0.25", ["sample-shading-ineffective high"]),
-        ("plain.frag", "rasterizationSamples: 4, sampleShadingEnable: true, minSampleShading: 1.0", ["sample-shading-everywhere high"]),
+        (
+            "plain.frag",
+            "rasterizationSamples: 4, sampleShadingEnable: true, minSampleShading: 0.25",
+            ["sample-shading-ineffective high"],
+        ),
+        (
+            "plain.frag",
+            "rasterizationSamples: 4, sampleShadingEnable: true, minSampleShading: 1.0",
+            ["sample-shading-everywhere high"],
+        ),
         ("sample_mask.frag", "rasterizationSamples: 4", []),
         ("block_member.frag", "rasterizationSamples: 4", []),
         ("unreached.frag", "rasterizationSamples: 4", []),
     ],
 )
-def test_one_cause_of_sample_shading_is_one_finding(tmp_path: Path, module: str, state: str, expected: list[str]) -> None:
+def test_one_cause_of_sample_shading_is_one_finding(
+    tmp_path: Path, module: str, state: str, expected: list[str]
+) -> None:
     found = of(linted(tmp_path, pipeline(module, state), module), *SHADING)
     assert [f"{each.rule} {each.confidence}" for each in found] == expected
 
 
 def test_what_is_read_is_said(tmp_path: Path) -> None:
-    result = linted(tmp_path, pipeline("sample_inputs.frag", "rasterizationSamples: 4"), "sample_inputs.frag")
+    result = linted(
+        tmp_path, pipeline("sample_inputs.frag", "rasterizationSamples: 4"), "sample_inputs.frag"
+    )
     (found,) = of(result, *SHADING)
     assert found.message == (
         "`own` may run its fragment shader for each of 4 samples "
@@ -104,32 +144,69 @@ def test_shading_by_state_and_shader_is_not_mended_by_the_state_alone(tmp_path: 
     assert found.message.endswith("its state requests it, and the shader reads SamplePosition")
 
 
-COVERAGE = ("alpha-to-coverage-without-alpha", "alpha-to-coverage-blended", "alpha-to-coverage-single-sample")
+COVERAGE = (
+    "alpha-to-coverage-without-alpha",
+    "alpha-to-coverage-blended",
+    "alpha-to-coverage-single-sample",
+)
 
 
 @pytest.mark.parametrize(
     ("module", "state", "expected"),
     [
-        ("opaque.frag", "rasterizationSamples: 4, alphaToCoverageEnable: true", ["alpha-to-coverage-without-alpha error"]),
-        ("no_alpha.frag", "rasterizationSamples: 1, alphaToCoverageEnable: true", ["alpha-to-coverage-without-alpha error"]),
-        ("alpha_elsewhere.frag", "rasterizationSamples: 4, alphaToCoverageEnable: true", ["alpha-to-coverage-without-alpha error"]),
-        ("depth_only.frag", "rasterizationSamples: 4, alphaToCoverageEnable: true", ["alpha-to-coverage-without-alpha error"]),
-        ("alpha_missing.frag", "alphaToCoverageEnable: true", ["alpha-to-coverage-without-alpha error"]),
-        ("alpha_one.frag", "rasterizationSamples: 4, alphaToCoverageEnable: true", ["alpha-to-coverage-without-alpha note"]),
-        ("alpha_one.frag", "rasterizationSamples: 1, alphaToCoverageEnable: true", ["alpha-to-coverage-single-sample warning"]),
+        (
+            "opaque.frag",
+            "rasterizationSamples: 4, alphaToCoverageEnable: true",
+            ["alpha-to-coverage-without-alpha error"],
+        ),
+        (
+            "no_alpha.frag",
+            "rasterizationSamples: 1, alphaToCoverageEnable: true",
+            ["alpha-to-coverage-without-alpha error"],
+        ),
+        (
+            "alpha_elsewhere.frag",
+            "rasterizationSamples: 4, alphaToCoverageEnable: true",
+            ["alpha-to-coverage-without-alpha error"],
+        ),
+        (
+            "depth_only.frag",
+            "rasterizationSamples: 4, alphaToCoverageEnable: true",
+            ["alpha-to-coverage-without-alpha error"],
+        ),
+        (
+            "alpha_missing.frag",
+            "alphaToCoverageEnable: true",
+            ["alpha-to-coverage-without-alpha error"],
+        ),
+        (
+            "alpha_one.frag",
+            "rasterizationSamples: 4, alphaToCoverageEnable: true",
+            ["alpha-to-coverage-without-alpha note"],
+        ),
+        (
+            "alpha_one.frag",
+            "rasterizationSamples: 1, alphaToCoverageEnable: true",
+            ["alpha-to-coverage-single-sample warning"],
+        ),
         ("alpha_stored.frag", "rasterizationSamples: 4, alphaToCoverageEnable: true", []),
         ("alpha_component.frag", "rasterizationSamples: 4, alphaToCoverageEnable: true", []),
         ("alpha_array.frag", "rasterizationSamples: 4, alphaToCoverageEnable: true", []),
         ("opaque.frag", "rasterizationSamples: 4, alphaToCoverageEnable: false", []),
     ],
 )
-def test_alpha_that_makes_coverage(tmp_path: Path, module: str, state: str, expected: list[str]) -> None:
+def test_alpha_that_makes_coverage(
+    tmp_path: Path, module: str, state: str, expected: list[str]
+) -> None:
     found = of(linted(tmp_path, pipeline(module, state), module), *COVERAGE)
     assert [f"{each.rule} {each.severity}" for each in found] == expected
 
 
 def test_without_alpha_the_blending_is_not_reported_as_well(tmp_path: Path) -> None:
-    blending = "    colorBlendState: {attachments: [{blendEnable: true, srcColorBlendFactor: SRC_ALPHA}]}\n"
+    blending = (
+        "    colorBlendState: {attachments: [{blendEnable: true, srcColorBlendFactor: "
+        "SRC_ALPHA}]}\n"
+    )
     text = pipeline("opaque.frag", "rasterizationSamples: 4, alphaToCoverageEnable: true", blending)
     (found,) = of(linted(tmp_path, text, "opaque.frag"), *COVERAGE)
     assert found.rule == "alpha-to-coverage-without-alpha"
@@ -137,7 +214,10 @@ def test_without_alpha_the_blending_is_not_reported_as_well(tmp_path: Path) -> N
 
 
 def test_without_a_module_a_rule_stays_undecided(tmp_path: Path) -> None:
-    text = "pipelines: {own: {multisampleState: {rasterizationSamples: 4, alphaToCoverageEnable: true}}}"
+    text = (
+        "pipelines: {own: {multisampleState: {rasterizationSamples: 4, alphaToCoverageEnable: "
+        "true}}}"
+    )
     result = linted(tmp_path, text)
     assert of(result, *COVERAGE) == []
     assert "alpha-to-coverage-without-alpha" in undecided(result)
@@ -175,7 +255,13 @@ READ = "  - readImage: {image: scene_ms, stage: FRAGMENT, access: SHADER_READ}"
 RESOLVES = ("shader-resolve-off-tile", "shader-resolve-sample-count")
 
 
-def frame(module: str = "average.frag", count: int = 4, samples: int = 4, reads: str = READ, draws: str = "") -> str:
+def frame(
+    module: str = "average.frag",
+    count: int = 4,
+    samples: int = 4,
+    reads: str = READ,
+    draws: str = "",
+) -> str:
     return FRAME.format(module=module, count=count, samples=samples, reads=reads, draws=draws)
 
 
@@ -213,22 +299,33 @@ def frame(module: str = "average.frag", count: int = 4, samples: int = 4, reads:
         ("alpha_stored.frag", 4, 4, []),
     ],
 )
-def test_a_resolve_in_a_shader(tmp_path: Path, module: str, count: int, samples: int, expected: list[str]) -> None:
+def test_a_resolve_in_a_shader(
+    tmp_path: Path, module: str, count: int, samples: int, expected: list[str]
+) -> None:
     found = of(linted(tmp_path, frame(module, count, samples), module), *RESOLVES)
     assert [f"{each.rule} {each.severity} {each.confidence}" for each in found] == expected
 
 
 def test_its_price_is_the_way_of_the_samples_through_memory(tmp_path: Path) -> None:
-    """Three of four samples are neither stored nor read any more; the fix is shown and never made."""
+    """Three of four samples are neither stored nor read any more; the fix is shown and never
+    made.
+    """
     (found,) = of(linted(tmp_path, frame(), "average.frag"), "shader-resolve-off-tile")
     one = 2168 * 1080 * 8 * 60 / 1e6
     assert found.fix is not None and found.fix.shown and found.fix.edits == ()
     engine = Engine(load())
     text = (tmp_path / "frame.msaa.yaml").read_bytes()
-    priced = engine.lint(text, str(tmp_path / "frame.msaa.yaml"), LintOptions(lambda rule, suggested, vendor: suggested, prices=True))
+    priced = engine.lint(
+        text,
+        str(tmp_path / "frame.msaa.yaml"),
+        LintOptions(lambda rule, suggested, vendor: suggested, prices=True),
+    )
     price = next(each.price for each in priced.findings if each.rule == "shader-resolve-off-tile")
     assert price is not None
-    assert (price.read_mb_per_s, price.write_mb_per_s) == (pytest.approx(3 * one), pytest.approx(3 * one))
+    assert (price.read_mb_per_s, price.write_mb_per_s) == (
+        pytest.approx(3 * one),
+        pytest.approx(3 * one),
+    )
 
 
 def test_where_the_count_is_and_whose(tmp_path: Path) -> None:
@@ -236,10 +333,13 @@ def test_where_the_count_is_and_whose(tmp_path: Path) -> None:
     (found,) = of(result, "shader-resolve-sample-count")
     assert (
         found.message
-        == "the shader of `resolve` fetches sample 7 of `scene_ms`, which has only 4, numbered from 0; use the image's sample count"
+        == "the shader of `resolve` fetches sample 7 of `scene_ms`, which has only 4, numbered "
+        "from 0; use the image's sample count"
     )
     assert pointed(result, found) == "specialization"
-    assert [result.sources[found.file].text[label.span.start : label.span.end] for label in found.labels] == ["4"]
+    assert [
+        result.sources[found.file].text[label.span.start : label.span.end] for label in found.labels
+    ] == ["4"]
 
 
 @pytest.mark.parametrize(
@@ -254,11 +354,19 @@ def test_where_the_count_is_and_whose(tmp_path: Path) -> None:
             "  - draw: {pipeline: text, vertexCount: 3}",
             ["shader-resolve-off-tile"],
         ),
-        ("  - readImage: {image: scene_ms, stage: FRAGMENT, samples: ALL, resolves: OTHER}", "", []),
+        (
+            "  - readImage: {image: scene_ms, stage: FRAGMENT, samples: ALL, resolves: OTHER}",
+            "",
+            [],
+        ),
         # Which of two images the shader reads is not known.
         (f"{READ}\n  - readImage: {{image: other_ms, stage: FRAGMENT}}", "", []),
         # A compute shader reads the one, the fragment shader the other.
-        (f"{READ}\n  - readImage: {{image: other_ms, stage: COMPUTE}}", "", ["shader-resolve-off-tile"]),
+        (
+            f"{READ}\n  - readImage: {{image: other_ms, stage: COMPUTE}}",
+            "",
+            ["shader-resolve-off-tile"],
+        ),
         ("  - readImage: {image: scene_ms, stage: VERTEX}", "", []),
         ("  - readImage: {image: picture, stage: FRAGMENT}", "", []),
     ],
@@ -270,10 +378,15 @@ def test_who_reads_what(tmp_path: Path, reads: str, draws: str, expected: list[s
 
 def test_two_images_read_alike_are_both_told(tmp_path: Path) -> None:
     both = f"{READ}\n  - readImage: {{image: other_ms, stage: FRAGMENT}}"
-    found = of(linted(tmp_path, frame("average_two.frag", reads=both), "average_two.frag"), *RESOLVES)
+    found = of(
+        linted(tmp_path, frame("average_two.frag", reads=both), "average_two.frag"), *RESOLVES
+    )
     assert [each.rule for each in found] == ["shader-resolve-off-tile", "shader-resolve-off-tile"]
     found = of(linted(tmp_path, frame("average_two.frag", samples=8, reads=both)), *RESOLVES)
-    assert [each.message.partition("`, which")[0].rpartition("`")[2] for each in found] == ["other_ms", "scene_ms"]
+    assert [each.message.partition("`, which")[0].rpartition("`")[2] for each in found] == [
+        "other_ms",
+        "scene_ms",
+    ]
 
 
 def test_an_overflowing_sum_is_told_from_the_shader(tmp_path: Path) -> None:
@@ -281,7 +394,12 @@ def test_an_overflowing_sum_is_told_from_the_shader(tmp_path: Path) -> None:
     (found,) = of(result, "half-float-resolve-overflow")
     assert pointed(result, found) == "shaders/average.frag.spv"
     assert (
-        of(linted(tmp_path, "scene: {peak: 20000.0}\n" + frame("tone_mapped.frag"), "tone_mapped.frag"), "half-float-resolve-overflow")
+        of(
+            linted(
+                tmp_path, "scene: {peak: 20000.0}\n" + frame("tone_mapped.frag"), "tone_mapped.frag"
+            ),
+            "half-float-resolve-overflow",
+        )
         == []
     )
 
@@ -313,21 +431,36 @@ pipelines:
     ("samples", "inputs", "expected"),
     [
         (4, "[depth, color]", []),
-        (8, "[depth, color]", ["the shader of `resolve` averages 4 samples of `color`, which has 8; use the image's sample count"]),
+        (
+            8,
+            "[depth, color]",
+            [
+                "the shader of `resolve` averages 4 samples of `color`, which has 8; use the "
+                "image's sample count"
+            ],
+        ),
         (
             2,
             "[depth, color]",
-            ["the shader of `resolve` fetches sample 3 of `color`, which has only 2, numbered from 0; use the image's sample count"],
+            [
+                "the shader of `resolve` fetches sample 3 of `color`, which has only 2, numbered "
+                "from 0; use the image's sample count"
+            ],
         ),
         (
             2,
             "[null, 0]",
-            ["the shader of `resolve` fetches sample 3 of `depth`, which has only 2, numbered from 0; use the image's sample count"],
+            [
+                "the shader of `resolve` fetches sample 3 of `depth`, which has only 2, numbered "
+                "from 0; use the image's sample count"
+            ],
         ),
         (2, "[color]", []),
     ],
 )
-def test_an_input_attachment_by_its_index(tmp_path: Path, samples: int, inputs: str, expected: list[str]) -> None:
+def test_an_input_attachment_by_its_index(
+    tmp_path: Path, samples: int, inputs: str, expected: list[str]
+) -> None:
     """The shader averages four samples of input attachment 1. It does so on the tile."""
     result = linted(tmp_path, INPUTS.format(samples=samples, inputs=inputs), "average_input.frag")
     assert [each.message for each in of(result, *RESOLVES)] == expected
@@ -355,7 +488,11 @@ NEEDED = "rasterizationSamples: 4, alphaToCoverageEnable: true"
 
 def test_a_module_that_is_not_there(tmp_path: Path) -> None:
     code, message, at = one_problem(tmp_path, pipeline("gone.frag", NEEDED))
-    assert (code, message, at) == ("MSAA904", "file not found: `shaders/gone.frag.spv`", "shaders/gone.frag.spv")
+    assert (code, message, at) == (
+        "MSAA904",
+        "file not found: `shaders/gone.frag.spv`",
+        "shaders/gone.frag.spv",
+    )
 
 
 @pytest.mark.parametrize(
@@ -372,13 +509,19 @@ def test_a_module_that_is_none(tmp_path: Path, content: bytes, message: str) -> 
     (tmp_path / "shaders" / "own.frag.spv").write_bytes(content)
     code, said, at = one_problem(tmp_path, pipeline("own.frag", NEEDED))
     assert said == f"`shaders/own.frag.spv`: {message}"
-    assert (code, at) == ("MSAA904" if "entry point" in message else "MSAA903", "shaders/own.frag.spv")
+    assert (code, at) == (
+        "MSAA904" if "entry point" in message else "MSAA903",
+        "shaders/own.frag.spv",
+    )
 
 
 def test_a_module_that_is_a_folder(tmp_path: Path) -> None:
     (tmp_path / "shaders" / "own.frag.spv").mkdir(parents=True)
     code, message, _ = one_problem(tmp_path, pipeline("own.frag", NEEDED))
-    assert (code, message) == ("MSAA903", "`shaders/own.frag.spv` cannot be read: it is a folder, not a regular file")
+    assert (code, message) == (
+        "MSAA903",
+        "`shaders/own.frag.spv` cannot be read: it is a folder, not a regular file",
+    )
 
 
 def test_a_module_that_is_too_large(tmp_path: Path) -> None:
@@ -386,7 +529,10 @@ def test_a_module_that_is_too_large(tmp_path: Path) -> None:
     with (tmp_path / "shaders" / "own.frag.spv").open("wb") as file:
         file.truncate((16 << 20) + 4)
     code, message, _ = one_problem(tmp_path, pipeline("own.frag", NEEDED))
-    assert (code, message) == ("MSAA903", "`shaders/own.frag.spv` cannot be read: it is larger than 16 MiB")
+    assert (code, message) == (
+        "MSAA903",
+        "`shaders/own.frag.spv` cannot be read: it is larger than 16 MiB",
+    )
 
 
 @pytest.mark.parametrize("way", ["path", "link"])
@@ -415,14 +561,21 @@ def test_a_shader_of_another_stage(tmp_path: Path) -> None:
     (tmp_path / "shaders").mkdir()
     shutil.copy(OWN / "resolve.comp.spv", tmp_path / "shaders")
     code, message, _ = one_problem(tmp_path, pipeline("resolve.comp", NEEDED))
-    assert (code, message) == ("MSAA903", "`shaders/resolve.comp.spv`: `main` is a shader of stage COMPUTE, not FRAGMENT")
+    assert (code, message) == (
+        "MSAA903",
+        "`shaders/resolve.comp.spv`: `main` is a shader of stage COMPUTE, not FRAGMENT",
+    )
 
 
 @pytest.mark.parametrize(
     "text",
     [
         pipeline("gone.frag", "rasterizationSamples: 1"),
-        pipeline("gone.frag", "rasterizationSamples: 4", "    rasterizationState: {rasterizerDiscardEnable: true}\n"),
+        pipeline(
+            "gone.frag",
+            "rasterizationSamples: 4",
+            "    rasterizationState: {rasterizerDiscardEnable: true}\n",
+        ),
         pipeline("gone.frag", "rasterizationSamples: 4").replace("FRAGMENT", "VERTEX"),
     ],
 )
@@ -437,7 +590,9 @@ def test_a_module_that_a_read_asks_for_is_looked_at(tmp_path: Path) -> None:
     assert "shader-resolve-off-tile" in undecided(result)
 
 
-def test_a_path_counts_from_the_description(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_path_counts_from_the_description(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     folder = tmp_path / "frames"
     folder.mkdir()
     monkeypatch.chdir(tmp_path)
@@ -458,25 +613,39 @@ def test_modules_that_came_with_the_input_are_looked_at_first(tmp_path: Path) ->
     (tmp_path / "shaders").mkdir()
     shutil.copy(RULES / "opaque.frag.spv", tmp_path / "shaders")
     beside = Modules(document, str(tmp_path / "capture")).reflected(stage, True)
-    within = Modules(document._replace(modules=own), str(tmp_path / "capture")).reflected(stage, True)
+    within = Modules(document._replace(modules=own), str(tmp_path / "capture")).reflected(
+        stage, True
+    )
     assert beside is not None and within is not None
     assert (beside.alpha.declared, within.alpha.declared) == (False, True)
 
 
-def test_many_large_modules_are_not_all_read(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+def test_many_large_modules_are_not_all_read(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
     code = (OWN / "no_alpha.frag.spv").read_bytes()
     monkeypatch.setattr("msaa_lint.input.shader_modules.ANALYSES", 0)
     monkeypatch.setattr("msaa_lint.input.shader_modules.MAX_WORK", 2 * (len(code) // 4 + ANALYSIS))
     names = ["no_alpha.frag", "alpha_one.frag", "alpha_stored.frag"]
-    pipelines = "".join(pipeline(name, NEEDED).replace("own:", f"own{n}:").replace("pipelines:\n", "") for n, name in enumerate(names))
+    pipelines = "".join(
+        pipeline(name, NEEDED).replace("own:", f"own{n}:").replace("pipelines:\n", "")
+        for n, name in enumerate(names)
+    )
     result = linted(tmp_path, f"pipelines:\n{pipelines}", *names)
     found = problems(result)
-    assert [(each.code, pointed(result, each)) for each in found] == [("MSAA906", "shaders/alpha_one.frag.spv")]
+    assert [(each.code, pointed(result, each)) for each in found] == [
+        ("MSAA906", "shaders/alpha_one.frag.spv")
+    ]
     assert [each.subject for each in of(result, *COVERAGE)] == ["pipelines.own0"]
 
 
 def test_a_module_that_several_name_is_one_mistake(tmp_path: Path) -> None:
     own = pipeline("gone.frag", NEEDED).replace("pipelines:\n", "")
-    text = "pipelines:\n" + "".join(own.replace("own:", f"own{n}:").replace("spv}", f"spv, specialization: {{0: {n}}}}}") for n in range(3))
+    text = "pipelines:\n" + "".join(
+        own.replace("own:", f"own{n}:").replace("spv}", f"spv, specialization: {{0: {n}}}}}")
+        for n in range(3)
+    )
     result = linted(tmp_path, text)
-    assert [(each.code, each.subject) for each in problems(result)] == [("MSAA904", "pipelines.own0.stages[0].module")]
+    assert [(each.code, each.subject) for each in problems(result)] == [
+        ("MSAA904", "pipelines.own0.stages[0].module")
+    ]

@@ -1,4 +1,6 @@
-"""The pages that set texts on multisampling beside the linter are true: their tables are what the examples give."""
+"""The pages that set texts on multisampling beside the linter are true: their tables are what the
+examples give.
+"""
 
 from __future__ import annotations
 
@@ -55,7 +57,12 @@ def test_five_texts_have_a_table() -> None:
 
 @pytest.mark.parametrize("title", ROWS)
 def test_every_mistake_has_a_rule_and_a_line_or_a_reason(title: str) -> None:
-    rows = {int(number): said for number, said in re.findall(r"^\| (\d+) \| [^|]+ \| ([^|]+) \|$", TABLES[title][1], re.MULTILINE)}
+    rows = {
+        int(number): said
+        for number, said in re.findall(
+            r"^\| (\d+) \| [^|]+ \| ([^|]+) \|$", TABLES[title][1], re.MULTILINE
+        )
+    }
     assert list(rows) == list(range(1, ROWS[title] + 1))
     for number, said in rows.items():
         assert PAIR.search(said) or re.match(r"nothing: \w", said), number
@@ -63,12 +70,16 @@ def test_every_mistake_has_a_rule_and_a_line_or_a_reason(title: str) -> None:
 
 @pytest.mark.parametrize("title", ROWS)
 def test_the_table_is_what_is_found(title: str) -> None:
-    """Every rule that it names is found where it says, and whatever is found in the files that it names stands in it."""
+    """Every rule that it names is found where it says, and whatever is found in the files that it
+    names stands in it.
+    """
     folder, text = TABLES[title]
     said = {(rule, folder + name, int(line)) for rule, name, line in PAIR.findall(text)}
     names = {name for _, name, _ in said}
     if folder:
-        names |= {path.relative_to(EXAMPLES).as_posix() for path in (EXAMPLES / folder).glob("article*")}
+        names |= {
+            path.relative_to(EXAMPLES).as_posix() for path in (EXAMPLES / folder).glob("article*")
+        }
     assert said == {each for name in names for each in found(name)}
 
 

@@ -19,20 +19,31 @@ from msaa_lint.experiments.study.scenes.scene import WHITE, Scene
 from .row import Row
 
 SIDE = 64
-TECHNIQUES = [*(Technique(MSAA, count) for count in COUNTS), *(Technique(SSAA, grid * grid, grid=grid) for grid in GRIDS)]
+TECHNIQUES = [
+    *(Technique(MSAA, count) for count in COUNTS),
+    *(Technique(SSAA, grid * grid, grid=grid) for grid in GRIDS),
+]
 
 
 def half_plane(place: float = SIDE * 5 / 8, upright: bool = False) -> Scene:
-    """White below a horizontal edge, or right of an upright one: as it moves, it lies on every row of samples once."""
+    """White below a horizontal edge, or right of an upright one: as it moves, it lies on every row
+    of samples once.
+    """
     far = 3.0 * SIDE
-    corners = shapes.rectangle(place, -far, far, far) if upright else shapes.rectangle(-far, place, far, far)
+    corners = (
+        shapes.rectangle(place, -far, far, far)
+        if upright
+        else shapes.rectangle(-far, place, far, far)
+    )
     triangles = shapes.triangles([corners])
     colors = shapes.uniform_colors(len(triangles), WHITE)
     return Scene(SIDE, SIDE, triangles, colors, area.disjoint(colors), name="half-plane")
 
 
 def coverages(technique: Technique) -> list[Fraction]:
-    """The coverage of a pixel at each phase of the edge, from its top to its bottom: the share of the samples on or below the edge."""
+    """The coverage of a pixel at each phase of the edge, from its top to its bottom: the share of
+    the samples on or below the edge.
+    """
     if technique.kind == SSAA:
         heights = [(row + Fraction(1, 2)) / technique.grid for row in range(technique.grid)]
     else:
@@ -54,7 +65,10 @@ def flickering() -> Iterator[Row]:
         shares = coverages(technique)
         exact = changes([share - (1 - Fraction(step, STEPS)) for step, share in enumerate(shares)])
         double = changes([float(share) - (1 - step / STEPS) for step, share in enumerate(shares)])
-        case = f"flicker of a horizontal edge, {technique.name}; naive: the change of the picture instead of its error"
+        case = (
+            f"flicker of a horizontal edge, {technique.name}; naive: the change of the picture "
+            f"instead of its error"
+        )
         yield Row("as seen", case, exact, changes(shares), double, flicker(scene, technique), 1e-14)
 
 
@@ -62,11 +76,25 @@ def flips() -> Iterator[Row]:
     """FLIP of pictures in one color, whose map is the same everywhere; of equal ones it is 0."""
     black, white = (np.full((256, 256, 3), value, np.float32) for value in (0, 1))
     for picture, words in ((black, "black"), (white, "white")):
-        yield Row("as seen", f"FLIP of {words} against {words}", 0, _package_mean(picture, picture), 0, displayed.flip(picture, picture))
+        yield Row(
+            "as seen",
+            f"FLIP of {words} against {words}",
+            0,
+            _package_mean(picture, picture),
+            0,
+            displayed.flip(picture, picture),
+        )
     flip_map = flip_evaluator.evaluate(white, black, "LDR", applyMagma=False)[0]
     exact = round(float(flip_map[0, 0, 0]), 4)
-    results = _package_mean(black, white), float(np.mean(flip_map, dtype=np.float64)), displayed.flip(black, white)
-    case = "FLIP of black against white, 256 x 256 pixels, to 4 digits; naive: the mean that the package returns"
+    results = (
+        _package_mean(black, white),
+        float(np.mean(flip_map, dtype=np.float64)),
+        displayed.flip(black, white),
+    )
+    case = (
+        "FLIP of black against white, 256 x 256 pixels, to 4 digits; naive: the mean that the "
+        "package returns"
+    )
     yield Row("as seen", case, exact, *(round(result, 4) for result in results))
 
 

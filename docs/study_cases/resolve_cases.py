@@ -50,26 +50,69 @@ def averages() -> Iterator[Row]:
         ([2048.0, 1.0, 1.0, 1.0], "2048, 1, 1, 1 in half precision; naive: added in half"),
     ):
         yield Row(
-            "resolve", words, mean(samples), sequential(samples, np.float16), sequential(samples, np.float64), made(samples, np.float16)
+            "resolve",
+            words,
+            mean(samples),
+            sequential(samples, np.float16),
+            sequential(samples, np.float64),
+            made(samples, np.float16),
         )
     tiny, least = [2.0**-24] * 4, [2.0**-149] * 4
     case = "4 times the smallest half-precision subnormal; naive: each quartered in half"
-    yield Row("resolve", case, mean(tiny), scaled(tiny, np.float16), scaled(tiny, np.float64), made(tiny, np.float16))
+    yield Row(
+        "resolve",
+        case,
+        mean(tiny),
+        scaled(tiny, np.float16),
+        scaled(tiny, np.float64),
+        made(tiny, np.float16),
+    )
     case = "4 times the smallest single-precision subnormal; naive: each quartered"
-    yield Row("resolve", case, mean(least), scaled(least, np.float32), scaled(least, np.float64), made(least))
+    yield Row(
+        "resolve",
+        case,
+        mean(least),
+        scaled(least, np.float32),
+        scaled(least, np.float64),
+        made(least),
+    )
     for samples, due, words in (
-        ([math.inf, 1.0, 2.0, 3.0], math.inf, "an infinite sample; naive: clamped to 65504, as some drivers do"),
-        ([math.nan, 1.0, 2.0, 3.0], math.nan, "a NaN sample; naive: treated as 0, as fixed point does"),
+        (
+            [math.inf, 1.0, 2.0, 3.0],
+            math.inf,
+            "an infinite sample; naive: clamped to 65504, as some drivers do",
+        ),
+        (
+            [math.nan, 1.0, 2.0, 3.0],
+            math.nan,
+            "a NaN sample; naive: treated as 0, as fixed point does",
+        ),
     ):
-        shown = [65504.0 if math.isinf(each) else 0.0 if math.isnan(each) else each for each in samples]
-        yield Row("resolve", words, due, sequential(shown, np.float32), sequential(samples, np.float64), made(samples))
+        shown = [
+            65504.0 if math.isinf(each) else 0.0 if math.isnan(each) else each for each in samples
+        ]
+        yield Row(
+            "resolve",
+            words,
+            due,
+            sequential(shown, np.float32),
+            sequential(samples, np.float64),
+            made(samples),
+        )
     codes = [254, 255, 255, 255]
     exact = round(Fraction(sum(codes), 4))
     light = [code / 255 for code in codes]
     cut = float(int(np.float32(sequential(light, np.float32)) * 255))
     nearest = float(np.rint(to_unorm(average(np.array(light, np.float32)[:, None]))[0] * 255))
     in_double = float(round(sequential(light, np.float64) * 255))
-    yield Row("resolve", "UNORM8 codes 254, 255, 255, 255; naive: truncated", exact, cut, in_double, nearest)
+    yield Row(
+        "resolve",
+        "UNORM8 codes 254, 255, 255, 255; naive: truncated",
+        exact,
+        cut,
+        in_double,
+        nearest,
+    )
 
 
 def lights() -> Iterator[Row]:
@@ -77,7 +120,14 @@ def lights() -> Iterator[Row]:
     half = Fraction(1, 2)
     code = round(255 * (1.055 * float(half) ** (1 / 2.4) - 0.055))
     found = float(np.rint(to_srgb(average(np.array([white, black])[:, None]))[0] * 255))
-    yield Row("light", "sRGB code of white and black, averaged; naive: codes averaged", code, round(255 / 2), code, found)
+    yield Row(
+        "light",
+        "sRGB code of white and black, averaged; naive: codes averaged",
+        code,
+        round(255 / 2),
+        code,
+        found,
+    )
     firefly = [60000.0, 0.1, 0.1, 0.1]
     shares = [Fraction(float(np.float32(each))) for each in firefly]
     due = float(sum((each / (1 + each) for each in shares), Fraction(0)) / 4)
@@ -86,16 +136,41 @@ def lights() -> Iterator[Row]:
     after = float(tone_map(average(samples))[0, 0])
     in_double = sum(float(each) / (1 + float(each)) for each in shares) / 4
     before = float(average(tone_map(samples))[0, 0])
-    yield Row("light", "60000 and three of 0.1, displayed; naive: tone mapped after the resolve", due, after, in_double, before, 1e-6)
+    yield Row(
+        "light",
+        "60000 and three of 0.1, displayed; naive: tone mapped after the resolve",
+        due,
+        after,
+        in_double,
+        before,
+        1e-6,
+    )
     mixed = float(tone_map(weighted(samples))[0, 0])
-    yield Row("light", "the same by the weighted resolve; naive: averaged without weights", due, after, in_double, mixed, 1e-6)
+    yield Row(
+        "light",
+        "the same by the weighted resolve; naive: averaged without weights",
+        due,
+        after,
+        in_double,
+        mixed,
+        1e-6,
+    )
     bright = np.full((1, 4), np.inf, np.float32)
     with np.errstate(invalid="ignore"):
         ratio = float(bright[0, 0] / (1 + bright[0, 0]))
-    yield Row("light", "infinite light, displayed; naive: x / (1 + x)", 1.0, ratio, math.nan, float(tone_map(bright)[0, 0]))
+    yield Row(
+        "light",
+        "infinite light, displayed; naive: x / (1 + x)",
+        1.0,
+        ratio,
+        math.nan,
+        float(tone_map(bright)[0, 0]),
+    )
     with np.errstate(over="ignore"):
         large = float(np.float16(65519.99))
-    yield Row("light", "65519.99 stored in half precision; naive: anything above 65504 is infinite", 65504.0, math.inf, large,
+    yield Row("light",
+    "65519.99 stored in half precision; naive: anything above 65504 is infinite", 65504.0,
+    math.inf, large,
               float(store_half(np.array([65519.99], np.float32))[0]))  # fmt: skip
 
 
@@ -104,9 +179,21 @@ LUMA_SHARES = [Fraction(str(share)) for share in LUMA]
 
 def exact_weighted(samples: Sequence[Color]) -> list[Fraction]:
     """The weighted resolve in rational arithmetic; negative light counts as none."""
-    light = [[max(Fraction(float(np.float32(value))), Fraction(0)) for value in color] for color in samples]
-    weights = [1 / (1 + sum((a * b for a, b in zip(LUMA_SHARES, color, strict=True)), Fraction(0))) for color in light]
-    parts = [sum((weight * color[channel] for weight, color in zip(weights, light, strict=True)), Fraction(0)) for channel in range(3)]
+    light = [
+        [max(Fraction(float(np.float32(value))), Fraction(0)) for value in color]
+        for color in samples
+    ]
+    weights = [
+        1 / (1 + sum((a * b for a, b in zip(LUMA_SHARES, color, strict=True)), Fraction(0)))
+        for color in light
+    ]
+    parts = [
+        sum(
+            (weight * color[channel] for weight, color in zip(weights, light, strict=True)),
+            Fraction(0),
+        )
+        for channel in range(3)
+    ]
     return [part / sum(weights, Fraction(0)) for part in parts]
 
 
@@ -138,8 +225,16 @@ def weighted_resolves() -> Iterator[Row]:
 
     most, half_step, single_step = 65504.0, 2.0**-24, 2.0**-149
     for samples, words, naive in (
-        (gray(*[most] * 16), "16 samples of 65504; naive: mapped, averaged, mapped back", mapped_back),
-        (gray(most, half_step, half_step, half_step), "65504 and three of 2^-24; naive: in half precision", None),
+        (
+            gray(*[most] * 16),
+            "16 samples of 65504; naive: mapped, averaged, mapped back",
+            mapped_back,
+        ),
+        (
+            gray(most, half_step, half_step, half_step),
+            "65504 and three of 2^-24; naive: in half precision",
+            None,
+        ),
         (
             [(most, 0, 0), (0, most, 0), (0, 0, most), (0, 0, 0)],
             "65504 of red, of green, of blue, and black; naive: in half precision",
@@ -148,35 +243,89 @@ def weighted_resolves() -> Iterator[Row]:
     ):
         low = naive(samples, np.float32) if naive else floating_weighted(samples, np.float16)
         double = (naive or floating_weighted)(samples, np.float64)
-        yield Row("light", f"weighted resolve of {words}", float(exact_weighted(samples)[0]), low, double, made(samples), 1e-6)
-    for step, words in ((half_step, "2^-24, the smallest of half precision"), (single_step, "2^-149, the smallest of single precision")):
+        yield Row(
+            "light",
+            f"weighted resolve of {words}",
+            float(exact_weighted(samples)[0]),
+            low,
+            double,
+            made(samples),
+            1e-6,
+        )
+    for step, words in (
+        (half_step, "2^-24, the smallest of half precision"),
+        (single_step, "2^-149, the smallest of single precision"),
+    ):
         samples = gray(*[step] * 4)
         case = f"weighted resolve of 4 samples of {words}; naive: subnormals flushed to zero"
-        yield Row("light", case, float(exact_weighted(samples)[0]), 0.0, floating_weighted(samples, np.float64), made(samples), 1e-6)
+        yield Row(
+            "light",
+            case,
+            float(exact_weighted(samples)[0]),
+            0.0,
+            floating_weighted(samples, np.float64),
+            made(samples),
+            1e-6,
+        )
     greatest = float(np.finfo(np.float32).max)
     samples = gray(*[greatest] * 4)
     naive_sum = float(np.float32(sequential([greatest] * 4, np.float32)))
-    case = "weighted resolve of 4 samples of 2^128 - 2^104, the greatest of single precision; naive: added without weights"
-    yield Row("light", case, greatest, naive_sum, floating_weighted(samples, np.float64), made(samples), 1e-6)
+    case = (
+        "weighted resolve of 4 samples of 2^128 - 2^104, the greatest of single precision; "
+        "naive: added without weights"
+    )
+    yield Row(
+        "light",
+        case,
+        greatest,
+        naive_sum,
+        floating_weighted(samples, np.float64),
+        made(samples),
+        1e-6,
+    )
     for value in (-1.0, -2.0):
         samples = gray(value, 1, 1, 1)
-        case = f"weighted resolve of {value:.0f} and three of 1, where negative light counts as none; naive: weight of 1 / (1 + luma)"
-        in_single, in_double = (floating_weighted(samples, kind) for kind in (np.float32, np.float64))
-        yield Row("light", case, float(exact_weighted(samples)[0]), in_single, in_double, made(samples), 1e-6)
+        case = (
+            f"weighted resolve of {value:.0f} and three of 1, where negative light counts as "
+            f"none; naive: weight of 1 / (1 + luma)"
+        )
+        in_single, in_double = (
+            floating_weighted(samples, kind) for kind in (np.float32, np.float64)
+        )
+        yield Row(
+            "light",
+            case,
+            float(exact_weighted(samples)[0]),
+            in_single,
+            in_double,
+            made(samples),
+            1e-6,
+        )
     infinite = [(0.0, math.inf, 0.0)] * 4
     in_single, in_double = (floating_weighted(infinite, kind) for kind in (np.float32, np.float64))
     yield Row(
-        "light", "red of 4 samples of infinite green, weighted; naive: weight of 1 / (1 + luma)", 0.0, in_single, in_double, made(infinite)
+        "light",
+        "red of 4 samples of infinite green, weighted; naive: weight of 1 / (1 + luma)",
+        0.0,
+        in_single,
+        in_double,
+        made(infinite),
     )
 
 
 def sums() -> Iterator[Row]:
-    """Sums of 2^24 values and more, from which on a single-precision counter of ones stands still."""
+    """Sums of 2^24 values and more, from which on a single-precision counter of ones stands
+    still.
+    """
     for count, words in ((2**24 + 1, "2^24 + 1"), (2**24 + 4096, "2^24 + 4,096"), (2**25, "2^25")):
         yield _sum(f"{words} squared errors of 1", np.ones(count, np.float32), Fraction(count))
     pixels = 7680 * 4320
     tenth = np.float32(0.1)
-    yield _sum("errors of 0.1 in 7680 x 4320 pixels", np.full(pixels, tenth), Fraction(float(tenth)) * pixels)
+    yield _sum(
+        "errors of 0.1 in 7680 x 4320 pixels",
+        np.full(pixels, tenth),
+        Fraction(float(tenth)) * pixels,
+    )
     small = np.full(2**24 + 1, np.float32(2.0**-10))
     small[0] = np.float32(65504.0**2)
     yield _sum("65504 squared and 2^24 of 2^-10", small, Fraction(float(small[0])) + 2**14)
@@ -186,10 +335,17 @@ def sums() -> Iterator[Row]:
     yield _sum("2^24 errors of 4096 + 2^-10 and -4096 + 2^-10 in turn", mixed, Fraction(2**14))
     numbers = np.arange(6_220_800, dtype=np.int64) * 40503 % 65536
     squares = (numbers / 65536) ** 2
-    yield _sum("squared errors of 1920 x 1080 pixels of 3 channels", squares, Fraction(int(np.sum(numbers * numbers)), 65536**2), 1e-15)
+    yield _sum(
+        "squared errors of 1920 x 1080 pixels of 3 channels",
+        squares,
+        Fraction(int(np.sum(numbers * numbers)), 65536**2),
+        1e-15,
+    )
 
 
-def _sum(words: str, values: NDArray[np.floating[Any]], exact: Fraction, within: float = 1e-15) -> Row:
+def _sum(
+    words: str, values: NDArray[np.floating[Any]], exact: Fraction, within: float = 1e-15
+) -> Row:
     one_by_one = float(np.add.accumulate(values, dtype=np.float32)[-1])
     return Row(
         "sums",

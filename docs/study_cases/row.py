@@ -7,8 +7,9 @@ from typing import NamedTuple
 
 
 class Row(NamedTuple):
-    """A case: the results of naive arithmetic (float32 unless the case says otherwise), float64 and the study; `within` is the relative
-    tolerance."""
+    """A case: the results of naive arithmetic (float32 unless the case says otherwise), float64 and
+    the study; `within` is the relative tolerance.
+    """
 
     group: str
     case: str

@@ -1,4 +1,6 @@
-"""Parses the command line by the tables of `options`, and runs the command that it names. Only help and completion need typer (`app`)."""
+"""Parses the command line by the tables of `options`, and runs the command that it names. Only help
+and completion need typer (`app`).
+"""
 
 import math
 import os
@@ -13,13 +15,20 @@ from .options import Arguments, Command, Option
 HELP = ("-h", "--help", "--install-completion", "--show-completion")
 """First words that typer answers."""
 
-_MEANINGS = {"lint": "check", "fix": "check --fix", "explain": "rule", "rules": "rule --all", "version": "--version"}
+_MEANINGS = {
+    "lint": "check",
+    "fix": "check --fix",
+    "explain": "rule",
+    "rules": "rule --all",
+    "version": "--version",
+}
 """What others call our commands."""
 
 
 def run_words(words: Sequence[str]) -> int | list[str]:
-    """Runs the command that the words of a command line name, and returns its exit code; the words to pass to typer if help or completion
-    is asked for."""
+    """Runs the command that the words of a command line name, and returns its exit code; the words
+    to pass to typer if help or completion is asked for.
+    """
     if words[:1] == ["help"]:
         words = [*words[1:2], "--help"]
     if not words or words[0] in HELP:
@@ -58,7 +67,9 @@ def parse(name: str, words: Sequence[str]) -> Arguments:
 
 def _split_flags(words: Sequence[str], command: Command) -> Iterator[str]:
     """The words, with flags of one letter that are written together (`-qv`) one by one."""
-    letters = {option.short[1:] for option in command.options if option.kind == "flag" and option.short}
+    letters = {
+        option.short[1:] for option in command.options if option.kind == "flag" and option.short
+    }
     for word in words:
         if len(word) > 2 and word[0] == "-" and letters.issuperset(word[1:]):
             yield from (f"-{letter}" for letter in word[1:])
@@ -66,9 +77,16 @@ def _split_flags(words: Sequence[str], command: Command) -> Iterator[str]:
             yield word
 
 
-def _read_option(name: str, word: str, rest: Iterator[str]) -> tuple[Option, bool | str | int | float]:
+def _read_option(
+    name: str, word: str, rest: Iterator[str]
+) -> tuple[Option, bool | str | int | float]:
     """The option that a word names, and its value, which may be the next of the words."""
-    flags = {flag: option for option in COMMANDS[name].options for flag in (option.flag, option.short) if flag}
+    flags = {
+        flag: option
+        for option in COMMANDS[name].options
+        for flag in (option.flag, option.short)
+        if flag
+    }
     flag, equals, text = word.partition("=")
     option = flags.get(flag)
     if option is None:
@@ -76,7 +94,8 @@ def _read_option(name: str, word: str, rest: Iterator[str]) -> tuple[Option, boo
 
         close = nearest(flag, filter(None, (option.flag for option in flags.values())))
         raise UsageError(
-            f"unknown option {quoted(flag)} of `{name}`: " + (f"did you mean `{close}`?" if close else f"see `msaa-lint {name} --help`")
+            f"unknown option {quoted(flag)} of `{name}`: "
+            + (f"did you mean `{close}`?" if close else f"see `msaa-lint {name} --help`")
         )
     if option.kind == "flag":
         if equals:
@@ -90,11 +109,19 @@ def _read_option(name: str, word: str, rest: Iterator[str]) -> tuple[Option, boo
 
 def _value(option: Option, text: str) -> str | int | float:
     """What `text` means to an option. UsageError if it is malformed."""
-    if option.kind == "choice" and text not in option.choices and not any(_is_form(choice, text) for choice in option.choices):
-        raise UsageError(f"unknown value {quoted(text)} of `{option.flag}`: {_near_or_all(text, option.choices)}")
+    if (
+        option.kind == "choice"
+        and text not in option.choices
+        and not any(_is_form(choice, text) for choice in option.choices)
+    ):
+        raise UsageError(
+            f"unknown value {quoted(text)} of `{option.flag}`: {_near_or_all(text, option.choices)}"
+        )
     if option.kind == "integer":
         if not (text.isascii() and text.isdigit() and len(text) < 12 and int(text) > 0):
-            raise UsageError(f"`{option.flag}` must be an integer from 1 to {10**11 - 1}, found {quoted(text)}")
+            raise UsageError(
+                f"`{option.flag}` must be an integer from 1 to {10**11 - 1}, found {quoted(text)}"
+            )
         return int(text)
     if option.kind == "decimal":
         try:
@@ -108,7 +135,9 @@ def _value(option: Option, text: str) -> str | int | float:
 
 
 def _is_form(choice: str, text: str) -> bool:
-    """Whether a text is one of the form `choice`: that of `label:TEXT` is any text after `label:`."""
+    """Whether a text is one of the form `choice`: that of `label:TEXT` is any text after
+    `label:`.
+    """
     prefix, colon, _ = choice.partition(":")
     return bool(colon) and text.startswith(prefix + colon) and text != prefix + colon
 
@@ -118,13 +147,17 @@ def _check(name: str, command: Command, arguments: Arguments) -> None:
     stated, paths = arguments["paths"], command.paths
     if len(stated) < paths.min and not any(flag in arguments for flag in command.standalone):
         flags = "".join(f", or `--{flag.replace('_', '-')}`" for flag in command.standalone)
-        raise UsageError(f"`{name}` needs an argument: write `msaa-lint {name} {paths.metavar}`{flags}")
+        raise UsageError(
+            f"`{name}` needs an argument: write `msaa-lint {name} {paths.metavar}`{flags}"
+        )
     if paths.max is not None and len(stated) > paths.max:
         takes = f"takes only one {paths.metavar}" if paths.max else "takes no arguments"
         raise UsageError(f"unexpected argument {quoted(stated[paths.max])}: `{name}` {takes}")
     for word in stated if paths.choices else ():
         if word not in paths.choices:
-            raise UsageError(f"unknown argument {quoted(word)} of `{name}`: {_near_or_all(word, paths.choices)}")
+            raise UsageError(
+                f"unknown argument {quoted(word)} of `{name}`: {_near_or_all(word, paths.choices)}"
+            )
     if arguments.get("quiet") and arguments.get("verbose"):
         raise UsageError("`--quiet` and `--verbose` contradict each other: write one of them")
 
@@ -135,14 +168,20 @@ def _unknown_command(word: str) -> str:
     if word.startswith("-") and word != "-":
         for name, command in COMMANDS.items():
             if any(flag in (option.flag, option.short) for option in command.options):
-                return f"{quoted(flag)} is an option of a command: write it after the command, as in `msaa-lint {name} {flag} ...`"
+                return (
+                    f"{quoted(flag)} is an option of a command: write it after the command, as "
+                    f"in `msaa-lint {name} {flag} ...`"
+                )
         return f"unknown option {quoted(flag)}: " + _near_or_all(flag, [*HELP[1:], "--version"])
     if word in _MEANINGS:
         return f"unknown command {quoted(word)}: did you mean `{_MEANINGS[word]}`?"
     if word == "-" or os.path.exists(word) or os.sep in word or "." in word:
         import shlex
 
-        return f"unknown command {quoted(word)}: to lint a file or folder, write `msaa-lint check {shlex.quote(word)[:200]}`"
+        return (
+            f"unknown command {quoted(word)}: to lint a file or folder, write `msaa-lint check "
+            f"{shlex.quote(word)[:200]}`"
+        )
     return f"unknown command {quoted(word)}: {_near_or_all(word, list(COMMANDS))}"
 
 

@@ -25,13 +25,19 @@ def baseline(arguments: Arguments) -> int:
 def _baseline(arguments: Arguments) -> int:
     isolated = bool(arguments.get("isolated"))
     request = Request(
-        arguments["paths"], overrides(arguments), arguments.get("config"), isolated, without_baseline=True, log=log(arguments)
+        arguments["paths"],
+        overrides(arguments),
+        arguments.get("config"),
+        isolated,
+        without_baseline=True,
+        log=log(arguments),
     )
     return write_baseline(request, arguments.get("file"), bool(arguments.get("prune")))
 
 
 def write_baseline(request: Request, stated: str | None, prune: bool) -> int:
-    """Writes the baseline of the current findings of a request, or with `prune` removes fixed findings from it; returns 2 if it cannot.
+    """Writes the baseline of the current findings of a request, or with `prune` removes fixed
+    findings from it; returns 2 if it cannot.
 
     A file that msaa-lint did not write is replaced only if it is `stated`.
     """
@@ -57,7 +63,11 @@ def write_baseline(request: Request, stated: str | None, prune: bool) -> int:
     with writes(file):
         baselines.save(new, file, force=stated is not None)
     after = _count(new)
-    change = f"removed {before - after} of {before}" if prune else f"{plural(after, 'finding')} in {plural(len(new.entries), 'file')}"
+    change = (
+        f"removed {before - after} of {before}"
+        if prune
+        else f"{plural(after, 'finding')} in {plural(len(new.entries), 'file')}"
+    )
     note(f"{file}: {change}. To use it: msaa-lint check --baseline {file} ...")
     return 0
 

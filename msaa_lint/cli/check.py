@@ -45,11 +45,18 @@ EXAMPLE = "sarif=findings.sarif"
 STDERR = "<standard error>"
 """The `path` of a target that is the standard error stream."""
 
-_ROOTS = {"github": "GITHUB_WORKSPACE", "sarif": "GITHUB_WORKSPACE", "gitlab": "CI_PROJECT_DIR", "azure": "BUILD_SOURCESDIRECTORY"}
+_ROOTS = {
+    "github": "GITHUB_WORKSPACE",
+    "sarif": "GITHUB_WORKSPACE",
+    "gitlab": "CI_PROJECT_DIR",
+    "azure": "BUILD_SOURCESDIRECTORY",
+}
 """The environment variables that hold the folder which an output's paths are relative to."""
 
 SUMMARIZED_KEYS = 1000
-"""Undecided rules whose missing keys the summary counts; --explain-undecided and JSON list those of all."""
+"""Undecided rules whose missing keys the summary counts; --explain-undecided and JSON list those of
+all.
+"""
 
 
 def check(arguments: Arguments) -> int:
@@ -72,11 +79,19 @@ def _check_once(arguments: Arguments) -> int:
     refuse_inputs([path for target in targets for path in paths_of(target)], arguments["paths"])
     fallback = "full" if sys.stdout.isatty() else "concise"
     start = perf_counter()
-    outcome = _outcome(request(arguments, targets, fallback), input_progress() if shows_progress(bool(arguments.get("quiet"))) else None)
+    outcome = _outcome(
+        request(arguments, targets, fallback),
+        input_progress() if shows_progress(bool(arguments.get("quiet"))) else None,
+    )
     if arguments.get("verbose"):
-        warn(f"checked {plural(len(outcome.result.files), 'input')} in {perf_counter() - start:.2f} s")
+        warn(
+            f"checked {plural(len(outcome.result.files), 'input')} in {perf_counter() - start:.2f} "
+            f"s"
+        )
     if not targets:
-        targets = parse_outputs(outcome.settings.output, OUTPUT_FORMATS, EXAMPLE) or [Target(fallback, None)]
+        targets = parse_outputs(outcome.settings.output, OUTPUT_FORMATS, EXAMPLE) or [
+            Target(fallback, None)
+        ]
     for text in outcome.notes:
         note(text)
     if arguments.get("diff"):
@@ -89,12 +104,17 @@ def _check_once(arguments: Arguments) -> int:
         warn(line)
     for file, savings in outcome.failing.items():
         if savings.all.findings and savings.all.price is None:
-            note(f"{file}: the sizes or formats that price its fixes are unknown, so --fail-on-cost does not apply to it")
+            note(
+                f"{file}: the sizes or formats that price its fixes are unknown, so --fail-on-cost "
+                f"does not apply to it"
+            )
     return code
 
 
 def _outcome(asked: Request, progress: Progress | None) -> Outcome:
-    """The outcome of a run. If the run itself fails, that is its only finding: the formats that programs read are whole."""
+    """The outcome of a run. If the run itself fails, that is its only finding: the formats that
+    programs read are whole.
+    """
     try:
         return run(asked, progress)
     except (Unusable, SpoolError):
@@ -120,8 +140,9 @@ def _print_diff(targets: Sequence[Target], outcome: Outcome, arguments: Argument
 
 
 def _print_fixes(targets: Sequence[Target], outcome: Outcome, arguments: Arguments) -> list[Target]:
-    """Prints what fixes did. The fixed text of standard input goes to standard output, and what would go there to standard error: returns
-    the targets that are left to print."""
+    """Prints what fixes did. The fixed text of standard input goes to standard output, and what
+    would go there to standard error: returns the targets that are left to print.
+    """
     from .fix_report import fix_summary, print_text
 
     stdin = STDIN in arguments["paths"]
@@ -129,21 +150,35 @@ def _print_fixes(targets: Sequence[Target], outcome: Outcome, arguments: Argumen
         print_text(outcome, arguments.get("stdin_filename") or "<stdin>")
     for line in fix_summary(outcome, True, bool(arguments.get("unsafe_fixes"))):
         note(line)
-    return [target._replace(path=STDERR) if stdin and target.path is None else target for target in targets]
+    return [
+        target._replace(path=STDERR) if stdin and target.path is None else target
+        for target in targets
+    ]
 
 
-def request(arguments: Arguments, targets: Sequence[Target] = (), fallback: str = "concise") -> Request:
-    """The request that arguments make. `fallback` is the output format if neither they nor a configuration names one."""
+def request(
+    arguments: Arguments, targets: Sequence[Target] = (), fallback: str = "concise"
+) -> Request:
+    """The request that arguments make. `fallback` is the output format if neither they nor a
+    configuration names one.
+    """
     settings = overrides(arguments)
-    limits = {name: arguments[f"max_{name}"] for name in Limits._fields if f"max_{name}" in arguments}
+    limits = {
+        name: arguments[f"max_{name}"] for name in Limits._fields if f"max_{name}" in arguments
+    }
     if limits:
         settings["limits"] = limits
-    lists_keys = bool(arguments.get("explain_undecided")) or any(target.format == "json" for target in targets)
+    lists_keys = bool(arguments.get("explain_undecided")) or any(
+        target.format == "json" for target in targets
+    )
     return Request(
         **input_options(arguments),
         overrides=settings,
         ignores=not arguments.get("no_ignores"),
-        formats=[*(target.format for target in targets), *(["statistics"] if arguments.get("statistics") else [])],
+        formats=[
+            *(target.format for target in targets),
+            *(["statistics"] if arguments.get("statistics") else []),
+        ],
         fallback=fallback,
         by_price=arguments.get("sort") == "price",
         fix="show" if arguments.get("diff") else "write" if arguments.get("fix") else None,
@@ -155,21 +190,34 @@ def request(arguments: Arguments, targets: Sequence[Target] = (), fallback: str 
 
 
 def exit_code(outcome: Outcome, exit_zero: bool = False) -> int:
-    """2 if an input or the configuration cannot be used; 1 if a finding reaches `fail-on`, or an input's findings reach `fail-on-cost`,
-    counting only findings that reach `fail-confidence`; else 0."""
+    """2 if an input or the configuration cannot be used; 1 if a finding reaches `fail-on`, or an
+    input's findings reach `fail-on-cost`, counting only findings that reach `fail-confidence`; else
+    0.
+    """
     result = outcome.result
-    levels = set(result.rendered.counts.levels) if result.rendered is not None else {finding.level for finding in result.findings}
+    levels = (
+        set(result.rendered.counts.levels)
+        if result.rendered is not None
+        else {finding.level for finding in result.findings}
+    )
     if any(fatal for _, _, fatal in levels):
         return 2
     if exit_zero:
         return 0
-    least, confidences = rank(outcome.settings.fail_on), CONFIDENCES[CONFIDENCES.index(outcome.settings.fail_confidence) :]
-    failing = any(rank(severity) >= least and confidence in confidences for severity, confidence, _ in levels)
+    least, confidences = (
+        rank(outcome.settings.fail_on),
+        CONFIDENCES[CONFIDENCES.index(outcome.settings.fail_confidence) :],
+    )
+    failing = any(
+        rank(severity) >= least and confidence in confidences for severity, confidence, _ in levels
+    )
     return int(failing or bool(_over_budget(outcome)))
 
 
 def _over_budget(outcome: Outcome) -> list[str]:
-    """A line for each input of which fixes save as much as `fail-on-cost`, with how much that is."""
+    """A line for each input of which fixes save as much as `fail-on-cost`, with how much that
+    is.
+    """
     if outcome.settings.fail_on_cost is None:
         return []
     from msaa_lint.linter.settings.cost_limit import budget, figure
@@ -177,16 +225,25 @@ def _over_budget(outcome: Outcome) -> list[str]:
     limit = budget(outcome.settings.fail_on_cost)
     lines = []
     for file, savings in outcome.failing.items():
-        safe, everything = (figure(saving.price, limit) if saving.price is not None else 0.0 for saving in (savings.safe, savings.all))
+        safe, everything = (
+            figure(saving.price, limit) if saving.price is not None else 0.0
+            for saving in (savings.safe, savings.all)
+        )
         if everything >= limit.most:
             alone = f" ({safe:g} {limit.unit} with --fix alone)" if safe < everything else ""
             on_tiler = "," + ON_TILER if savings.all.assumes_tiler else ""
-            lines.append(f"{file}: fixes save {everything:g} {limit.unit}{alone}, which reaches --fail-on-cost {limit.text}{on_tiler}")
+            lines.append(
+                f"{file}: fixes save {everything:g} {limit.unit}{alone}, which reaches "
+                f"--fail-on-cost {limit.text}{on_tiler}"
+            )
     return lines
 
 
 def _print_reports(targets: Sequence[Target], outcome: Outcome, arguments: Arguments) -> None:
-    refuse_inputs([path for target in targets if target.path != STDERR for path in paths_of(target)], outcome.result.files)
+    refuse_inputs(
+        [path for target in targets if target.path != STDERR for path in paths_of(target)],
+        outcome.result.files,
+    )
     for target in targets:
         if target.format in TABLE_FORMATS:
             write_tables(target, outcome, arguments)
@@ -210,7 +267,12 @@ def _render(format: str, outcome: Outcome, arguments: Arguments, out: IO[str]) -
         explain_undecided=bool(arguments.get("explain_undecided")),
         docs_url=outcome.settings.docs_url,
     )
-    if arguments.get("statistics") and text and out in (sys.stdout, sys.stderr) and outcome.result.findings:
+    if (
+        arguments.get("statistics")
+        and text
+        and out in (sys.stdout, sys.stderr)
+        and outcome.result.findings
+    ):
         from .report import statistics
         from .report.concise import line
 
@@ -221,4 +283,9 @@ def _render(format: str, outcome: Outcome, arguments: Arguments, out: IO[str]) -
     elif format == "html":
         report_module("check", format).render(outcome.result, out.write, options, outcome.frames)
     else:
-        render(format, outcome.result, out.write, options._replace(statistics=bool(arguments.get("statistics"))))
+        render(
+            format,
+            outcome.result,
+            out.write,
+            options._replace(statistics=bool(arguments.get("statistics"))),
+        )

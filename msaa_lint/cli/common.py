@@ -1,4 +1,6 @@
-"""What the commands share: parsing option values, writing outputs, and ending with the right exit code."""
+"""What the commands share: parsing option values, writing outputs, and ending with the right exit
+code.
+"""
 
 import os
 import re
@@ -31,7 +33,17 @@ if TYPE_CHECKING:
 MAX_RENDER_SIDE = 16384
 """Width and height of a rendered picture, in pixels."""
 
-_OVERRIDES = ("edition", "profile", "fail_on", "fail_on_cost", "fail_confidence", "min_severity", "baseline", "rules", "strict_inputs")
+_OVERRIDES = (
+    "edition",
+    "profile",
+    "fail_on",
+    "fail_on_cost",
+    "fail_confidence",
+    "min_severity",
+    "baseline",
+    "rules",
+    "strict_inputs",
+)
 _SELECTORS = ("select", "extend_select", "ignore")
 
 _quiet = _traceback = False
@@ -57,19 +69,25 @@ def warn(text: str) -> None:
 
 
 def note(text: str) -> None:
-    """Prints a line that is not an error to the standard error stream, unless the command that runs is `--quiet`."""
+    """Prints a line that is not an error to the standard error stream, unless the command that runs
+    is `--quiet`.
+    """
     if not _quiet:
         warn(text)
 
 
 def run_command(
-    command: Callable[[Arguments], int], arguments: Arguments, errors: tuple[type[Exception], ...] = (), terminable: bool = False
+    command: Callable[[Arguments], int],
+    arguments: Arguments,
+    errors: tuple[type[Exception], ...] = (),
+    terminable: bool = False,
 ) -> int:
     """Runs a command and returns its exit code, however it ends.
 
-    Returns 2 for a UsageError, for the given `errors`, whose texts are for the user too, and for any other exception but OutputError
-    unless `--traceback` is given, which raises it; 130 on an interrupt. If `terminable`, SIGTERM, SIGHUP, and SIGQUIT unwind the
-    stack, so that no child process and no temporary file is left.
+    Returns 2 for a UsageError, for the given `errors`, whose texts are for the user too, and for
+    any other exception but OutputError unless `--traceback` is given, which raises it; 130 on an
+    interrupt. If `terminable`, SIGTERM, SIGHUP, and SIGQUIT unwind the stack, so that no child
+    process and no temporary file is left.
     """
     global _quiet, _traceback
     _quiet, _traceback = bool(arguments.get("quiet")), bool(arguments.get("traceback"))
@@ -89,7 +107,9 @@ def run_command(
     except Exception as error:
         if _traceback:
             raise
-        warn(f"internal error: {type(error).__name__}: {str(error)[:300]} (--traceback shows where)")
+        warn(
+            f"internal error: {type(error).__name__}: {str(error)[:300]} (--traceback shows where)"
+        )
         return 2
     finally:
         for number, handler in previous.items():
@@ -100,7 +120,9 @@ def run_command(
 
 @contextmanager
 def internal_errors_of(name: str) -> Iterator[None]:
-    """UsageError, which names the input, for an exception that is a mistake in msaa-lint, unless `--traceback` is given."""
+    """UsageError, which names the input, for an exception that is a mistake in msaa-lint, unless
+    `--traceback` is given.
+    """
     try:
         yield
     except (UsageError, OutputError):
@@ -119,7 +141,9 @@ def _check_current_folder() -> None:
 
 
 def _unwind_on_signals() -> dict[int, Any]:
-    """Makes signals that would end the process raise SystemExit. Returns the previous handlers; none in a thread, which cannot set any."""
+    """Makes signals that would end the process raise SystemExit. Returns the previous handlers;
+    none in a thread, which cannot set any.
+    """
     import signal
 
     previous: dict[int, Any] = {}
@@ -144,8 +168,10 @@ def _unwind_on_signals() -> dict[int, Any]:
 
 
 def parse_outputs(texts: Sequence[str], formats: Sequence[str], example: str) -> list[Target]:
-    """The targets that values of `--output` name. UsageError for an unknown format, and if two go to standard output; `example` is a value
-    with a file, and if the extra `html` is not installed but needed."""
+    """The targets that values of `--output` name. UsageError for an unknown format, and if two go
+    to standard output; `example` is a value with a file, and if the extra `html` is not installed
+    but needed.
+    """
     targets = []
     for text in texts:
         name, equals, path = text.partition("=")
@@ -153,16 +179,23 @@ def parse_outputs(texts: Sequence[str], formats: Sequence[str], example: str) ->
             from msaa_lint.core.suggestions import near_or_all
 
             raise UsageError(f"unknown output format {quoted(name)}: {near_or_all(name, formats)}")
-        targets.append(Target(name, path if equals and path not in ("", "-", "/dev/stdout") else None))
+        targets.append(
+            Target(name, path if equals and path not in ("", "-", "/dev/stdout") else None)
+        )
     if find_spec("jinja2") is None and any(target.format == "html" for target in targets):
         raise UsageError(needs_extra("--output html", "html"))
     if sum(target.path is None for target in targets) > 1:
-        raise UsageError(f"only one output can go to standard output; write the others to files, as in --output {example}")
+        raise UsageError(
+            f"only one output can go to standard output; write the others to files, as in --output "
+            f"{example}"
+        )
     return targets
 
 
 def refuse_inputs(outputs: Iterable[str | None], inputs: Sequence[str]) -> None:
-    """UsageError if two outputs would go to the same file, or one would replace an input. None is standard output."""
+    """UsageError if two outputs would go to the same file, or one would replace an input. None is
+    standard output.
+    """
     paths = [path for path in outputs if path is not None]
     places = list(map(_place, paths))
     for number, (path, place) in enumerate(zip(paths, places, strict=True)):
@@ -171,7 +204,9 @@ def refuse_inputs(outputs: Iterable[str | None], inputs: Sequence[str]) -> None:
         if place in places[:number]:
             raise UsageError(f"two outputs go to {path}; write each to a file of its own")
         if os.path.isfile(path) and any(_is_same_file(path, each) for each in inputs):
-            raise UsageError(f"{path} is an input, which the output would replace; write it to another file")
+            raise UsageError(
+                f"{path} is an input, which the output would replace; write it to another file"
+            )
 
 
 def _place(path: str) -> str:
@@ -190,7 +225,9 @@ def _is_same_file(path: str, other: str) -> bool:
 
 
 def write_output(path: str | None, render: Callable[[IO[str]], object]) -> None:
-    """Calls `render` with a file, or standard output, opened for UTF-8. UsageError if a file cannot be written."""
+    """Calls `render` with a file, or standard output, opened for UTF-8. UsageError if a file cannot
+    be written.
+    """
     if path is None:
         render(sys.stdout)
         sys.stdout.flush()
@@ -201,7 +238,9 @@ def write_output(path: str | None, render: Callable[[IO[str]], object]) -> None:
 
 @contextmanager
 def writes(path: str) -> Iterator[None]:
-    """UsageError for an OSError: `path` cannot be written. OutputError if it is a pipe whose reader is gone."""
+    """UsageError for an OSError: `path` cannot be written. OutputError if it is a pipe whose reader
+    is gone.
+    """
     try:
         yield
     except BrokenPipeError:
@@ -211,7 +250,9 @@ def writes(path: str) -> Iterator[None]:
 
 
 def write_figure(path: str, option: str, figure: Callable[[], dict[str, Any]]) -> None:
-    """Writes a figure in the format of a file. UsageError if it cannot be written, or the extra `chart` is not installed."""
+    """Writes a figure in the format of a file. UsageError if it cannot be written, or the extra
+    `chart` is not installed.
+    """
     from .report.figure import draw
 
     format = figure_format(path, option)
@@ -226,8 +267,13 @@ def write_figure(path: str, option: str, figure: Callable[[], dict[str, Any]]) -
 
 
 def require_figures(option: str, format: str = "svg") -> None:
-    """UsageError if what figures of a format need is not installed: the extra `chart`, of which JSON needs altair alone."""
-    if any(find_spec(package) is None for package in ("altair", *(["vl_convert"] if format != "json" else []))):
+    """UsageError if what figures of a format need is not installed: the extra `chart`, of which
+    JSON needs altair alone.
+    """
+    if any(
+        find_spec(package) is None
+        for package in ("altair", *(["vl_convert"] if format != "json" else []))
+    ):
         raise UsageError(needs_extra(option, "chart"))
 
 
@@ -237,15 +283,21 @@ def figure_format(path: str, option: str) -> str:
 
     extension = os.path.splitext(path)[1].lower()
     if extension[1:] not in FORMATS:
-        raise UsageError(f"`{option}` must be the name of an .svg, .png, or .json file, found {quoted(path)}")
+        raise UsageError(
+            f"`{option}` must be the name of an .svg, .png, or .json file, found {quoted(path)}"
+        )
     return extension[1:]
 
 
 def parse_size(text: str, limit: int) -> tuple[int, int]:
-    """Width and height in pixels of `1920x1080`. UsageError for anything else, and for a side above `limit`."""
+    """Width and height in pixels of `1920x1080`. UsageError for anything else, and for a side above
+    `limit`.
+    """
     found = re.fullmatch(r"0*([1-9][0-9]{0,18})[xX]0*([1-9][0-9]{0,18})", text)
     if found is None:
-        raise UsageError(f"`--size` must be WIDTHxHEIGHT in pixels, as in 1920x1080; found {quoted(text)}")
+        raise UsageError(
+            f"`--size` must be WIDTHxHEIGHT in pixels, as in 1920x1080; found {quoted(text)}"
+        )
     width, height = int(found[1]), int(found[2])
     if max(width, height) > limit:
         raise UsageError(f"`--size` must be at most {limit}x{limit}; found {quoted(text)}")
@@ -253,14 +305,19 @@ def parse_size(text: str, limit: int) -> tuple[int, int]:
 
 
 def parse_list(text: str, option: str, choices: Mapping[str, Value]) -> list[Value]:
-    """The values of a comma-separated list. UsageError for a word that is not one of the `choices`."""
+    """The values of a comma-separated list. UsageError for a word that is not one of the
+    `choices`.
+    """
     words = [word.strip() for word in text.split(",")]
     for word in words:
         if word not in choices:
             from msaa_lint.core.suggestions import did_you_mean
 
             hint = did_you_mean(word, choices)
-            raise UsageError(f"`{option}` must be a comma-separated list of {', '.join(choices)}; found {quoted(text)}{hint}")
+            raise UsageError(
+                f"`{option}` must be a comma-separated list of {', '.join(choices)}; found "
+                f"{quoted(text)}{hint}"
+            )
     return [choices[word] for word in words]
 
 
@@ -269,7 +326,9 @@ def overrides(arguments: Arguments) -> dict[str, Any]:
     settings = {name: arguments[name] for name in _OVERRIDES if name in arguments}
     for name in _SELECTORS:
         if name in arguments:
-            settings[name] = [word.strip() for text in arguments[name] for word in text.split(",") if word.strip()]
+            settings[name] = [
+                word.strip() for text in arguments[name] for word in text.split(",") if word.strip()
+            ]
     if arguments.get("no_respect_gitignore"):
         settings["respect_gitignore"] = False
     return settings
@@ -283,7 +342,9 @@ def log(arguments: Arguments) -> Callable[[str], None] | None:
 def require_engine(arguments: Arguments) -> None:
     """UsageError for the address of a cluster without its engine."""
     if "cluster" in arguments and "backend" not in arguments:
-        raise UsageError("`--cluster` needs the engine of the cluster: `--backend dask` or `--backend ray`")
+        raise UsageError(
+            "`--cluster` needs the engine of the cluster: `--backend dask` or `--backend ray`"
+        )
 
 
 def division(arguments: Arguments) -> "Division":
@@ -310,9 +371,12 @@ def input_options(arguments: Arguments) -> dict[str, Any]:
     }
 
 
-def report_options(arguments: Arguments, out: IO[str], *, color: bool = True, width: int = 80) -> Options:
-    """How to print to a stream: in color and with links only if `color` is true, `width` cells unless COLUMNS or a terminal states another
-    number."""
+def report_options(
+    arguments: Arguments, out: IO[str], *, color: bool = True, width: int = 80
+) -> Options:
+    """How to print to a stream: in color and with links only if `color` is true, `width` cells
+    unless COLUMNS or a terminal states another number.
+    """
     colored = color and use_color(arguments.get("color", "auto"), out.isatty())
     return Options(
         color=colored,
@@ -331,16 +395,27 @@ def output_width(out: IO[str], width: int = 80) -> int:
 
         return shutil.get_terminal_size().columns or width
     columns = os.environ.get("COLUMNS", "")
-    return int(columns) if columns.isascii() and columns.isdigit() and len(columns) < 6 and int(columns) else width
+    return (
+        int(columns)
+        if columns.isascii() and columns.isdigit() and len(columns) < 6 and int(columns)
+        else width
+    )
 
 
 def report_module(command: str, format: str) -> Any:
-    """The module that prints a command's result in a format. It is imported only if it prints: tables take rich, pages jinja2."""
-    return import_module(f".report.html.{command}" if format == "html" else f".report.{command}_{format}", __package__)
+    """The module that prints a command's result in a format. It is imported only if it prints:
+    tables take rich, pages jinja2.
+    """
+    return import_module(
+        f".report.html.{command}" if format == "html" else f".report.{command}_{format}",
+        __package__,
+    )
 
 
 def use_color(mode: str, terminal: bool) -> bool:
-    """Whether to use color: by `--color`, else by NO_COLOR (no-color.org), FORCE_COLOR, and CLICOLOR_FORCE, else on a terminal that can."""
+    """Whether to use color: by `--color`, else by NO_COLOR (no-color.org), FORCE_COLOR, and
+    CLICOLOR_FORCE, else on a terminal that can.
+    """
     if mode != "auto":
         return mode == "always"
     if os.environ.get("NO_COLOR"):

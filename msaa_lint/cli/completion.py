@@ -1,4 +1,6 @@
-"""The values that a shell completes, with a word on each: what the tables of `options` name as `values`."""
+"""The values that a shell completes, with a word on each: what the tables of `options` name as
+`values`.
+"""
 
 from collections.abc import Iterable
 

@@ -59,7 +59,9 @@ class ConfirmOptions(NamedTuple):
 
 
 def confirm(arguments: Arguments) -> int:
-    """Renders what the arguments name on a device and prints the verdicts; returns the exit code."""
+    """Renders what the arguments name on a device and prints the verdicts; returns the exit
+    code.
+    """
     return run_command(_confirm, arguments, (NotWritten, Unusable, NoCluster), terminable=True)
 
 
@@ -86,14 +88,23 @@ def parse_options(arguments: Arguments) -> ConfirmOptions:
         raise UsageError("`--time` and `--no-time` contradict each other: write one of them")
     samples = arguments.get("samples")
     if samples is not None and samples not in COUNTS:
-        raise UsageError(f"`--samples` must be one of {', '.join(map(str, COUNTS))}; found `{samples}`")
+        raise UsageError(
+            f"`--samples` must be one of {', '.join(map(str, COUNTS))}; found `{samples}`"
+        )
     return ConfirmOptions(
-        parse_outputs(arguments.get("output", ()), PAGE_FORMATS, "json=confirm.json") or [Target("full", None)],
+        parse_outputs(arguments.get("output", ()), PAGE_FORMATS, "json=confirm.json")
+        or [Target("full", None)],
         list(dict.fromkeys(arguments.get("device", ()))) or [None],
-        Limits(seconds=_parse_seconds(arguments["timeout"])) if "timeout" in arguments else Limits(),
+        Limits(seconds=_parse_seconds(arguments["timeout"]))
+        if "timeout" in arguments
+        else Limits(),
         not arguments.get("no_layer"),
         {
-            **{name: arguments[name] for name in ("image", "force", "repeats", "samples", "resolves") if name in arguments},
+            **{
+                name: arguments[name]
+                for name in ("image", "force", "repeats", "samples", "resolves")
+                if name in arguments
+            },
             "gate": not arguments.get("no_gate"),
             "time": True if arguments.get("time") else False if arguments.get("no_time") else None,
             "size": parse_size(arguments["size"], MAX_RENDER_SIDE) if "size" in arguments else None,
@@ -107,12 +118,16 @@ def _parse_seconds(text: str) -> float:
     except ValueError:
         seconds = math.nan
     if not 0 < seconds <= 86400:
-        raise UsageError(f"`--timeout` must be seconds, above 0 and at most a day (86400); found {quoted(text)}")
+        raise UsageError(
+            f"`--timeout` must be seconds, above 0 and at most a day (86400); found {quoted(text)}"
+        )
     return seconds
 
 
 def _is_divided(arguments: Arguments, options: ConfirmOptions) -> bool:
-    """Whether other processes try the inputs: not if times are measured, or lines are printed in the order in which inputs are tried."""
+    """Whether other processes try the inputs: not if times are measured, or lines are printed in
+    the order in which inputs are tried.
+    """
     backend, _, jobs = division(arguments)
     time = options.trial["time"]
     if backend is not None and time:
@@ -121,7 +136,10 @@ def _is_divided(arguments: Arguments, options: ConfirmOptions) -> bool:
         return False
     if backend is not None:
         return True
-    return (jobs or 1) > 1 and (time is False or (not time and all(map(_is_software, map(options.session, options.devices)))))
+    return (jobs or 1) > 1 and (
+        time is False
+        or (not time and all(map(_is_software, map(options.session, options.devices))))
+    )
 
 
 def _is_software(device: SessionOptions) -> bool:
@@ -138,7 +156,9 @@ def _run_divided(arguments: Arguments, options: ConfirmOptions) -> int:
 
     devices = list(map(options.session, options.devices))
     runs, read = divided_trials(_request(arguments), devices, _trial_options(arguments, options))
-    if options.trial["time"] is None and any(run.device is not None and not run.device.software for run in runs):
+    if options.trial["time"] is None and any(
+        run.device is not None and not run.device.software for run in runs
+    ):
         note("times are not measured by the workers of a cluster")
     return _report(arguments, options, runs, read)
 
@@ -153,7 +173,12 @@ def _trial_options(arguments: Arguments, options: ConfirmOptions) -> TrialOption
     from msaa_lint.experiments.confirm.trial import TrialOptions
 
     shows = any(target.format == "html" for target in options.targets)
-    return TrialOptions(**options.trial, several=len(options.devices) > 1, shows=shows, traceback=bool(arguments.get("traceback")))
+    return TrialOptions(
+        **options.trial,
+        several=len(options.devices) > 1,
+        shows=shows,
+        traceback=bool(arguments.get("traceback")),
+    )
 
 
 def _run(arguments: Arguments, options: ConfirmOptions, session: Session) -> int:
@@ -176,7 +201,9 @@ def _run(arguments: Arguments, options: ConfirmOptions, session: Session) -> int
     return _report(arguments, options, runs, read[0])
 
 
-def _report(arguments: Arguments, options: ConfirmOptions, runs: Sequence[DeviceRun], read: Inputs) -> int:
+def _report(
+    arguments: Arguments, options: ConfirmOptions, runs: Sequence[DeviceRun], read: Inputs
+) -> int:
     """Writes the reports, and returns the exit code."""
     _, errors, notes, docs_url = read
     for text in notes:
@@ -190,7 +217,9 @@ def _report(arguments: Arguments, options: ConfirmOptions, runs: Sequence[Device
             for line in printed.splitlines():
                 warn(f"driver or layer: {line}")
     for target in options.targets:
-        write_output(target.path, partial(_render, target.format, runs, errors, docs_url, arguments))
+        write_output(
+            target.path, partial(_render, target.format, runs, errors, docs_url, arguments)
+        )
     return exit_code(runs, bool(errors))
 
 
@@ -201,8 +230,17 @@ def _import_rich() -> None:
     import rich.table  # noqa: F401
 
 
-def _render(format: str, runs: Sequence[DeviceRun], errors: Sequence[Any], docs_url: str, arguments: Arguments, out: IO[str]) -> None:
-    report_module("confirm", format).render(runs, errors, out.write, report_options(arguments, out)._replace(docs_url=docs_url))
+def _render(
+    format: str,
+    runs: Sequence[DeviceRun],
+    errors: Sequence[Any],
+    docs_url: str,
+    arguments: Arguments,
+    out: IO[str],
+) -> None:
+    report_module("confirm", format).render(
+        runs, errors, out.write, report_options(arguments, out)._replace(docs_url=docs_url)
+    )
 
 
 def _list_devices(options: ConfirmOptions) -> int:
@@ -210,9 +248,21 @@ def _list_devices(options: ConfirmOptions) -> int:
     with Session(limits=options.limits, execute="msaa_lint.experiments.confirm.devices") as session:
         devices = [about(device) for device in session.devices()]
     if any(target.format == "json" for target in options.targets):
-        print(dump_indented({"schema": "msaa-lint/confirm-devices-v1", "devices": [device._asdict() for device in devices]}))
+        print(
+            dump_indented(
+                {
+                    "schema": "msaa-lint/confirm-devices-v1",
+                    "devices": [device._asdict() for device in devices],
+                }
+            )
+        )
         return 0
     for device in devices:
-        words = [device.name, f"Vulkan {device.api_version}", device.type.lower().replace("_", " "), device.driver]
+        words = [
+            device.name,
+            f"Vulkan {device.api_version}",
+            device.type.lower().replace("_", " "),
+            device.driver,
+        ]
         print(escape(", ".join(word for word in words if word)))
     return 0

@@ -1,4 +1,6 @@
-"""What inputs are converted to: descriptions, the shader modules that they name, and lines for the user."""
+"""What inputs are converted to: descriptions, the shader modules that they name, and lines for the
+user.
+"""
 
 from __future__ import annotations
 
@@ -20,8 +22,9 @@ from .report.escape import escape
 class Conversion(NamedTuple):
     """What an input is converted to.
 
-    `text` is the description, None if there is none, and `modules` are the shader modules that it names. `notes` and `errors` are lines for
-    the user. `has_nothing` says that there is nothing to convert in the input, which is an error only of an input that is named.
+    `text` is the description, None if there is none, and `modules` are the shader modules that it
+    names. `notes` and `errors` are lines for the user. `has_nothing` says that there is nothing to
+    convert in the input, which is an error only of an input that is named.
     """
 
     text: str | None = None
@@ -32,13 +35,20 @@ class Conversion(NamedTuple):
 
 
 def converted(name: str, data: bytes | CaptureInput | SourceFile, format: str | None) -> Conversion:
-    """What the contents of an input are converted to. Raises Unreadable for a text that is not UTF-8."""
+    """What the contents of an input are converted to. Raises Unreadable for a text that is not
+    UTF-8.
+    """
     if isinstance(data, bytes):
         return _of_text(name, data, format)
     if isinstance(data, SourceFile):
         return of_programs([data])
     notes = (*data.notes, *(f"{name}: limit exceeded: {limit}" for limit, _ in data.limits))
-    return Conversion(data.source.text, data.modules, notes, (f"{name}: the capture is truncated: {data.broken}",) if data.broken else ())
+    return Conversion(
+        data.source.text,
+        data.modules,
+        notes,
+        (f"{name}: the capture is truncated: {data.broken}",) if data.broken else (),
+    )
 
 
 def of_programs(files: Sequence[SourceFile]) -> Conversion:
@@ -46,7 +56,10 @@ def of_programs(files: Sequence[SourceFile]) -> Conversion:
     described = [code for code in files if code.description]
     notes = [text for code in described or files[:1] for text in _notes(code)]
     if not described:
-        errors = [f"{names(code)}: found no attachment, image, pipeline, or sample count" for code in files[:1]]
+        errors = [
+            f"{names(code)}: found no attachment, image, pipeline, or sample count"
+            for code in files[:1]
+        ]
         return Conversion(notes=notes, errors=errors, has_nothing=True)
     modules = {name: module for code in described for name, module in code.modules.items()}
     return Conversion("---\n".join(map(_description, described)), modules, notes)
@@ -60,20 +73,38 @@ def _of_text(name: str, data: bytes, format: str | None) -> Conversion:
     parsed = parse(source, Limits())
     documents = [readers.read(source, root, format) for root in parsed.documents]
     problems = [(problem.code, problem.message, problem.span) for problem in parsed.problems]
-    problems += [(problem.code, problem.message, problem.span) for document in documents for problem in document.problems]
+    problems += [
+        (problem.code, problem.message, problem.span)
+        for document in documents
+        for problem in document.problems
+    ]
     if problems:
         places = [source.position(span.start) for _, _, span in problems]
         lines = zip(problems, places, strict=True)
-        return Conversion(errors=[f"{name}:{line}:{column}: {message} ({code})" for (code, message, _), (line, column) in lines])
+        return Conversion(
+            errors=[
+                f"{name}:{line}:{column}: {message} ({code})"
+                for (code, message, _), (line, column) in lines
+            ]
+        )
     if all(document.tree is None for document in documents):
-        return Conversion(errors=[f"{name}: nothing to convert: `check` reads this input directly"], has_nothing=True)
-    trees = [document.tree if document.tree is not None else root for document, root in zip(documents, parsed.documents, strict=True)]
+        return Conversion(
+            errors=[f"{name}: nothing to convert: `check` reads this input directly"],
+            has_nothing=True,
+        )
+    trees = [
+        document.tree if document.tree is not None else root
+        for document, root in zip(documents, parsed.documents, strict=True)
+    ]
     return Conversion("---\n".join(map(emit, trees)))
 
 
 def _description(code: SourceFile) -> str:
     """The description of a program, and where it is from."""
-    return f"# Read from {escape(names(code))}; what it does not state is left out.\n{code.description}"
+    return (
+        f"# Read from {escape(names(code))}; what it does not state is left out.\n"
+        f"{code.description}"
+    )
 
 
 def _notes(code: SourceFile) -> list[str]:
@@ -97,7 +128,9 @@ class ConvertLinter:
         found = Conversion()
         with self.workspace.reading(unit) as read, self.workspace.guard(input_path(unit)):
             found = self._converted(unit)
-        problems = [finding_line(finding) for finding in dict.fromkeys(read.findings) if finding.fatal]
+        problems = [
+            finding_line(finding) for finding in dict.fromkeys(read.findings) if finding.fatal
+        ]
         return found._replace(errors=[*problems, *found.errors])
 
     def known(self, units: Sequence[Unit]) -> Mapping[int, Conversion]:
@@ -110,7 +143,11 @@ class ConvertLinter:
 
     def failed(self, unit: Unit, reason: str) -> Conversion:
         """What an input is converted to that ended the processes that read it."""
-        return Conversion(errors=[f"{self.workspace.request.input_name(input_path(unit))}: not converted: {reason}"])
+        return Conversion(
+            errors=[
+                f"{self.workspace.request.input_name(input_path(unit))}: not converted: {reason}"
+            ]
+        )
 
     def travelling(self) -> Callable[[Workspace], ConvertLinter]:
         """Creates such a linter in another process."""
@@ -121,12 +158,22 @@ class ConvertLinter:
         if isinstance(unit, str):
             file = workspace.open(unit)
             try:
-                return converted(file.name, file.data, workspace.request.format) if file is not None else Conversion()
+                return (
+                    converted(file.name, file.data, workspace.request.format)
+                    if file is not None
+                    else Conversion()
+                )
             except Unreadable as error:
                 return Conversion(errors=[f"{workspace.request.input_name(unit)}: {error}"])
         together = workspace.open_program(unit)
-        files = [together] if together is not None else [workspace.open(path) for path in unit.inputs if path not in workspace.failed]
-        return of_programs([file.data for file in files if file is not None and isinstance(file.data, SourceFile)])
+        files = (
+            [together]
+            if together is not None
+            else [workspace.open(path) for path in unit.inputs if path not in workspace.failed]
+        )
+        return of_programs(
+            [file.data for file in files if file is not None and isinstance(file.data, SourceFile)]
+        )
 
 
 def input_path(unit: Unit) -> str:

@@ -1,4 +1,6 @@
-"""`msaa-lint convert`: a capture, source code, or a frame in other terms as a description to read, edit, fix, and confirm."""
+"""`msaa-lint convert`: a capture, source code, or a frame in other terms as a description to read,
+edit, fix, and confirm.
+"""
 
 from __future__ import annotations
 
@@ -19,7 +21,17 @@ from msaa_lint.linter.source_programs import units_of
 from msaa_lint.linter.unit_parts import parts
 from msaa_lint.linter.workspace import Unit, Workspace
 
-from .common import UsageError, input_options, internal_errors_of, note, refuse_inputs, run_command, warn, write_output, writes
+from .common import (
+    UsageError,
+    input_options,
+    internal_errors_of,
+    note,
+    refuse_inputs,
+    run_command,
+    warn,
+    write_output,
+    writes,
+)
 from .conversion import Conversion, ConvertLinter, converted, input_path, of_programs
 from .options import Arguments
 from .programs import are_programs, assumed_values, finding_line, read_programs
@@ -38,23 +50,37 @@ def _convert(arguments: Arguments) -> int:
     if are_programs(arguments):
         return convert_programs(arguments, output, force)
     if len(arguments["paths"]) > 1:
-        raise UsageError("only source code is converted together; write other descriptions to a folder, as in -o descriptions/")
+        raise UsageError(
+            "only source code is converted together; write other descriptions to a folder, as in "
+            "-o descriptions/"
+        )
     (path,) = arguments["paths"]
-    return convert_input(path, output, arguments.get("input_format"), force, arguments.get("frame_end"))
+    return convert_input(
+        path, output, arguments.get("input_format"), force, arguments.get("frame_end")
+    )
 
 
-def convert_input(path: str, output: str | None, format: str | None, force: bool, frame_end: str | None = None) -> int:
-    """Writes the description to a file, with the shader modules that it names in `shaders/` next to it, or prints it.
+def convert_input(
+    path: str, output: str | None, format: str | None, force: bool, frame_end: str | None = None
+) -> int:
+    """Writes the description to a file, with the shader modules that it names in `shaders/` next to
+    it, or prints it.
 
-    Returns 2 if the input cannot be read, has mistakes, or is a plain description already; and if a capture is truncated, whose readable
-    part is still written.
+    Returns 2 if the input cannot be read, has mistakes, or is a plain description already; and if a
+    capture is truncated, whose readable part is still written.
     """
     name = "<stdin>" if path == "-" else path
     if output is not None:
         refuse_inputs([output], [path])
     with internal_errors_of(name):
         try:
-            found = converted(name, load(path, Limits(), format=format, frame_end=frame_end, assumed=assumed_values(path)), format)
+            found = converted(
+                name,
+                load(
+                    path, Limits(), format=format, frame_end=frame_end, assumed=assumed_values(path)
+                ),
+                format,
+            )
         except (OSError, Unreadable) as error:
             warn(f"{name}: {getattr(error, 'strerror', None) or error}")
             return 2
@@ -62,29 +88,41 @@ def convert_input(path: str, output: str | None, format: str | None, force: bool
 
 
 def convert_programs(arguments: Arguments, output: str | None, force: bool) -> int:
-    """Writes the descriptions of the programs in folders and source files, as `convert_input` does."""
+    """Writes the descriptions of the programs in folders and source files, as `convert_input`
+    does.
+    """
     programs = read_programs(arguments)
     if output is not None:
-        refuse_inputs([output], [file.source.name for code in programs.files for file in code.files])
+        refuse_inputs(
+            [output], [file.source.name for code in programs.files for file in code.files]
+        )
     for line in programs.errors:
         warn(line)
     if programs.others:
-        left_out = f"{plural(len(programs.others), 'input')} that is not source code is left out, the first one {programs.others[0]}"
+        left_out = (
+            f"{plural(len(programs.others), 'input')} that is not source code is left out, "
+            f"the first one {programs.others[0]}"
+        )
         note(f"{left_out}; -o FOLDER/ writes a description of each")
     code = _finish(of_programs(programs.files), output, force)
     return 2 if programs.errors else code
 
 
 def convert_each(arguments: Arguments, folder: str, force: bool) -> int:
-    """Writes a description of each input and each program to a folder, and shader modules next to it.
+    """Writes a description of each input and each program to a folder, and shader modules next to
+    it.
 
-    Returns 2 if one of them could not be converted; the others are. An input in which there is nothing to convert is left out, unless it is
-    named.
+    Returns 2 if one of them could not be converted; the others are. An input in which there is
+    nothing to convert is left out, unless it is named.
     """
     workspace = Workspace(Request(**input_options(arguments)))
     planned = _planned(workspace, arguments["paths"], folder, force)
     waiting = [each.unit for each in planned if not each.problem]
-    found = parts(ConvertLinter(workspace), waiting, ALONE if workspace.request.traceback else workspace.request.division)
+    found = parts(
+        ConvertLinter(workspace),
+        waiting,
+        ALONE if workspace.request.traceback else workspace.request.division,
+    )
     written, failed, left_out = 0, False, []
     for each in planned:
         conversion = Conversion(errors=[each.problem]) if each.problem else next(found)
@@ -101,11 +139,16 @@ def convert_each(arguments: Arguments, folder: str, force: bool) -> int:
             warn(str(error))
             failed = True
     workspace.close()
-    for line in dict.fromkeys(finding_line(finding) for finding in workspace.findings if finding.fatal):
+    for line in dict.fromkeys(
+        finding_line(finding) for finding in workspace.findings if finding.fatal
+    ):
         warn(line)
         failed = True
     if left_out:
-        note(f"{plural(len(left_out), 'input')} left out, with nothing to convert, the first one {left_out[0]}")
+        note(
+            f"{plural(len(left_out), 'input')} left out, with nothing to convert, the first one "
+            f"{left_out[0]}"
+        )
     note(f"{plural(written, 'description')} written to {folder}")
     return 2 if failed else 0
 
@@ -118,14 +161,20 @@ class _Planned(NamedTuple):
     problem: str
 
 
-def _planned(workspace: Workspace, named: Sequence[str], folder: str, force: bool) -> list[_Planned]:
-    """The inputs and programs that paths name, in their order. Descriptions that an earlier run wrote of them are not inputs."""
+def _planned(
+    workspace: Workspace, named: Sequence[str], folder: str, force: bool
+) -> list[_Planned]:
+    """The inputs and programs that paths name, in their order. Descriptions that an earlier run
+    wrote of them are not inputs.
+    """
     discovered = workspace.discover(sources=True)
     for text in discovered.notes:
         note(text)
     folders = [name for name in map(name_of, named) if is_url(name) or os.path.isdir(name)]
     units = units_of(discovered.files, workspace.programs(discovered))
-    targets = {unit: os.path.join(folder, _description_name(input_path(unit), folders)) for unit in units}
+    targets = {
+        unit: os.path.join(folder, _description_name(input_path(unit), folders)) for unit in units
+    }
     outputs = set(map(os.path.abspath, targets.values()))
     planned: list[_Planned] = []
     first: dict[str, str] = {}
@@ -134,9 +183,15 @@ def _planned(workspace: Workspace, named: Sequence[str], folder: str, force: boo
         if os.path.abspath(path) in outputs:
             if workspace.project(path) is not None:
                 continue
-            problem = f"{path} is an input, and the description of another one; write that to another folder"
+            problem = (
+                f"{path} is an input, and the description of another one; write that to "
+                f"another folder"
+            )
         elif target in first:
-            problem = f"{path}: its description and that of {first[target]} would both be {target}; write one to another folder"
+            problem = (
+                f"{path}: its description and that of {first[target]} would both be "
+                f"{target}; write one to another folder"
+            )
         elif os.path.lexists(target) and not force:
             problem = f"{target} already exists; --force overwrites it"
         first.setdefault(target, path)
@@ -145,18 +200,26 @@ def _planned(workspace: Workspace, named: Sequence[str], folder: str, force: boo
 
 
 def _description_name(path: str, folders: Sequence[str]) -> str:
-    """The path of the description of an input, in the folder of descriptions: the input's in the folder that is named, or in the current
-    one. It depends on no other input."""
+    """The path of the description of an input, in the folder of descriptions: the input's in the
+    folder that is named, or in the current one. It depends on no other input.
+    """
     if path == STDIN:
         return "stdin" + DESCRIPTIONS[0]
-    names = [os.path.relpath(path, folder) for folder in folders] + [os.path.relpath(path.partition("://")[2] if is_url(path) else path)]
+    names = [os.path.relpath(path, folder) for folder in folders] + [
+        os.path.relpath(path.partition("://")[2] if is_url(path) else path)
+    ]
     # A storage may have objects with any name.
-    inside = next((name for name in names if name != os.curdir and name.split(os.sep)[0] != os.pardir), os.path.basename(path))
+    inside = next(
+        (name for name in names if name != os.curdir and name.split(os.sep)[0] != os.pardir),
+        os.path.basename(path),
+    )
     return inside + DESCRIPTIONS[0]
 
 
 def _finish(found: Conversion, output: str | None, force: bool) -> int:
-    """Writes a description, or prints it, and prints the lines for the user. Returns 2 if not all of the input was converted."""
+    """Writes a description, or prints it, and prints the lines for the user. Returns 2 if not all
+    of the input was converted.
+    """
     if found.text is not None:
         _write(found.text, found.modules, output, force)
     for text in found.notes:
@@ -171,7 +234,10 @@ def _write(text: str, modules: Mapping[str, bytes], output: str | None, force: b
     if output in (None, "-", "/dev/stdout"):
         write_output(None, lambda out: out.write(text))
         if modules:
-            note(f"{plural(len(modules), 'shader')} not written; -o FILE writes shaders next to the description")
+            note(
+                f"{plural(len(modules), 'shader')} not written; -o FILE writes shaders next to the "
+                f"description"
+            )
         return
     if (os.path.isfile(output) or os.path.islink(output)) and not force:
         raise UsageError(f"{output} already exists; --force overwrites it")

@@ -44,14 +44,22 @@ MAX_SIDE = 2**31 - 1
 
 
 def cost(arguments: Arguments) -> int:
-    """Prints what inputs cost; returns 0, or 2 if an input, an option, or the configuration cannot be used."""
+    """Prints what inputs cost; returns 0, or 2 if an input, an option, or the configuration cannot
+    be used.
+    """
     return run_command(_cost, arguments, (Unusable, SpoolError), terminable="backend" in arguments)
 
 
 def _cost(arguments: Arguments) -> int:
-    targets = parse_outputs(arguments.get("output", ()), COST_FORMATS, "markdown=cost.md") or [Target("full", None)]
+    targets = parse_outputs(arguments.get("output", ()), COST_FORMATS, "markdown=cost.md") or [
+        Target("full", None)
+    ]
     terms = parse_terms(arguments)
-    counts = parse_list(arguments["samples"], "--samples", {str(n): n for n in COUNTS}) if "samples" in arguments else DEFAULT_COUNTS
+    counts = (
+        parse_list(arguments["samples"], "--samples", {str(n): n for n in COUNTS})
+        if "samples" in arguments
+        else DEFAULT_COUNTS
+    )
     chart = arguments.get("chart")
     if chart is not None:
         figure_format(chart, "--chart")
@@ -73,7 +81,9 @@ def _cost(arguments: Arguments) -> int:
 
 
 def _comparison(result: CostResult, request: Request) -> CostComparison | None:
-    """The comparison of two files; None for other inputs, and if one of the two cannot be used: the other is then shown alone."""
+    """The comparison of two files; None for other inputs, and if one of the two cannot be used: the
+    other is then shown alone.
+    """
     if len(request.paths) != 2 or any(os.path.isdir(path) for path in request.paths):
         return None
     old, new = (request.input_name(path) if path == "-" else shown(path) for path in request.paths)
@@ -82,13 +92,18 @@ def _comparison(result: CostResult, request: Request) -> CostComparison | None:
 
 
 def _require_figures(comparison: CostComparison) -> None:
-    """UsageError if what a pass of the two inputs costs is unknown: a difference between lower bounds says nothing."""
+    """UsageError if what a pass of the two inputs costs is unknown: a difference between lower
+    bounds says nothing.
+    """
     for frame in (*comparison.old, *comparison.new):
         for costs in frame.cost.passes:
             if costs.unknown:
                 reasons = "; ".join(costs.unknown)
                 option = ", or give --size WxH" if costs.width is None else ""
-                raise UsageError(f"{frame.file}: cannot be compared, because the cost of `{costs.name}` is unknown: {reasons}{option}")
+                raise UsageError(
+                    f"{frame.file}: cannot be compared, because the cost of `{costs.name}` is "
+                    f"unknown: {reasons}{option}"
+                )
 
 
 def parse_terms(arguments: Arguments) -> Terms:
@@ -127,7 +142,13 @@ def _print_errors(errors: Result, arguments: Arguments) -> None:
             print(concise.line(finding, errors, options), file=sys.stderr)
 
 
-def _render(format: str, result: CostResult, comparison: CostComparison | None, arguments: Arguments, out: IO[str]) -> None:
+def _render(
+    format: str,
+    result: CostResult,
+    comparison: CostComparison | None,
+    arguments: Arguments,
+    out: IO[str],
+) -> None:
     options = report_options(arguments, out, color=format == "full")
     report = report_module("cost", format)
     if comparison is not None:
@@ -152,4 +173,8 @@ def _draw_chart(path: str, result: CostResult, comparison: CostComparison | None
         raise UsageError(f"--chart draws one frame, or two that are compared, not {len(frames)}")
     else:
         return
-    write_figure(path, "--chart", partial(cost_chart.chart, bars, title, escape(head(frame.cost)), frame.cost))
+    write_figure(
+        path,
+        "--chart",
+        partial(cost_chart.chart, bars, title, escape(head(frame.cost)), frame.cost),
+    )

@@ -1,4 +1,6 @@
-"""`msaa-lint device`: what a built-in device, a report, or an installed driver supports for multisampling."""
+"""`msaa-lint device`: what a built-in device, a report, or an installed driver supports for
+multisampling.
+"""
 
 from __future__ import annotations
 
@@ -36,7 +38,9 @@ def device(arguments: Arguments) -> int:
 
 
 def _device(arguments: Arguments) -> int:
-    return print_devices(arguments["paths"], arguments.get("output", "text"), bool(arguments.get("list")))
+    return print_devices(
+        arguments["paths"], arguments.get("output", "text"), bool(arguments.get("list"))
+    )
 
 
 def print_devices(stated: Sequence[str], output: Output = "text", listing: bool = False) -> int:
@@ -62,7 +66,9 @@ def print_devices(stated: Sequence[str], output: Output = "text", listing: bool 
 
 
 def _named(name: str) -> list[Offer]:
-    """The devices that an argument names: a built-in one, or all devices of a report unless it picks one; `-` reads standard input."""
+    """The devices that an argument names: a built-in one, or all devices of a report unless it
+    picks one; `-` reads standard input.
+    """
     offer = builtin_offer(name)
     if offer is not None:
         return [offer]
@@ -82,7 +88,10 @@ def _named(name: str) -> list[Offer]:
     if name == "-":
         return [Offer(report) for report in devices]
     several = len(devices) > 1
-    return [Offer(report, f"{path}#{number}" if several else name) for number, report in enumerate(devices, 1)]
+    return [
+        Offer(report, f"{path}#{number}" if several else name)
+        for number, report in enumerate(devices, 1)
+    ]
 
 
 def _usable(answer: Answer | Problem) -> Answer:
@@ -116,11 +125,17 @@ def _installed() -> list[Offer]:
 def _list(output: Output) -> int:
     profiles = {name: profile for name in names() if (profile := builtin(name)) is not None}
     if output == "json":
-        rows = [{"key": key, "name": profile.name, "source": profile.source} for key, profile in profiles.items()]
+        rows = [
+            {"key": key, "name": profile.name, "source": profile.source}
+            for key, profile in profiles.items()
+        ]
         print(dump_indented({"schema": SCHEMA, "profiles": rows}))
         return 0
     columns = [Column("name"), Column("device"), Column("source")]
-    lines = [("", list(map(cell, (key, profile.name, profile.source)))) for key, profile in profiles.items()]
+    lines = [
+        ("", list(map(cell, (key, profile.name, profile.source))))
+        for key, profile in profiles.items()
+    ]
     print_tables(sys.stdout.write, report_options({}, sys.stdout), [Table(columns, lines)])
     return 0
 
@@ -136,4 +151,12 @@ def _print(offers: Sequence[Offer]) -> None:
             ([""], [[line] for line in counts.legend], "dim"),
             (["", ""], words.rows(offer), ""),
         ):
-            print_tables(out, options, [Table(list(map(Column, columns)), [(style, list(map(cell, row))) for row in rows])])
+            print_tables(
+                out,
+                options,
+                [
+                    Table(
+                        list(map(Column, columns)), [(style, list(map(cell, row))) for row in rows]
+                    )
+                ],
+            )

@@ -42,9 +42,12 @@ def print_diff(outcome: Outcome, color: bool) -> bool:
 
 
 def unified_diff(before: str, after: str, name: str, color: bool = False) -> Iterator[str]:
-    """The lines of a unified diff, with line ends. Control characters are escaped, except tabs and the line's own end, and what a CI
-    runner obeys."""
-    lines = difflib.unified_diff(_LINE.findall(before), _LINE.findall(after), f"a/{name}", f"b/{name}")
+    """The lines of a unified diff, with line ends. Control characters are escaped, except tabs and
+    the line's own end, and what a CI runner obeys.
+    """
+    lines = difflib.unified_diff(
+        _LINE.findall(before), _LINE.findall(after), f"a/{name}", f"b/{name}"
+    )
     for number, line in enumerate(lines):
         text = line.rstrip("\r\n")
         end = line[len(text) :]
@@ -59,12 +62,16 @@ def unified_diff(before: str, after: str, name: str, color: bool = False) -> Ite
 def fix_summary(outcome: Outcome, applied: bool, unsafe: bool) -> list[str]:
     """How many findings are fixed and how many remain, then why the others are not fixed."""
     fixed = sum(len(merge(text.fixed_findings, text.result.documents)) for text in outcome.fixed)
-    remaining = sum(not finding.fatal for finding in outcome.result.findings) - (0 if applied else fixed)
+    remaining = sum(not finding.fatal for finding in outcome.result.findings) - (
+        0 if applied else fixed
+    )
     summary = f"{fixed} {'' if applied else 'would be '}fixed, {max(remaining, 0)} remaining"
     lines = [summary if unsafe else summary + _unsafe_hint(outcome.result)]
     for text in outcome.fixed:
         for finding, reason in text.failed_fixes:
-            lines.append(f"{text.file}{_line(text, finding)}: {finding.rule} is not fixed: {reason}")
+            lines.append(
+                f"{text.file}{_line(text, finding)}: {finding.rule} is not fixed: {reason}"
+            )
     return lines
 
 
@@ -76,4 +83,8 @@ def _unsafe_hint(result: Result) -> str:
 
 def _line(text: FixedText, finding: Finding) -> str:
     source = text.result.source
-    return f":{source.position(finding.span.start).line}" if source is not None and finding.span is not None else ""
+    return (
+        f":{source.position(finding.span.start).line}"
+        if source is not None and finding.span is not None
+        else ""
+    )

@@ -1,12 +1,37 @@
-"""Whether a terminal shows text as a link (OSC 8). Others may print the sequence, so only those known to support it count."""
+"""Whether a terminal shows text as a link (OSC 8). Others may print the sequence, so only those
+known to support it count.
+"""
 
 import os
 from typing import IO
 
-_PROGRAMS = frozenset({"Hyper", "iTerm.app", "terminology", "WezTerm", "vscode", "ghostty", "zed", "Tabby", "rio", "mintty"})
+_PROGRAMS = frozenset(
+    {
+        "Hyper",
+        "iTerm.app",
+        "terminology",
+        "WezTerm",
+        "vscode",
+        "ghostty",
+        "zed",
+        "Tabby",
+        "rio",
+        "mintty",
+    }
+)
 """Values of TERM_PROGRAM."""
 
-_TERMINALS = frozenset({"xterm-kitty", "xterm-ghostty", "alacritty", "alacritty-direct", "foot", "foot-direct", "contour"})
+_TERMINALS = frozenset(
+    {
+        "xterm-kitty",
+        "xterm-ghostty",
+        "alacritty",
+        "alacritty-direct",
+        "foot",
+        "foot-direct",
+        "contour",
+    }
+)
 """Values of TERM."""
 
 _VARIABLES = ("DOMTERM", "WT_SESSION", "KONSOLE_VERSION", "KITTY_WINDOW_ID")
@@ -17,7 +42,9 @@ _VTE = 5000
 
 
 def shows_hyperlinks(out: IO[str]) -> bool:
-    """Whether a stream is a terminal that shows links: as FORCE_HYPERLINK states (0: no), else by the variables that terminals set."""
+    """Whether a stream is a terminal that shows links: as FORCE_HYPERLINK states (0: no), else by
+    the variables that terminals set.
+    """
     if not out.isatty() or os.environ.get("TERM") == "dumb":
         return False
     forced = os.environ.get("FORCE_HYPERLINK")

@@ -1,3 +1,4 @@
+# ruff: noqa: E501 - the template is written as it is
 """`msaa-lint init`: writes the first files of a project that adopts the linter."""
 
 from __future__ import annotations
@@ -120,19 +121,31 @@ def _init(arguments: Arguments) -> int:
 
 
 def write_files(folder: str, hints: bool) -> int:
-    """Writes msaa-lint.toml, frame.msaa.yaml, and the schema that it names, except those that exist; prints `hints` on what to do next.
+    """Writes msaa-lint.toml, frame.msaa.yaml, and the schema that it names, except those that
+    exist; prints `hints` on what to do next.
 
     Returns 2 if it cannot.
     """
-    files = {"msaa-lint.toml": CONFIGURATION, "frame.msaa.yaml": DESCRIPTION, SCHEMA: json.dumps(description_schema(), indent=2) + "\n"}
+    files = {
+        "msaa-lint.toml": CONFIGURATION,
+        "frame.msaa.yaml": DESCRIPTION,
+        SCHEMA: json.dumps(description_schema(), indent=2) + "\n",
+    }
     written = set()
     path = folder
     try:
         os.makedirs(folder, exist_ok=True)
         configuration = read_folder(folder)
-        if configuration and configuration.path and os.path.basename(configuration.path) == "pyproject.toml":
+        if (
+            configuration
+            and configuration.path
+            and os.path.basename(configuration.path) == "pyproject.toml"
+        ):
             # msaa-lint.toml would take its place.
-            note(f"{os.path.normpath(configuration.path)} configures msaa-lint: wrote no msaa-lint.toml")
+            note(
+                f"{os.path.normpath(configuration.path)} configures msaa-lint: wrote no "
+                f"msaa-lint.toml"
+            )
             del files["msaa-lint.toml"]
         for name, text in files.items():
             path = os.path.normpath(os.path.join(folder, name))
@@ -149,6 +162,9 @@ def write_files(folder: str, hints: bool) -> int:
         return 0
     if "frame.msaa.yaml" in written:
         frame = shlex.quote(os.path.normpath(os.path.join(folder, "frame.msaa.yaml")))
-        print(f"The frame in {escape(frame)} has a mistake on purpose. To see it:\n\n  msaa-lint check {escape(frame)}\n")
+        print(
+            f"The frame in {escape(frame)} has a mistake on purpose. To see it:\n\n  msaa-lint "
+            f"check {escape(frame)}\n"
+        )
     print(HOOK, end="")
     return 0

@@ -1,7 +1,8 @@
 """What options and commands are, and the options that several commands have.
 
-This module, `commands`, and `arguments` import no library: importing typer (0.29), which imports pydantic, takes 130 ms on a machine where
-Python starts in 14, three times as long as the rest of a run of `check`.
+This module, `commands`, and `arguments` import no library: importing typer (0.29), which imports
+pydantic, takes 130 ms on a machine where Python starts in 14, three times as long as the rest of a
+run of `check`.
 """
 
 from collections.abc import Mapping, Sequence
@@ -27,7 +28,9 @@ INPUT_FORMATS = (
     "asciidoc",
     "rst",
 )
-"""The names in `readers.FORMATS`, `readers.CAPTURES`, and `file_types.LANGUAGES`, so that help and errors import no reader."""
+"""The names in `readers.FORMATS`, `readers.CAPTURES`, and `file_types.LANGUAGES`, so that help and
+errors import no reader.
+"""
 
 CHECK_FORMATS = (*OUTPUT_FORMATS, *TABLE_FORMATS)
 COST_FORMATS = ("full", "json", "markdown", "html")
@@ -41,9 +44,11 @@ Arguments = dict[str, Any]
 
 
 class Option(NamedTuple):
-    """One option. `kind` is flag, text, integer, decimal, or choice; `repeatable` options collect their values in a list.
+    """One option. `kind` is flag, text, integer, decimal, or choice; `repeatable` options collect
+    their values in a list.
 
-    `default` is shown in the help. `values` names what a shell completes the value from: a function of `completion`.
+    `default` is shown in the help. `values` names what a shell completes the value from: a function
+    of `completion`.
     """
 
     name: str
@@ -73,8 +78,9 @@ class Paths(NamedTuple):
 
 
 class Command(NamedTuple):
-    """A command whose module and function have its name. `groups` are its options by heading. No path is required if one of the flags
-    `standalone` is given."""
+    """A command whose module and function have its name. `groups` are its options by heading. No
+    path is required if one of the flags `standalone` is given.
+    """
 
     help: str
     groups: Mapping[str, Sequence[Option]]
@@ -88,13 +94,19 @@ class Command(NamedTuple):
 
 _SELECT = Option("select", "text", "", "RULES", repeatable=True, values="rules")
 SELECTORS = (
-    _SELECT._replace(help="Rules to enable instead of the edition's: names, codes, prefixes (MSAA2), ALL."),
+    _SELECT._replace(
+        help="Rules to enable instead of the edition's: names, codes, prefixes (MSAA2), ALL."
+    ),
     _SELECT._replace(name="extend_select", help="Rules to enable in addition."),
     _SELECT._replace(name="ignore", help="Rules to disable."),
     Option("rules", "text", "Page or folder of custom rules.", "PATH", repeatable=True),
 )
 PROFILE = Option(
-    "profile", "text", "Device, device class, or vendor to assume for captures and inputs that name none.", "NAME", values="profiles"
+    "profile",
+    "text",
+    "Device, device class, or vendor to assume for captures and inputs that name none.",
+    "NAME",
+    values="profiles",
 )
 _STDIN_FILENAME = Option("stdin_filename", "text", "Name to use for standard input.", "NAME")
 CONFIGURATION = (
@@ -107,13 +119,21 @@ CONFIGURATION = (
 
 def input_format(*formats: str) -> Option:
     """`--input-format` with these values."""
-    return Option("input_format", "choice", "Read inputs as this format instead of detecting it.", "FORMAT", choices=formats)
+    return Option(
+        "input_format",
+        "choice",
+        "Read inputs as this format instead of detecting it.",
+        "FORMAT",
+        choices=formats,
+    )
 
 
 def output(*formats: str, default: str = "full") -> Option:
     """`--output` with these formats, each of which may go to a file."""
     help_text = "Output format; with =FILE, written to this file. Repeatable."
-    return Option("output", "text", help_text, "FORMAT[=FILE]", formats, repeatable=True, default=default)
+    return Option(
+        "output", "text", help_text, "FORMAT[=FILE]", formats, repeatable=True, default=default
+    )
 
 
 def text_output(*formats: str) -> Option:
@@ -122,10 +142,22 @@ def text_output(*formats: str) -> Option:
 
 
 FORCE = Option("force", "flag", "Overwrite files that msaa-lint did not write.")
-COLOR = Option("color", "choice", "Color text output.", "WHEN", choices=("auto", "always", "never"), default="auto")
+COLOR = Option(
+    "color",
+    "choice",
+    "Color text output.",
+    "WHEN",
+    choices=("auto", "always", "never"),
+    default="auto",
+)
 GLOBAL = (
     Option("quiet", "flag", "Print results and errors only: no notes, no summary.", short="-q"),
-    Option("verbose", "flag", "Also print which inputs and settings are used, to standard error.", short="-v"),
+    Option(
+        "verbose",
+        "flag",
+        "Also print which inputs and settings are used, to standard error.",
+        short="-v",
+    ),
     Option("traceback", "flag", "Show a traceback if msaa-lint itself fails."),
     Option("help", "flag", "Show this help, and exit.", short="-h"),
 )
@@ -142,16 +174,29 @@ SHARED = (_STDIN_FILENAME, input_format(*INPUT_FORMATS), FRAME_END, *CONFIGURATI
 """Options of `check`, `cost`, `confirm`, and `study`."""
 
 CLUSTER = (
-    Option("backend", "choice", "Let the workers of a cluster do the work.", "NAME", choices=("dask", "ray")),
+    Option(
+        "backend",
+        "choice",
+        "Let the workers of a cluster do the work.",
+        "NAME",
+        choices=("dask", "ray"),
+    ),
     Option(
         "cluster",
         "text",
-        "Address of the cluster; without one, of DASK_SCHEDULER_ADDRESS or RAY_ADDRESS, or one of this machine.",
+        "Address of the cluster; without one, of DASK_SCHEDULER_ADDRESS or RAY_ADDRESS, or one of "
+        "this machine.",
         "ADDRESS",
     ),
 )
 DIVISION = (
-    Option("jobs", "integer", "Inputs to read at once.", "N", default="the cores, for more than a few inputs; the workers of a cluster"),
+    Option(
+        "jobs",
+        "integer",
+        "Inputs to read at once.",
+        "N",
+        default="the cores, for more than a few inputs; the workers of a cluster",
+    ),
     *CLUSTER,
 )
 INPUTS = SHARED[:3]

@@ -1,4 +1,6 @@
-"""The source code that paths name, for commands that read programs: folders, and files with what they include."""
+"""The source code that paths name, for commands that read programs: folders, and files with what
+they include.
+"""
 
 from __future__ import annotations
 
@@ -16,7 +18,9 @@ if TYPE_CHECKING:
     from msaa_lint.core.text.span import Span
     from msaa_lint.input.source_file import SourceFile
 
-_ENDINGS = tuple(ending for language, endings in LANGUAGES.items() if language not in PAGES for ending in endings)
+_ENDINGS = tuple(
+    ending for language, endings in LANGUAGES.items() if language not in PAGES for ending in endings
+)
 
 _PAGE_ENDINGS = tuple(ending for language in PAGES for ending in LANGUAGES[language])
 
@@ -35,7 +39,9 @@ class Programs(NamedTuple):
 def are_programs(arguments: Arguments) -> bool:
     """Whether the paths of a command are folders or source files that are read together."""
     paths: Sequence[str] = arguments["paths"]
-    return arguments.get("input_format") is None and any(os.path.isdir(path) or is_read_together(path) for path in paths)
+    return arguments.get("input_format") is None and any(
+        os.path.isdir(path) or is_read_together(path) for path in paths
+    )
 
 
 def read_programs(arguments: Arguments) -> Programs:
@@ -44,12 +50,20 @@ def read_programs(arguments: Arguments) -> Programs:
     from msaa_lint.linter.request import Request
     from msaa_lint.linter.workspace import Workspace
 
-    workspace = Workspace(Request(arguments["paths"], cache=not arguments.get("no_cache"), traceback=bool(arguments.get("traceback"))))
+    workspace = Workspace(
+        Request(
+            arguments["paths"],
+            cache=not arguments.get("no_cache"),
+            traceback=bool(arguments.get("traceback")),
+        )
+    )
     discovered = workspace.discover(sources=True)
     files: list[SourceFile] = []
     done: set[str] = set()
     others: list[str] = []
-    programs = {path: program for program in workspace.programs(discovered) for path in program.inputs}
+    programs = {
+        path: program for program in workspace.programs(discovered) for path in program.inputs
+    }
     for path in discovered.files:
         if path in done:
             continue
@@ -65,12 +79,17 @@ def read_programs(arguments: Arguments) -> Programs:
             if alone is not None and isinstance(alone.data, SourceFile):
                 files.append(alone.data)
     workspace.close()
-    return Programs(files, [finding_line(finding) for finding in dict.fromkeys(workspace.findings) if finding.fatal], others)
+    return Programs(
+        files,
+        [finding_line(finding) for finding in dict.fromkeys(workspace.findings) if finding.fatal],
+        others,
+    )
 
 
 def assumed_values(path: str) -> Mapping[str, bool | int | str]:
-    """What the configuration states about the code of a page, by name; nothing for other inputs, which are no source code, or are read
-    by `read_programs`."""
+    """What the configuration states about the code of a page, by name; nothing for other inputs,
+    which are no source code, or are read by `read_programs`.
+    """
     if not path.lower().endswith(_PAGE_ENDINGS):
         return {}
     from msaa_lint.linter.request import Request

@@ -22,7 +22,12 @@ _bars: list[Any] = []
 
 def shows_progress(quiet: bool) -> bool:
     """Whether standard error is a terminal that a person watches."""
-    return not quiet and sys.stderr.isatty() and os.environ.get("TERM") != "dumb" and not os.environ.get("CI")
+    return (
+        not quiet
+        and sys.stderr.isatty()
+        and os.environ.get("TERM") != "dumb"
+        and not os.environ.get("CI")
+    )
 
 
 def input_progress() -> Progress:
@@ -59,10 +64,22 @@ class CaptureBar:
                 return
             from rich.progress import BarColumn, TextColumn
 
-            self._bar = _bar(TextColumn("{task.description}", markup=False), BarColumn(), TextColumn("{task.fields[read]}", markup=False))
+            self._bar = _bar(
+                TextColumn("{task.description}", markup=False),
+                BarColumn(),
+                TextColumn("{task.fields[read]}", markup=False),
+            )
             self._bar.add_task(f"reading {_shown(name)}", total=total and total / MEGABYTE, read="")
-        read = f"{done / MEGABYTE:.0f}" if total is None else f"{done / MEGABYTE:.0f}/{total / MEGABYTE:.0f}"
-        self._bar.update(0, completed=done / MEGABYTE, read=f"{read} MB, {frames:,} {'frame' if frames == 1 else 'frames'}")
+        read = (
+            f"{done / MEGABYTE:.0f}"
+            if total is None
+            else f"{done / MEGABYTE:.0f}/{total / MEGABYTE:.0f}"
+        )
+        self._bar.update(
+            0,
+            completed=done / MEGABYTE,
+            read=f"{read} MB, {frames:,} {'frame' if frames == 1 else 'frames'}",
+        )
 
     def finish(self) -> None:
         """Removes the bar."""

@@ -17,7 +17,14 @@ from msaa_lint.frame.vulkan.names import VENDORS
 from .common import run_command
 from .options import Arguments
 
-_KINDS = {"array": "a list", "object": "a mapping", "string": "text", "integer": "a number", "number": "a number", "null": "null"}
+_KINDS = {
+    "array": "a list",
+    "object": "a mapping",
+    "string": "text",
+    "integer": "a number",
+    "number": "a number",
+    "null": "null",
+}
 
 
 def schema(arguments: Arguments) -> int:
@@ -30,11 +37,15 @@ def _schema(arguments: Arguments) -> int:
 
 
 def print_schema(which: str) -> int:
-    """Prints the schema of the description format, or of the JSON output of a command: json-v1 is that of `check`."""
+    """Prints the schema of the description format, or of the JSON output of a command: json-v1 is
+    that of `check`.
+    """
     if which == "description":
         print(json.dumps(description_schema(), indent=2))
     else:
-        path = os.path.join(os.path.dirname(__file__), "report", f"{which.replace('-', '_')}.schema.json")
+        path = os.path.join(
+            os.path.dirname(__file__), "report", f"{which.replace('-', '_')}.schema.json"
+        )
         with open(path, encoding="utf-8") as file:
             print(file.read(), end="")
     return 0
@@ -59,7 +70,11 @@ def _with_enums(node: Any, enums: dict[str, object]) -> Any:
         return [_with_enums(item, enums) for item in node]
     if not isinstance(node, dict):
         return node
-    rest = {name: _with_enums(value, enums) for name, value in node.items() if name not in (FLAGS, ENUMERANT)}
+    rest = {
+        name: _with_enums(value, enums)
+        for name, value in node.items()
+        if name not in (FLAGS, ENUMERANT)
+    }
     if FLAGS in node:
         enum = node[FLAGS]
         enums[f"{enum}Flags"] = {"type": "string", "pattern": joined(enum)}
@@ -74,13 +89,21 @@ def _with_enums(node: Any, enums: dict[str, object]) -> Any:
 
 
 def _titled(arm: dict[str, object], title: str) -> dict[str, object]:
-    """One of several forms of a value, with a title of its own: the YAML language server takes forms without one for the same."""
+    """One of several forms of a value, with a title of its own: the YAML language server takes
+    forms without one for the same.
+    """
     kind = arm.get("type", "integer" if "enum" in arm or "const" in arm else None)
-    return {**arm, "title": f"{title}, as {_KINDS[kind]}"} if isinstance(kind, str) and "title" not in arm else arm
+    return (
+        {**arm, "title": f"{title}, as {_KINDS[kind]}"}
+        if isinstance(kind, str) and "title" not in arm
+        else arm
+    )
 
 
 def _enum_schema(enum: str) -> dict[str, object]:
-    """The schema of an enumerant: an editor completes the short names, with their descriptions, and accepts the other spellings."""
+    """The schema of an enumerant: an editor completes the short names, with their descriptions, and
+    accepts the other spellings.
+    """
     names = list(VALUES[enum] if enum in VALUES else metal.ENUMS[enum])
     short: dict[str, object] = {"enum": names}
     if enum in ENUMERANTS:
@@ -89,23 +112,31 @@ def _enum_schema(enum: str) -> dict[str, object]:
 
 
 def spellings(enum: str) -> str:
-    """A regular expression for the names of an enum that `vulkan.names.parse_enum`, or `metal.names.parse`, accepts."""
+    """A regular expression for the names of an enum that `vulkan.names.parse_enum`, or
+    `metal.names.parse`, accepts.
+    """
     if enum not in VALUES:
         return "(?:" + "|".join(map(re.escape, metal.spellings(enum))) + ")"
     flags, bitless = "FlagBits" in enum, BITLESS.get(enum, ())
     prefix = PREFIXES[enum].removeprefix("VK_") + ("(?:2_)?" if enum.endswith("2") else "")
-    words = "|".join(_with_bit(name) if flags and name not in bitless else name for name in ENUMS[enum])
+    words = "|".join(
+        _with_bit(name) if flags and name not in bitless else name for name in ENUMS[enum]
+    )
     return f"(?:(?:VK_)?{prefix})?(?:{words})"
 
 
 def _with_bit(name: str) -> str:
-    """A pattern for a flag bit's name with or without `_BIT`, which stands before a vendor's suffix."""
+    """A pattern for a flag bit's name with or without `_BIT`, which stands before a vendor's
+    suffix.
+    """
     head, _, vendor = name.rpartition("_")
     return f"{head}(?:_BIT)?_{vendor}" if head and vendor in VENDORS else f"{name}(?:_BIT)?"
 
 
 def joined(enum: str) -> str:
-    """A regular expression for the names of an enum joined by `|`, and for masks, that `vulkan.names.parse_flags` accepts."""
+    """A regular expression for the names of an enum joined by `|`, and for masks, that
+    `vulkan.names.parse_flags` accepts.
+    """
     if "FlagBits" not in enum:
         return f"^\\s*{_joined(spellings(enum))}\\s*$"
     mask = "(?:0|[1-9][0-9]*|0[xX][0-9a-fA-F]+)"

@@ -1,4 +1,6 @@
-"""Standard output and standard error while a command runs: what goes wrong there ends every command alike."""
+"""Standard output and standard error while a command runs: what goes wrong there ends every command
+alike.
+"""
 
 from __future__ import annotations
 
@@ -14,14 +16,17 @@ WRITE_FAILED = 2
 
 
 class OutputError(Exception):
-    """Why standard output cannot be written; empty if the program that reads it is gone, which is no mistake.
+    """Why standard output cannot be written; empty if the program that reads it is gone, which is
+    no mistake.
 
     Not an OSError, so that no handler takes it for the error of a file.
     """
 
 
 class _Output:
-    """A stream that raises OutputError instead of OSError; `problem` says why it cannot be written at all."""
+    """A stream that raises OutputError instead of OSError; `problem` says why it cannot be written
+    at all.
+    """
 
     def __init__(self, stream: Any, problem: str = "") -> None:
         self._stream, self._problem = stream, problem
@@ -67,8 +72,9 @@ def _output_error(error: OSError) -> OutputError:
 
 
 def run_with_streams(command: Callable[[], int]) -> int:
-    """Calls a command and returns its exit code, or that of the SystemExit that it raises; 2 if its output cannot be written, 130 on an
-    interrupt."""
+    """Calls a command and returns its exit code, or that of the SystemExit that it raises; 2 if its
+    output cannot be written, 130 on an interrupt.
+    """
     _open_closed()
     streams = sys.stdin, sys.stdout, sys.stderr
     sys.stdout, sys.stderr = _Output(*_usable(sys.stdout)), _Errors(*_usable(sys.stderr))
@@ -76,7 +82,8 @@ def run_with_streams(command: Callable[[], int]) -> int:
         sys.stdin = io.TextIOWrapper(io.BytesIO())
     try:
         for stream in (sys.stdout, sys.stderr):
-            # Its own encoding may lack characters, and machine formats are UTF-8 whatever the locale.
+            # Its own encoding may lack characters, and machine formats are UTF-8 whatever the
+            # locale.
             if hasattr(stream, "reconfigure"):
                 stream.flush()
                 stream.reconfigure(encoding="utf-8", errors="backslashreplace")
@@ -102,12 +109,20 @@ def _exit_code(command: Callable[[], int]) -> int:
 
 
 def _usable(stream: Any) -> tuple[Any, str]:
-    """A standard stream and an empty text; if it was closed, one that takes nothing and the reason."""
-    return (stream, "") if stream is not None else (io.TextIOWrapper(io.BytesIO(), encoding="utf-8"), "it is closed")
+    """A standard stream and an empty text; if it was closed, one that takes nothing and the
+    reason.
+    """
+    return (
+        (stream, "")
+        if stream is not None
+        else (io.TextIOWrapper(io.BytesIO(), encoding="utf-8"), "it is closed")
+    )
 
 
 def _open_closed() -> None:
-    """Opens nothing in place of closed standard streams, so that no file or child process takes their numbers."""
+    """Opens nothing in place of closed standard streams, so that no file or child process takes
+    their numbers.
+    """
     for number in range(3):
         try:
             os.fstat(number)
@@ -116,6 +131,8 @@ def _open_closed() -> None:
 
 
 def _discard(stream: Any) -> None:
-    """Makes what a stream still holds go nowhere: Python would report the error again when it closes the stream."""
+    """Makes what a stream still holds go nowhere: Python would report the error again when it
+    closes the stream.
+    """
     with suppress(OSError, ValueError, AttributeError):
         os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())

@@ -1,4 +1,6 @@
-"""What the techniques of `msaa-lint study` cost: times on the device that `--device` names, and amounts of the cost model."""
+"""What the techniques of `msaa-lint study` cost: times on the device that `--device` names, and
+amounts of the cost model.
+"""
 
 from __future__ import annotations
 
@@ -21,7 +23,9 @@ from .study_subjects import Subject, errors_of
 
 MAX_SHADINGS = 8
 LEAST_FOR_INTERVAL = 6
-"""The rounds from which an interval contains the median with a probability of 95 % (confirm/timing.py)."""
+"""The rounds from which an interval contains the median with a probability of 95 %
+(confirm/timing.py).
+"""
 
 MAX_OVERDRAW = 100
 DEVICE_ALONE = ("shading", "shader", "overdraw", "triangle_size")
@@ -31,8 +35,10 @@ Progress = Callable[[int, int, str], None]
 
 
 class TimingRequest(NamedTuple):
-    """How a device draws: the names of the costs of shading, the file of one's own fragment shader (or empty), how often each triangle is
-    drawn, and the longest side of a triangle in pixels (0: as the scene has it)."""
+    """How a device draws: the names of the costs of shading, the file of one's own fragment shader
+    (or empty), how often each triangle is drawn, and the longest side of a triangle in pixels (0:
+    as the scene has it).
+    """
 
     shadings: tuple[str, ...] = DEFAULT
     shader: str = ""
@@ -41,7 +47,9 @@ class TimingRequest(NamedTuple):
 
 
 class SubjectCosts(NamedTuple):
-    """The costs of shading under which a subject is timed, what its techniques cost under each, and what is assumed of its frame."""
+    """The costs of shading under which a subject is timed, what its techniques cost under each, and
+    what is assumed of its frame.
+    """
 
     shadings: Sequence[Shading]
     costs: Costs
@@ -49,8 +57,9 @@ class SubjectCosts(NamedTuple):
 
 
 class AllCosts(NamedTuple):
-    """The costs of each subject by its name, and the device whose clock timed them: its name (empty without any), whether it is a CPU, and
-    whether its times had not settled."""
+    """The costs of each subject by its name, and the device whose clock timed them: its name (empty
+    without any), whether it is a CPU, and whether its times had not settled.
+    """
 
     subjects: Mapping[str, SubjectCosts]
     device: str = ""
@@ -60,7 +69,12 @@ class AllCosts(NamedTuple):
     @property
     def shadings(self) -> list[Shading]:
         """All costs of shading, the cheapest first."""
-        found = {shading.name: shading for subject in self.subjects.values() for shading in subject.shadings if shading.name}
+        found = {
+            shading.name: shading
+            for subject in self.subjects.values()
+            for shading in subject.shadings
+            if shading.name
+        }
         return sorted(found.values(), key=lambda shading: shading.full_screen_ms or 0.0)
 
 
@@ -87,7 +101,10 @@ def _shading(word: str) -> str:
         return target(word, (1, 1)).shading.name
     except ValueError:
         units = "200ops (operations), 500000ns (a million invocations), or 4ms (a full screen)"
-        raise UsageError(f"`--shading` takes {', '.join(SHARES)}, or a cost such as {units}; found {quoted(word)}") from None
+        raise UsageError(
+            f"`--shading` takes {', '.join(SHARES)}, or a cost such as {units}; found "
+            f"{quoted(word)}"
+        ) from None
 
 
 def subject_costs(
@@ -116,13 +133,23 @@ def subject_costs(
                 model = CostModel(subject.device, hdr="hdr" in effects, depth="depth" in effects)
                 shadings: Sequence[Shading] = [Shading("")]
                 if clock is None:
-                    found[subject.input.name] = SubjectCosts(shadings, costs(techniques, shadings, size, model, checkpoint))
+                    found[subject.input.name] = SubjectCosts(
+                        shadings, costs(techniques, shadings, size, model, checkpoint)
+                    )
                     continue
-                plans = _frame_plans(subject, request, size, clock, built_in="shading" in arguments or "shader" in arguments)
+                plans = _frame_plans(
+                    subject,
+                    request,
+                    size,
+                    clock,
+                    built_in="shading" in arguments or "shader" in arguments,
+                )
                 if plans is not None and plans.as_described:
                     shadings = [Shading(AS_DESCRIBED)]
                 else:
-                    shadings = _shadings(subject, request, calibration, stages, size, bool(arguments.get("record")))
+                    shadings = _shadings(
+                        subject, request, calibration, stages, size, bool(arguments.get("record"))
+                    )
                 notes = []
                 if plans is not None:
                     model = CostModel(subject.device, described=subject.frame)
@@ -139,10 +166,16 @@ def subject_costs(
 
 
 def _shadings(
-    subject: Subject, request: TimingRequest, calibration: Any, stages: tuple[Any, ...], size: tuple[int, int], record: bool
+    subject: Subject,
+    request: TimingRequest,
+    calibration: Any,
+    stages: tuple[Any, ...],
+    size: tuple[int, int],
+    record: bool,
 ) -> list[Shading]:
-    """The costs of shading of a subject, the cheapest first: those asked for, its own, and that of one's own shader. Its record needs its
-    own, else the default one."""
+    """The costs of shading of a subject, the cheapest first: those asked for, its own, and that of
+    one's own shader. Its record needs its own, else the default one.
+    """
     stated = stated_shading(subject.frame) if subject.frame is not None else None
     own = stated or (DEFAULT_SHADING if record and subject.frame is not None else None)
     names = list(dict.fromkeys([*request.shadings, *([own] if own else [])]))
@@ -158,10 +191,16 @@ def _priced(frame: Any, timed: Costs) -> str:
     from msaa_lint.experiments.study.frame_plans import described_size
 
     if all(cost.bytes_per_frame is None for cost in timed.values()):
-        return "bytes, power, and memory are not estimated, as the frame leaves out what they depend on: see msaa-lint cost"
+        return (
+            "bytes, power, and memory are not estimated, as the frame leaves out what they "
+            "depend on: see msaa-lint cost"
+        )
     size = described_size(frame)
     stated = f", {size[0]}x{size[1]}" if size is not None else ""
-    return f"bytes, power, and memory are those of the frame at its described size{stated}, with a technique's sample count"
+    return (
+        f"bytes, power, and memory are those of the frame at its described size{stated}, with a "
+        f"technique's sample count"
+    )
 
 
 def _fewer_rounds(timed: Costs, arguments: Arguments) -> list[str]:
@@ -169,31 +208,49 @@ def _fewer_rounds(timed: Costs, arguments: Arguments) -> list[str]:
     rounds = max((len(cost.rounds) for cost in timed.values()), default=0)
     if "repeats" in arguments or not 0 < rounds < REPEATS:
         return []
-    intervals = "; so few give no interval of 95 %, but that of all" if rounds < LEAST_FOR_INTERVAL else ""
-    return [f"times are medians of {rounds} rounds instead of {REPEATS}, as a round takes long{intervals} (--repeats N takes N)"]
+    intervals = (
+        "; so few give no interval of 95 %, but that of all" if rounds < LEAST_FOR_INTERVAL else ""
+    )
+    return [
+        f"times are medians of {rounds} rounds instead of {REPEATS}, as a round takes "
+        f"long{intervals} (--repeats N takes N)"
+    ]
 
 
-def _frame_plans(subject: Subject, request: TimingRequest, size: tuple[int, int], clock: Any, built_in: bool) -> Any:
-    """The plans of a subject's own frame, with `built_in` drawn by built-in shaders; None for a scene without one, and for a description
-    without passes."""
+def _frame_plans(
+    subject: Subject, request: TimingRequest, size: tuple[int, int], clock: Any, built_in: bool
+) -> Any:
+    """The plans of a subject's own frame, with `built_in` drawn by built-in shaders; None for a
+    scene without one, and for a description without passes.
+    """
     if subject.frame is None:
         return None
     from msaa_lint.experiments.study.frame_plans import FramePlans, stated_sizes
 
     stated = stated_sizes(subject.frame)
     sizes = stated._replace(
-        overdraw=request.overdraw if request.overdraw > 1 else stated.overdraw, side=request.triangle_size or stated.side
+        overdraw=request.overdraw if request.overdraw > 1 else stated.overdraw,
+        side=request.triangle_size or stated.side,
     )
     plans = FramePlans(subject.frame, subject.file, size, sizes, clock.device, built_in)
     return plans if plans.base.passes else None
 
 
-def _source(subject: Subject, request: TimingRequest, clock: Any, model: CostModel, stages: tuple[Any, ...], plans: Any) -> Any:
+def _source(
+    subject: Subject,
+    request: TimingRequest,
+    clock: Any,
+    model: CostModel,
+    stages: tuple[Any, ...],
+    plans: Any,
+) -> Any:
     from msaa_lint.experiments.study.scene_timing import Geometry, SceneClock
 
     # A frame has its own overdraw, and triangles of its own size.
     geometry = Geometry(request.overdraw, request.triangle_size) if plans is None else Geometry()
-    return SceneClock(clock, subject.picture, model, geometry, plans, stages, os.path.basename(request.shader))
+    return SceneClock(
+        clock, subject.picture, model, geometry, plans, stages, os.path.basename(request.shader)
+    )
 
 
 def _own_stages(request: TimingRequest, clock: Any) -> tuple[Any, ...]:

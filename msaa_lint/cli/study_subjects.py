@@ -1,4 +1,6 @@
-"""What `msaa-lint study` studies: scenes by name, meshes, and the documents of descriptions, each with its scene."""
+"""What `msaa-lint study` studies: scenes by name, meshes, and the documents of descriptions, each
+with its scene.
+"""
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -24,13 +26,17 @@ from .options import Arguments
 SIZE = (1920, 1080)
 
 MIN_SIDE = 200
-"""The least width and height of a frame, in pixels, that a scene is as large as if the description does not state the size."""
+"""The least width and height of a frame, in pixels, that a scene is as large as if the description
+does not state the size.
+"""
 
 MESHES = (".obj", ".ply")
 
 
 class Subject(NamedTuple):
-    """One scene to study. `picture` is the scene; a description also has a frame, a file, and the device to assume."""
+    """One scene to study. `picture` is the scene; a description also has a frame, a file, and the
+    device to assume.
+    """
 
     input: StudyInput
     picture: Any
@@ -40,7 +46,9 @@ class Subject(NamedTuple):
 
 
 class Subjects(NamedTuple):
-    """All of them, the size in pixels to study them at, findings about inputs that cannot be used, and notes for standard error."""
+    """All of them, the size in pixels to study them at, findings about inputs that cannot be used,
+    and notes for standard error.
+    """
 
     size: tuple[int, int]
     subjects: list[Subject]
@@ -49,7 +57,9 @@ class Subjects(NamedTuple):
 
 
 def subjects(arguments: Arguments, size: tuple[int, int] | None) -> Subjects:
-    """What the arguments name, at the given size, else at the size that all descriptions state. UsageError if a word names nothing."""
+    """What the arguments name, at the given size, else at the size that all descriptions state.
+    UsageError if a word names nothing.
+    """
     from msaa_lint.experiments.study.scenes import NAMES
 
     named: list[StudyInput] = []
@@ -69,7 +79,9 @@ def subjects(arguments: Arguments, size: tuple[int, int] | None) -> Subjects:
             raise UsageError(_unknown(path, NAMES))
     read = Inputs([], [], [])
     if paths:
-        read = inputs(Request(**{**input_options(arguments), "paths": paths}, overrides=overrides(arguments)))
+        read = inputs(
+            Request(**{**input_options(arguments), "paths": paths}, overrides=overrides(arguments))
+        )
     default = _profile(arguments)
     size = size or (None if named else _stated_size(read.inputs)) or SIZE
     errors = list(read.wrong)
@@ -84,14 +96,18 @@ def subjects(arguments: Arguments, size: tuple[int, int] | None) -> Subjects:
     for document in read.inputs:
         name = document.file if document.many == 1 else f"{document.file}#{document.number + 1}"
         text = document.frame.document.source.text
-        study_input = StudyInput("description", name, document.file, text, document.number, arguments.get("input_format"))
+        study_input = StudyInput(
+            "description", name, document.file, text, document.number, arguments.get("input_format")
+        )
         add(study_input, document.device or default, document.frame, document.file)
     return Subjects(size, studied, errors, read.notes)
 
 
 @contextmanager
 def errors_of(name: str, errors: list[Finding], arguments: Arguments) -> Iterator[None]:
-    """Makes an internal error of one scene a finding, so that the others are studied; with `--traceback`, it is raised."""
+    """Makes an internal error of one scene a finding, so that the others are studied; with
+    `--traceback`, it is raised.
+    """
     try:
         yield
     except (UsageError, MemoryError, Unusable, NoDevice):
@@ -122,7 +138,11 @@ def _picture(study_input: StudyInput, size: tuple[int, int]) -> Any:
     except (OSError, ValueError, LookupError) as error:
         reason = (error.strerror if isinstance(error, OSError) else None) or str(error)
         # Of a scene by name, only the size can be wrong.
-        raise UsageError(f"{study_input.name}: {reason}") if study_input.kind == "scene" else _Unreadable(reason) from None
+        raise (
+            UsageError(f"{study_input.name}: {reason}")
+            if study_input.kind == "scene"
+            else _Unreadable(reason)
+        ) from None
 
 
 def _unknown(word: str, names: Sequence[str]) -> str:
@@ -138,19 +158,25 @@ def _profile(arguments: Arguments) -> DeviceProfile | None:
         return None
     profile = profile_of(arguments["profile"])
     if isinstance(profile, Problem):
-        raise UsageError(f"{profile.message} in `--profile`" + (f": {profile.help}" if profile.help else ""))
+        raise UsageError(
+            f"{profile.message} in `--profile`" + (f": {profile.help}" if profile.help else "")
+        )
     return profile
 
 
 def _stated_size(documents: Sequence[Input]) -> tuple[int, int] | None:
-    """The size of all descriptions; None if they differ, state none, or it is too large or, of images alone, too small."""
+    """The size of all descriptions; None if they differ, state none, or it is too large or, of
+    images alone, too small.
+    """
     sizes = {_frame_size(document.frame) for document in documents}
     width, height = sizes.pop() if len(sizes) == 1 else (0, 0)
     return (width, height) if width and height and max(width, height) <= MAX_RENDER_SIDE else None
 
 
 def _frame_size(frame: Frame) -> tuple[int, int]:
-    """The size of a frame as stated, otherwise that of the passes that techniques are about; 0 without any."""
+    """The size of a frame as stated, otherwise that of the passes that techniques are about; 0
+    without any.
+    """
     from msaa_lint.experiments.study.frame_plans import described_size
 
     stated = frame.description.frame

@@ -20,7 +20,9 @@ if TYPE_CHECKING:
 
 
 def check_table(target: Target) -> None:
-    """UsageError if a target is tables, and cannot be written: they need a file, and Parquet its extension and the extra `corpus`."""
+    """UsageError if a target is tables, and cannot be written: they need a file, and Parquet its
+    extension and the extra `corpus`.
+    """
     if target.format not in TABLE_FORMATS:
         return
     flag, path = f"--output {target.format}", target.path
@@ -53,7 +55,11 @@ def write_tables(target: Target, outcome: Outcome, arguments: Arguments) -> None
     from .report.rows import rows
 
     assert target.path is not None
-    options = report_options(arguments, sys.stdout)._replace(edition=outcome.settings.edition or EDITIONS[-1])
+    options = report_options(arguments, sys.stdout)._replace(
+        edition=outcome.settings.edition or EDITIONS[-1]
+    )
     with writes(target.path):
-        tables = rows(outcome.result, outcome.passes, outcome.configuration, options, outcome.owners)
+        tables = rows(
+            outcome.result, outcome.passes, outcome.configuration, options, outcome.owners
+        )
         report_module("check", target.format).write(target.path, tables, options.version)

@@ -1,4 +1,6 @@
-"""`msaa-lint check --watch`: checks again when an input, the configuration, or a rule page changes."""
+"""`msaa-lint check --watch`: checks again when an input, the configuration, or a rule page
+changes.
+"""
 
 from __future__ import annotations
 
@@ -34,7 +36,9 @@ STEP = 50
 """Milliseconds without a change after which those so far are acted on."""
 
 POLL = 100
-"""Milliseconds after which waiting for changes returns without any. The first wait only starts watching."""
+"""Milliseconds after which waiting for changes returns without any. The first wait only starts
+watching.
+"""
 
 _CLEAR = "\x1b[2J\x1b[3J\x1b[H"
 """Clears the screen and what has scrolled out of it, as ruff does."""
@@ -44,9 +48,11 @@ _NAMES = frozenset({".gitignore", ".ignore", *NAMES})
 
 
 def watch(arguments: Arguments, request: Request, check: Callable[[Arguments], int]) -> int:
-    """Calls `check` now and after each change, on a terminal with a cleared screen, until an interrupt ends it.
+    """Calls `check` now and after each change, on a terminal with a cleared screen, until an
+    interrupt ends it.
 
-    UsageError for options that do not go with it, without the extra `watch`, and if the inputs cannot be watched.
+    UsageError for options that do not go with it, without the extra `watch`, and if the inputs
+    cannot be watched.
     """
     _refuse_options(arguments)
     try:
@@ -59,8 +65,8 @@ def watch(arguments: Arguments, request: Request, check: Callable[[Arguments], i
     arguments = {"output": ["full" if sys.stdout.isatty() else "concise"], **arguments}
     while True:
         watched = Watched(request)
-        # Watching starts before the check, so that no change is missed, and again after each change: a file that an editor replaces is a
-        # new one.
+        # Watching starts before the check, so that no change is missed, and again after each
+        # change: a file that an editor replaces is a new one.
         watches = [
             changes_in(
                 *paths,
@@ -80,7 +86,12 @@ def watch(arguments: Arguments, request: Request, check: Callable[[Arguments], i
                 next(changes)
         _show(arguments, check)
         with _watch_errors():
-            next(each for both in zip(*watches, strict=True) for each in both if any(watched.concerns(path) for _, path in each))
+            next(
+                each
+                for both in zip(*watches, strict=True)
+                for each in both
+                if any(watched.concerns(path) for _, path in each)
+            )
         for changes in watches:
             changes.close()
 
@@ -90,14 +101,20 @@ def _refuse_options(arguments: Arguments) -> None:
         raise UsageError("`--watch` cannot watch standard input; name files or folders")
     for name in ("fix", "diff"):
         if arguments.get(name):
-            raise UsageError(f"`--watch` changes no files; leave out `--{name}`, or run it once without `--watch`")
+            raise UsageError(
+                f"`--watch` changes no files; leave out `--{name}`, or run it once without "
+                f"`--watch`"
+            )
     for output in arguments.get("output", ()):
         if output not in FORMATS:
             raise UsageError(
-                f"`--watch` shows {' or '.join(FORMATS)} output on the screen, not {quoted(output)}; write it without `--watch`"
+                f"`--watch` shows {' or '.join(FORMATS)} output on the screen, not "
+                f"{quoted(output)}; write it without `--watch`"
             )
     if len(arguments.get("output", ())) > 1:
-        raise UsageError(f"`--watch` shows one output; write `--output {FORMATS[0]}` or `--output {FORMATS[1]}`")
+        raise UsageError(
+            f"`--watch` shows one output; write `--output {FORMATS[0]}` or `--output {FORMATS[1]}`"
+        )
 
 
 def _show(arguments: Arguments, check: Callable[[Arguments], int]) -> None:
@@ -122,7 +139,9 @@ def _watch_errors() -> Iterator[None]:
 
 
 class Watched:
-    """What a run of `check` reads, apart from what folders contain: all paths are absolute, with links resolved."""
+    """What a run of `check` reads, apart from what folders contain: all paths are absolute, with
+    links resolved.
+    """
 
     def __init__(self, request: Request) -> None:
         self._configurations = Configurations(request.config, request.isolated)
@@ -132,12 +151,21 @@ class Watched:
             self._files.add(os.path.realpath(request.config))
         for path in request.paths:
             if is_url(path):
-                raise UsageError(f"cannot watch {name_of(path)}: a storage does not say what changes; check it without --watch")
+                raise UsageError(
+                    f"cannot watch {name_of(path)}: a storage does not say what changes; check it "
+                    f"without --watch"
+                )
         for path in [os.curdir, *request.paths]:
             loaded = self._configurations.load(path)
             settings = override(loaded.settings, **request.overrides)
             configurations = self._configurations.candidates(path)
-            named = [*loaded.sources, *configurations, *settings.rules, settings.baseline, _report(settings.profile)]
+            named = [
+                *loaded.sources,
+                *configurations,
+                *settings.rules,
+                settings.baseline,
+                _report(settings.profile),
+            ]
             for each in map(os.path.realpath, filter(None, named)):
                 if os.path.isdir(each):
                     self._folders.append(each)
@@ -149,7 +177,9 @@ class Watched:
         return list(dict.fromkeys(self._folders))
 
     def files(self) -> list[str]:
-        """The files to watch, and the folders of those that do not exist yet, without the folders in them."""
+        """The files to watch, and the folders of those that do not exist yet, without the folders
+        in them.
+        """
         found: dict[str, None] = {}
         for path in sorted(self._files):
             there = path if os.path.exists(path) else os.path.dirname(path)
@@ -168,7 +198,9 @@ class Watched:
     def _is_read(self, folder: str, path: str) -> bool:
         """Whether `check` may read a file of a folder, or a folder appeared or disappeared."""
         *parents, name = os.path.relpath(path, folder).split(os.sep)
-        hidden = [part for part in (*parents, name) if part.startswith(".") or part in SKIPPED_FOLDERS]
+        hidden = [
+            part for part in (*parents, name) if part.startswith(".") or part in SKIPPED_FOLDERS
+        ]
         if hidden:
             return hidden == [name] and name in _NAMES
         if name in _NAMES or name.lower().endswith(_ENDINGS) or os.path.isdir(path):

@@ -1,7 +1,9 @@
-"""Results that are kept between runs, in a database in the cache folder of the user. Deleting it loses nothing but time.
+"""Results that are kept between runs, in a database in the cache folder of the user. Deleting it
+loses nothing but time.
 
-An entry is named by what it was made from. Processes can use the database at the same time; one that is damaged is begun anew, and an entry
-that is damaged is like none. Nothing is read that another user could have written.
+An entry is named by what it was made from. Processes can use the database at the same time; one
+that is damaged is begun anew, and an entry that is damaged is like none. Nothing is read that
+another user could have written.
 """
 
 from __future__ import annotations
@@ -62,8 +64,9 @@ def text_digest(text: str) -> str:
 
 
 class Cache:
-    """The entries in the database of one folder. `version` is part of the name of each: entries of other versions are not used. `notes` are
-    lines for the user."""
+    """The entries in the database of one folder. `version` is part of the name of each: entries of
+    other versions are not used. `notes` are lines for the user.
+    """
 
     def __init__(self, folder: str, version: str) -> None:
         self.folder = folder
@@ -95,7 +98,11 @@ class Cache:
                     found[wanted[number]] = data
                     if day != today:
                         self._used.add(number)
-            found |= {wanted[number]: self._unwritten[number] for number in some if number in self._unwritten}
+            found |= {
+                wanted[number]: self._unwritten[number]
+                for number in some
+                if number in self._unwritten
+            }
         if not found:
             return {}
         from .zstd import decompress
@@ -119,7 +126,10 @@ class Cache:
         self._unwritten, self._used, self._length = {}, set(), 0
         if (unwritten or used) and (database := self._open(create=True)) is not None:
             with self._errors(), database:
-                database.executemany("update entries set day = ? where number = ?", ((today, number) for number in used))
+                database.executemany(
+                    "update entries set day = ? where number = ?",
+                    ((today, number) for number in used),
+                )
                 rows = ((number, today, data) for number, data in unwritten.items())
                 database.executemany("insert or replace into entries values (?, ?, ?)", rows)
                 if unwritten:
@@ -137,7 +147,9 @@ class Cache:
         if database is not None:
             with self._errors():
                 marks = ",".join("?" * len(numbers))
-                return database.execute(f"select number, day, data from entries where number in ({marks})", numbers).fetchall()
+                return database.execute(
+                    f"select number, day, data from entries where number in ({marks})", numbers
+                ).fetchall()
         return []
 
     def _enter(self) -> None:
@@ -158,13 +170,23 @@ class Cache:
                     os.makedirs(self.folder, mode=0o700, exist_ok=True)
                     if _is_private(os.lstat(self.folder)):
                         with suppress(FileExistsError):
-                            os.close(os.open(self._path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600))
+                            os.close(
+                                os.open(self._path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600)
+                            )
                 status = os.lstat(self._path)
-                if stat.S_ISREG(status.st_mode) and _is_private(status) and (create or status.st_size):
-                    # Without a log beside it, it may be on a file system of several machines. What is written need not outlive this one.
+                if (
+                    stat.S_ISREG(status.st_mode)
+                    and _is_private(status)
+                    and (create or status.st_size)
+                ):
+                    # Without a log beside it, it may be on a file system of several machines. What
+                    # is written need not outlive this one.
                     database = connect(self._path, timeout=WAIT_SECONDS, check_same_thread=False)
                     database.execute("pragma synchronous = off")
-                    database.execute("create table if not exists entries (number integer primary key, day integer, data blob)")
+                    database.execute(
+                        "create table if not exists entries (number integer primary key, day "
+                        "integer, data blob)"
+                    )
                     self._database = database
         return self._database
 
@@ -182,13 +204,17 @@ class Cache:
             self._database = None
             with suppress(OSError):
                 os.unlink(self._path)
-                self.notes.append(f"{self._path} was damaged and is begun anew: all inputs are read")
+                self.notes.append(
+                    f"{self._path} was damaged and is begun anew: all inputs are read"
+                )
             with suppress(OSError):
                 os.unlink(f"{self._path}-journal")
 
     def _number(self, kind: str, name: str) -> int:
         name_of_all = f"{self._version} {kind} {name}".encode("utf-8", "surrogatepass")
-        return int.from_bytes(blake2b(name_of_all, digest_size=_NUMBER_BYTES).digest(), "big", signed=True)
+        return int.from_bytes(
+            blake2b(name_of_all, digest_size=_NUMBER_BYTES).digest(), "big", signed=True
+        )
 
 
 def _check(number: int, content: bytes) -> bytes:
@@ -199,13 +225,22 @@ def _check(number: int, content: bytes) -> bytes:
 
 def _make_room(database: Connection) -> None:
     """Removes the entries that were not used for the longest time, if there are too many."""
-    pages, free, size = (database.execute(f"pragma {name}").fetchone()[0] for name in ("page_count", "freelist_count", "page_size"))
+    pages, free, size = (
+        database.execute(f"pragma {name}").fetchone()[0]
+        for name in ("page_count", "freelist_count", "page_size")
+    )
     total = (pages - free) * size
     if total <= MAX_BYTES:
         return
-    oldest = database.execute("select number, length(data) from entries order by day, number").fetchall()
+    oldest = database.execute(
+        "select number, length(data) from entries order by day, number"
+    ).fetchall()
     left = accumulate((length for _, length in oldest), sub, initial=total)
-    removed = ((number,) for (number, _), rest in zip(oldest, left, strict=False) if rest > MAX_BYTES * KEPT_SHARE)
+    removed = (
+        (number,)
+        for (number, _), rest in zip(oldest, left, strict=False)
+        if rest > MAX_BYTES * KEPT_SHARE
+    )
     database.executemany("delete from entries where number = ?", removed)
 
 
@@ -232,9 +267,15 @@ def _base() -> str | None:
     home = os.path.expanduser("~")
     if not os.path.isabs(home):
         return None
-    return os.path.join(home, "Library", "Caches") if sys.platform == "darwin" else os.path.join(home, ".cache")
+    return (
+        os.path.join(home, "Library", "Caches")
+        if sys.platform == "darwin"
+        else os.path.join(home, ".cache")
+    )
 
 
 def _is_private(status: os.stat_result) -> bool:
     """Whether only this user could have written a file or folder."""
-    return os.name != "posix" or (status.st_uid == os.getuid() and not status.st_mode & (stat.S_IWGRP | stat.S_IWOTH))
+    return os.name != "posix" or (
+        status.st_uid == os.getuid() and not status.st_mode & (stat.S_IWGRP | stat.S_IWOTH)
+    )

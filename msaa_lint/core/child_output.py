@@ -20,7 +20,9 @@ def signal_name(number: int) -> str:
 
 
 class ChildOutput:
-    """The beginning and the end of a child's output. A thread reads all of it so that the child never blocks."""
+    """The beginning and the end of a child's output. A thread reads all of it so that the child
+    never blocks.
+    """
 
     def __init__(self, pipe: IO[bytes]) -> None:
         self._pipe = pipe

@@ -1,4 +1,6 @@
-"""How to install an extra of this package, wherever the package came from. The imports are late: `check` seldom needs them."""
+"""How to install an extra of this package, wherever the package came from. The imports are late:
+`check` seldom needs them.
+"""
 
 import os
 
@@ -36,7 +38,9 @@ def _requirement(extra: str) -> str:
 
 
 def _installed_url() -> str | None:
-    """The URL of the folder, file, or repository that was installed (PEP 610); None for a release from a package index."""
+    """The URL of the folder, file, or repository that was installed (PEP 610); None for a release
+    from a package index.
+    """
     import json
     from importlib import metadata
 

@@ -19,10 +19,12 @@ CONFIDENCES = ("low", "medium", "high")
 
 
 class Fix(NamedTuple):
-    """A fix of a finding. A `safe` fix cannot change the picture. `edits` is empty if they are not computed.
+    """A fix of a finding. A `safe` fix cannot change the picture. `edits` is empty if they are not
+    computed.
 
-    A fix that is `shown` is never applied. It is a `choice` if its rule leaves it to the user, because it changes what the frame does;
-    otherwise the input cannot be edited. `refusal` is the reason why `--fix --unsafe-fixes` does not make a fix that is not shown.
+    A fix that is `shown` is never applied. It is a `choice` if its rule leaves it to the user,
+    because it changes what the frame does; otherwise the input cannot be edited. `refusal` is the
+    reason why `--fix --unsafe-fixes` does not make a fix that is not shown.
     """
 
     title: str
@@ -43,9 +45,11 @@ class Price(NamedTuple):
 
 
 class Saving(NamedTuple):
-    """The number of findings that fixes remove, and the cost of the input before them minus its cost after; None if that is unknown.
+    """The number of findings that fixes remove, and the cost of the input before them minus its
+    cost after; None if that is unknown.
 
-    `assumes_tiler`: some of the price is that on a tile-based GPU, since the input names no device that is known to be one or not.
+    `assumes_tiler`: some of the price is that on a tile-based GPU, since the input names no device
+    that is known to be one or not.
     """
 
     findings: int = 0
@@ -56,8 +60,9 @@ class Saving(NamedTuple):
 class Savings(NamedTuple):
     """What fixes save of one input, determined by making them.
 
-    `safe` is the result of `--fix`, `all` that of `--fix --unsafe-fixes`. If `converted`, the input is a capture or source code, and the
-    fixes are those of the description that `msaa-lint convert` writes.
+    `safe` is the result of `--fix`, `all` that of `--fix --unsafe-fixes`. If `converted`, the input
+    is a capture or source code, and the fixes are those of the description that `msaa-lint convert`
+    writes.
     """
 
     safe: Saving
@@ -66,7 +71,8 @@ class Savings(NamedTuple):
 
 
 class CaptureLocation(NamedTuple):
-    """The captured call that a finding is about, `by` name and index, and the number of frames that use its subject, `of` all frames.
+    """The captured call that a finding is about, `by` name and index, and the number of frames that
+    use its subject, `of` all frames.
 
     `call` is None if the capture does not number calls, `frames` if frames were not counted.
     """
@@ -80,10 +86,12 @@ class CaptureLocation(NamedTuple):
 class Finding(NamedTuple):
     """One mistake at one location.
 
-    `span` is None if the input has no text (binary captures) or could not be decoded. `subject` is the structural path of the object that
-    the finding is about, such as `renderPasses.forward.attachments.color`; `images` are the names of the images that it concerns.
-    `context` is the beginning of the message, which names the debug labels of its pass. `assumes_tiler`: the price is that on a tile-based
-    GPU, since the input names no device that is known to be one or not.
+    `span` is None if the input has no text (binary captures) or could not be decoded. `subject` is
+    the structural path of the object that the finding is about, such as
+    `renderPasses.forward.attachments.color`; `images` are the names of the images that it concerns.
+    `context` is the beginning of the message, which names the debug labels of its pass.
+    `assumes_tiler`: the price is that on a tile-based GPU, since the input names no device that is
+    known to be one or not.
     """
 
     code: str
@@ -106,7 +114,9 @@ class Finding(NamedTuple):
 
     @property
     def fatal(self) -> bool:
-        """Whether an input, a rule page or the configuration cannot be used (a 9xx error): the exit code is then 2."""
+        """Whether an input, a rule page or the configuration cannot be used (a 9xx error): the exit
+        code is then 2.
+        """
         return self.code.startswith("MSAA9") and self.severity == "error"
 
     @property
@@ -116,9 +126,11 @@ class Finding(NamedTuple):
 
 
 class MissingKey(NamedTuple):
-    """A key that an input lacks: the path of its structure (empty: the input), its name there, what it may hold, and where it goes.
+    """A key that an input lacks: the path of its structure (empty: the input), its name there, what
+    it may hold, and where it goes.
 
-    `converted` says that the structure is one of the description that `msaa-lint convert` writes, since the input is not a description.
+    `converted` says that the structure is one of the description that `msaa-lint convert` writes,
+    since the input is not a description.
     """
 
     structure: str
@@ -134,7 +146,9 @@ class MissingKey(NamedTuple):
 
 
 class Undecided(NamedTuple):
-    """A rule that could not be decided for a subject, the facts that were missing, and the keys to write next, which state them."""
+    """A rule that could not be decided for a subject, the facts that were missing, and the keys to
+    write next, which state them.
+    """
 
     code: str
     rule: str
@@ -145,7 +159,9 @@ class Undecided(NamedTuple):
 
 
 class Suppressed(NamedTuple):
-    """A suppressed finding. `how` is `inline` or `baseline`; `reason` is that of the comment, or empty."""
+    """A suppressed finding. `how` is `inline` or `baseline`; `reason` is that of the comment, or
+    empty.
+    """
 
     finding: Finding
     how: str
@@ -153,9 +169,11 @@ class Suppressed(NamedTuple):
 
 
 class Unread(NamedTuple):
-    """Something multisampled of which an input shows no pass or pipeline to check: its place, None without a text, and the problem.
+    """Something multisampled of which an input shows no pass or pipeline to check: its place, None
+    without a text, and the problem.
 
-    `unknown` is the first name in source code on the way to its sample count that nothing gives a value; empty if there is none.
+    `unknown` is the first name in source code on the way to its sample count that nothing gives a
+    value; empty if there is none.
     """
 
     span: Span | None
@@ -166,10 +184,12 @@ class Unread(NamedTuple):
 class CaptureSummary(NamedTuple):
     """What a capture contains.
 
-    `program`, `engine`, and `device` are empty if the capture does not state them. `kinds` is the number of kinds of frame, `passes` the
-    number of different passes that frames begin (without frames, of render passes), by their sample count. `multisampled_images` counts
-    images created alike once. `dropped_frames` were not checked, because there are too many kinds of frame. `left_out` is
-    what has nothing to do with multisampling and was not checked; empty if that is nothing.
+    `program`, `engine`, and `device` are empty if the capture does not state them. `kinds` is the
+    number of kinds of frame, `passes` the number of different passes that frames begin (without
+    frames, of render passes), by their sample count. `multisampled_images` counts images created
+    alike once. `dropped_frames` were not checked, because there are too many kinds of frame.
+    `left_out` is what has nothing to do with multisampling and was not checked; empty if that is
+    nothing.
     """
 
     program: str
@@ -187,10 +207,12 @@ class CaptureSummary(NamedTuple):
 class InputSummary(NamedTuple):
     """What of one input was checked.
 
-    `format` is its `--input-format`; empty if it could not be read. Objects that several documents of the input share count once;
-    `shaders` are those of source code that read samples, `choices` the sample count choices. `failed` says that an error kept a document
-    of it from being checked. `capture` is None for an input that is not a capture. `frames` is the number of documents of a description,
-    each of which is a frame; None for other inputs. `device` is the profile that it was checked for; empty without one.
+    `format` is its `--input-format`; empty if it could not be read. Objects that several documents
+    of the input share count once; `shaders` are those of source code that read samples, `choices`
+    the sample count choices. `failed` says that an error kept a document of it from being checked.
+    `capture` is None for an input that is not a capture. `frames` is the number of documents of a
+    description, each of which is a frame; None for other inputs. `device` is the profile that it
+    was checked for; empty without one.
     """
 
     file: str
@@ -208,11 +230,13 @@ class InputSummary(NamedTuple):
 
 
 class PassTraffic(NamedTuple):
-    """What one pass of a frame, or one command outside of passes, moves and keeps in memory, as the cost model estimates it.
+    """What one pass of a frame, or one command outside of passes, moves and keeps in memory, as the
+    cost model estimates it.
 
-    `frame` is the index of the frame's document in its input, `path` the structural path of the pass, `kind` `renderPass`, `rendering`, or
-    `command`. `times` is how often a frame begins it; `samples` are the most that an attachment has. MB is 10^6 bytes, MiB 2^20; the
-    traffic is that of all times. `unknown` says what could not be counted.
+    `frame` is the index of the frame's document in its input, `path` the structural path of the
+    pass, `kind` `renderPass`, `rendering`, or `command`. `times` is how often a frame begins it;
+    `samples` are the most that an attachment has. MB is 10^6 bytes, MiB 2^20; the traffic is that
+    of all times. `unknown` says what could not be counted.
     """
 
     file: str
@@ -232,7 +256,9 @@ class PassTraffic(NamedTuple):
 
 
 class RuleInfo(NamedTuple):
-    """A rule as reports describe it. `summary` is one sentence, `markdown` the page without its front matter."""
+    """A rule as reports describe it. `summary` is one sentence, `markdown` the page without its
+    front matter.
+    """
 
     code: str
     name: str
@@ -245,12 +271,14 @@ class RuleInfo(NamedTuple):
 
 
 class Result(NamedTuple):
-    """The result of a lint run. Findings are sorted by file, location and code; `rules` are the enabled rules by code.
+    """The result of a lint run. Findings are sorted by file, location and code; `rules` are the
+    enabled rules by code.
 
-    `savings` are those of each file with findings that have fixes, if the run determined them. `has_baseline` is whether the findings were
-    compared with a baseline. `inputs` says what of each file was checked. `untried` are the files that are too large to try their fixes,
-    each with whether it has to be converted first. `rendered` takes the place of findings, undecided rules, inputs, and sources in a
-    report that is rendered input by input.
+    `savings` are those of each file with findings that have fixes, if the run determined them.
+    `has_baseline` is whether the findings were compared with a baseline. `inputs` says what of each
+    file was checked. `untried` are the files that are too large to try their fixes, each with
+    whether it has to be converted first. `rendered` takes the place of findings, undecided rules,
+    inputs, and sources in a report that is rendered input by input.
     """
 
     findings: Sequence[Finding]

@@ -1,6 +1,8 @@
-"""When garbage is collected: the command line and the workers of clusters disable the collector, and collect between inputs.
+"""When garbage is collected: the command line and the workers of clusters disable the collector,
+and collect between inputs.
 
-What is known of a frame has no reference cycles and is freed without it; what is tracked of a capture has some.
+What is known of a frame has no reference cycles and is freed without it; what is tracked of a
+capture has some.
 """
 
 import gc
@@ -14,7 +16,8 @@ MAX_GARBAGE = 200_000
 def collect_garbage(limit: int = MAX_GARBAGE) -> None:
     """Collects garbage between inputs, if there is more of it than the limit."""
     if gc.get_count()[0] > limit:
-        # Not the oldest generation: the results so far are no garbage, and are not gone through again after each input.
+        # Not the oldest generation: the results so far are no garbage, and are not gone through
+        # again after each input.
         gc.collect(1)
 
 

@@ -1,8 +1,11 @@
-"""Globs with the syntax of .gitignore, matched in linear time: a configuration may come from an untrusted branch.
+"""Globs with the syntax of .gitignore, matched in linear time: a configuration may come from an
+untrusted branch.
 
-`*` and `?` do not match `/`; `**` between slashes matches any number of folders; `[a-z]`, `[!a-z]` and `[[:digit:]]` match one character; a
-backslash escapes the next character. A glob with a slash at its start or in the middle is relative to its root, any other matches at every
-depth; one that ends in a slash matches folders only. A glob that matches a folder matches everything in it. A leading `!` negates a glob.
+`*` and `?` do not match `/`; `**` between slashes matches any number of folders; `[a-z]`, `[!a-z]`
+and `[[:digit:]]` match one character; a backslash escapes the next character. A glob with a slash
+at its start or in the middle is relative to its root, any other matches at every depth; one that
+ends in a slash matches folders only. A glob that matches a folder matches everything in it. A
+leading `!` negates a glob.
 """
 
 from __future__ import annotations
@@ -18,8 +21,10 @@ MAX_LENGTH = 256
 _ANY = "[^/]"
 _NAME = "[^/]+"
 _POSIX = {
-    "alnum": "0-9A-Za-z", "alpha": "A-Za-z", "blank": " \\t", "cntrl": "\\0-\\x1f\\x7f", "digit": "0-9", "graph": "!-~", "lower": "a-z",
-    "print": " -~", "punct": "!-/:-@\\[-`{-~", "space": "\\t-\\r ", "upper": "A-Z", "xdigit": "0-9A-Fa-f",
+    "alnum": "0-9A-Za-z", "alpha": "A-Za-z", "blank": " \\t", "cntrl": "\\0-\\x1f\\x7f",
+    "digit": "0-9", "graph": "!-~", "lower": "a-z",
+    "print": " -~", "punct": "!-/:-@\\[-`{-~", "space": "\\t-\\r ", "upper": "A-Z",
+    "xdigit": "0-9A-Fa-f",
 }  # fmt: skip
 _POSIX_CLASS = re.compile(r"\[:(\w+):\]")
 
@@ -32,8 +37,10 @@ class Glob(NamedTuple):
 
 
 class Compiled(NamedTuple):
-    """`exact` matches a path itself, `below` also everything in it. The path of a folder must end in a slash. A glob that is not `anchored`
-    matches the last name of a path, whatever folder it is in."""
+    """`exact` matches a path itself, `below` also everything in it. The path of a folder must end
+    in a slash. A glob that is not `anchored` matches the last name of a path, whatever folder it is
+    in.
+    """
 
     negated: bool
     anchored: bool
@@ -62,9 +69,14 @@ def compiled(pattern: str) -> Compiled:
         parts[-1] = "*"
     if not anchored:
         parts.insert(0, "**")
-    # Each run of names between two `**` matches at the first position where it fits. A later position cannot do better, so the group is
-    # atomic and never backtracks, which keeps the time linear.
-    runs = [[_name(part) for part in run] for is_any, run in groupby(parts, key="**".__eq__) if not is_any]
+    # Each run of names between two `**` matches at the first position where it fits. A later
+    # position cannot do better, so the group is atomic and never backtracks, which keeps the time
+    # linear.
+    runs = [
+        [_name(part) for part in run]
+        for is_any, run in groupby(parts, key="**".__eq__)
+        if not is_any
+    ]
     if parts[0] == "**":
         runs.insert(0, [])
     out = "".join(name + "/" for name in runs[0]) if len(runs) > 1 else "/".join(runs[0])
@@ -74,11 +86,15 @@ def compiled(pattern: str) -> Compiled:
         out += "(?:[^/]+/)*?" + "/".join(runs[-1])
     below, exact = ("/", r"/\Z") if folder else (r"(?:/|\Z)", r"/?\Z")
     whole = out.removesuffix(_NAME) + ".+" if all_within else out
-    return Compiled(negated, anchored, re.compile(whole + exact, re.DOTALL), re.compile(out + below, re.DOTALL))
+    return Compiled(
+        negated, anchored, re.compile(whole + exact, re.DOTALL), re.compile(out + below, re.DOTALL)
+    )
 
 
 def _name(part: str) -> str:
-    """The expression of one name. Each piece between two stars matches at the first position where it fits."""
+    """The expression of one name. Each piece between two stars matches at the first position where
+    it fits.
+    """
     pieces = [""]
     at = 0
     while at < len(part):
@@ -147,7 +163,9 @@ def _class(part: str, at: int) -> tuple[str, int]:
 
 
 def relative(file: str, root: str) -> str:
-    """`file` relative to `root`, with `/`. A file outside of it is relative to the folder that both share."""
+    """`file` relative to `root`, with `/`. A file outside of it is relative to the folder that both
+    share.
+    """
     try:
         path = os.path.relpath(file, root)
     except ValueError:  # another drive on Windows, or a NUL character
@@ -159,7 +177,9 @@ def relative(file: str, root: str) -> str:
 
 
 def matches(file: str, glob: Glob) -> bool:
-    """Whether a glob matches a file or, with `!`, does not match it. The root itself never matches."""
+    """Whether a glob matches a file or, with `!`, does not match it. The root itself never
+    matches.
+    """
     ready = compiled(glob.pattern)
     path = relative(file, glob.root)
     return path != os.curdir and (ready.below.match(path) is not None) != ready.negated
@@ -168,7 +188,8 @@ def matches(file: str, glob: Glob) -> bool:
 def excluding(file: str, globs: Sequence[Glob], folder: bool = False) -> Glob | None:
     """The glob that excludes a file or folder, or a folder that it is in; None if none does.
 
-    The last glob that matches decides, so that a later `!` includes files again, except in a folder that is excluded itself.
+    The last glob that matches decides, so that a later `!` includes files again, except in a folder
+    that is excluded itself.
     """
     paths = {glob.root: relative(file, glob.root) + ("/" if folder else "") for glob in globs}
     ready = [(glob, compiled(glob.pattern)) for glob in globs if paths[glob.root] != "./"]

@@ -1,6 +1,8 @@
-"""Keeps files of the working folder, a stranger's checkout perhaps, from being imported or run by this process and those that it starts.
+"""Keeps files of the working folder, a stranger's checkout perhaps, from being imported or run by
+this process and those that it starts.
 
-`python -m`, an empty entry of PYTHONPATH, and `.` in PATH all name the working folder. What an absolute path names is the user's choice.
+`python -m`, an empty entry of PYTHONPATH, and `.` in PATH all name the working folder. What an
+absolute path names is the user's choice.
 """
 
 import os
@@ -10,9 +12,11 @@ from .package import FOLDER
 
 
 def isolate() -> None:
-    """Removes the working folder from where this process and its child processes look for modules and programs.
+    """Removes the working folder from where this process and its child processes look for modules
+    and programs.
 
-    If this package itself is in the working folder, `sys.path` stays as it is: the packages that it needs may be there too.
+    If this package itself is in the working folder, `sys.path` stays as it is: the packages that it
+    needs may be there too.
     """
     os.environ["PYTHONSAFEPATH"] = "1"
     # Windows looks for programs in the working folder first.
@@ -21,7 +25,9 @@ def isolate() -> None:
     if _is_current_folder(os.path.dirname(FOLDER)):
         return
     stated = _keep_absolute("PYTHONPATH")
-    current = [number for number, path in enumerate(sys.path) if _is_current_folder(path or os.curdir)]
+    current = [
+        number for number, path in enumerate(sys.path) if _is_current_folder(path or os.curdir)
+    ]
     if any(map(_is_current_folder, stated)):
         # `python -m` puts the working folder before the entries of PYTHONPATH.
         current = current[:-1]

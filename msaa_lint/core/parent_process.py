@@ -8,7 +8,9 @@ _PR_SET_PDEATHSIG = 1
 
 
 def end_with_parent(parent: int) -> None:
-    """Lets the system kill this process when `parent`, which started it, ends, whatever it is doing then. Only on Linux."""
+    """Lets the system kill this process when `parent`, which started it, ends, whatever it is doing
+    then. Only on Linux.
+    """
     if sys.platform != "linux":
         return
     import ctypes

@@ -1,4 +1,6 @@
-"""What inputs add to a report that is rendered input by input: its text, and what its summary counts."""
+"""What inputs add to a report that is rendered input by input: its text, and what its summary
+counts.
+"""
 
 from collections.abc import Iterable, Mapping, Sequence
 from typing import NamedTuple
@@ -8,14 +10,16 @@ Level = tuple[str, str, bool]
 
 
 Lack = tuple[str, str, str]
-"""The code of an undecided rule, `fact` or `key`, and what it lacks; the last two are empty if that is unknown."""
+"""The code of an undecided rule, `fact` or `key`, and what it lacks; the last two are empty if that
+is unknown.
+"""
 
 
 class Counts(NamedTuple):
     """What the summary of a report counts.
 
-    `levels` are the numbers of findings by level, and `files` what they are about. `numbers` are counts by what is counted. `undecided` has
-    the codes of the undecided rules with what they lack.
+    `levels` are the numbers of findings by level, and `files` what they are about. `numbers` are
+    counts by what is counted. `undecided` has the codes of the undecided rules with what they lack.
     """
 
     levels: dict[Level, int]
@@ -52,8 +56,10 @@ class RenderedFinding(NamedTuple):
 
 
 class RenderedPart(NamedTuple):
-    """What an input, or the files of a program, add to a report. `suppressed` and `undecided` are texts of all of them, or empty; `inputs`
-    are those of the inputs, by name. `counts` are those of all but the findings."""
+    """What an input, or the files of a program, add to a report. `suppressed` and `undecided` are
+    texts of all of them, or empty; `inputs` are those of the inputs, by name. `counts` are those of
+    all but the findings.
+    """
 
     findings: Sequence[RenderedFinding]
     suppressed: str

@@ -18,10 +18,14 @@ except ImportError:
 PREFIX = "msaa-lint-scratch-"
 
 _LOCK = "lock"
-"""A file that the owner of a folder holds a lock on. The system releases it however the owner ends."""
+"""A file that the owner of a folder holds a lock on. The system releases it however the owner
+ends.
+"""
 
 _UNLOCKED_SECONDS = 3600.0
-"""The age of a folder without a lock file, from which on its owner is assumed to have ended between creating both."""
+"""The age of a folder without a lock file, from which on its owner is assumed to have ended between
+creating both.
+"""
 
 
 class ScratchFolder:
@@ -47,7 +51,9 @@ class ScratchFolder:
 
 
 def remove_abandoned() -> None:
-    """Removes the folders of this user whose owners have ended. Links are not followed, and folders of other users are left alone."""
+    """Removes the folders of this user whose owners have ended. Links are not followed, and folders
+    of other users are left alone.
+    """
     if fcntl is None:
         return
     with suppress(OSError), os.scandir(tempfile.gettempdir()) as entries:
@@ -62,7 +68,9 @@ def _remove_if_abandoned(path: str) -> None:
     if not stat.S_ISDIR(status.st_mode) or status.st_uid != os.getuid():
         return
     try:
-        lock = os.open(os.path.join(path, _LOCK), os.O_RDWR | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC)
+        lock = os.open(
+            os.path.join(path, _LOCK), os.O_RDWR | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC
+        )
     except FileNotFoundError:
         if time.time() - status.st_mtime > _UNLOCKED_SECONDS:
             shutil.rmtree(path, ignore_errors=True)

@@ -22,8 +22,9 @@ def by_name(*types: type) -> dict[tuple[str, str], type]:
 
 
 def loads(data: bytes, types: Mapping[tuple[str, str], type]) -> object:
-    """Returns the value that bytes hold, of built-in types and those that `types` has for its names. Raises ValueError for other bytes, and
-    RecursionError."""
+    """Returns the value that bytes hold, of built-in types and those that `types` has for its
+    names. Raises ValueError for other bytes, and RecursionError.
+    """
     try:
         return _Reader(data, types).load()
     except RecursionError:
@@ -33,7 +34,9 @@ def loads(data: bytes, types: Mapping[tuple[str, str], type]) -> object:
 
 
 class _Reader(pickle.Unpickler):
-    """Reads values of known types. It looks no other name up, so that nothing that the bytes state is executed."""
+    """Reads values of known types. It looks no other name up, so that nothing that the bytes state
+    is executed.
+    """
 
     def __init__(self, data: bytes, types: Mapping[tuple[str, str], type]) -> None:
         super().__init__(io.BytesIO(data))

@@ -1,4 +1,6 @@
-"""Sequences and mappings of any length. Short ones are in memory; of longer ones all but the last values are in a temporary file."""
+"""Sequences and mappings of any length. Short ones are in memory; of longer ones all but the last
+values are in a temporary file.
+"""
 
 from __future__ import annotations
 
@@ -17,7 +19,9 @@ MAX_VALUES = 500
 """The number of values that a sequence or a mapping writes at once."""
 
 MAX_UNWRITTEN = 4
-"""How many times as many values are in memory before the first are written, unless a limit is stated: most runs write none."""
+"""How many times as many values are in memory before the first are written, unless a limit is
+stated: most runs write none.
+"""
 
 MAX_READ = 16
 """The number of values of a mapping that stay in memory after they were read."""
@@ -28,7 +32,8 @@ class SpoolError(Exception):
 
 
 class Spool:
-    """The temporary file of the values that leave memory. It has no name, so that the system removes it however this process ends.
+    """The temporary file of the values that leave memory. It has no name, so that the system
+    removes it however this process ends.
 
     Without SQLite, all values stay in memory.
     """
@@ -43,16 +48,27 @@ class Spool:
             import sqlite3
         except ImportError:
             return None
-        # A database without a name is in a file in the folder of temporary files, and only what is used of it in memory.
+        # A database without a name is in a file in the folder of temporary files, and only what is
+        # used of it in memory.
         database = sqlite3.connect("", isolation_level=None, check_same_thread=False)
-        for setting in ("journal_mode = off", "synchronous = off", "temp_store = file", "cache_size = -1000"):
+        for setting in (
+            "journal_mode = off",
+            "synchronous = off",
+            "temp_store = file",
+            "cache_size = -1000",
+        ):
             database.execute(f"pragma {setting}")
         return database
 
     def has_to_write(self, number: int, limit: int | None, has_written: bool) -> bool:
-        """Whether so many values are too many for memory: at least `limit`, or MAX_VALUES if that is less; without a limit, MAX_UNWRITTEN
-        times as many if none of them are written yet."""
-        most = min(limit, MAX_VALUES) if limit is not None else MAX_VALUES * (1 if has_written else MAX_UNWRITTEN)
+        """Whether so many values are too many for memory: at least `limit`, or MAX_VALUES if that
+        is less; without a limit, MAX_UNWRITTEN times as many if none of them are written yet.
+        """
+        most = (
+            min(limit, MAX_VALUES)
+            if limit is not None
+            else MAX_VALUES * (1 if has_written else MAX_UNWRITTEN)
+        )
         return number >= most and self.database is not None
 
     def table(self, columns: str) -> str:
@@ -81,11 +97,15 @@ class Spool:
 
 
 def _error(error: Exception) -> SpoolError:
-    return SpoolError(f"cannot keep results in a temporary file: {error}; set TMPDIR to a folder with more room")
+    return SpoolError(
+        f"cannot keep results in a temporary file: {error}; set TMPDIR to a folder with more room"
+    )
 
 
 class SpooledList(Sequence[T]):
-    """A sequence to append to. Read in order, each value is read once from the file. `limit` values stay in memory, or MAX_VALUES."""
+    """A sequence to append to. Read in order, each value is read once from the file. `limit` values
+    stay in memory, or MAX_VALUES.
+    """
 
     def __init__(self, spool: Spool, values: Iterable[T] = (), limit: int | None = None) -> None:
         self._spool = spool
@@ -107,7 +127,10 @@ class SpooledList(Sequence[T]):
                     self._spool.table("page integer primary key, data blob"),
                     min(self._limit or MAX_VALUES, MAX_VALUES),
                 )
-            pages = [self._last[start : start + self._size] for start in range(0, len(self._last), self._size)]
+            pages = [
+                self._last[start : start + self._size]
+                for start in range(0, len(self._last), self._size)
+            ]
             rows = [(self._written + number, _dumps(page)) for number, page in enumerate(pages)]
             self._spool.execute_all(f"insert into {self._table} values (?, ?)", rows)
             self._written += len(pages)
@@ -146,12 +169,18 @@ class SpooledList(Sequence[T]):
         return self._read[1][offset]
 
     def _page(self, number: int) -> list[T]:
-        values: list[T] = _loads(self._spool.execute(f"select data from {self._table} where page = ?", number).fetchone()[0])
+        values: list[T] = _loads(
+            self._spool.execute(
+                f"select data from {self._table} where page = ?", number
+            ).fetchone()[0]
+        )
         return values
 
 
 class SpooledDict(Mapping[str, T]):
-    """A mapping from strings to values, in the order of their first addition. `limit` values stay in memory, or MAX_VALUES."""
+    """A mapping from strings to values, in the order of their first addition. `limit` values stay
+    in memory, or MAX_VALUES.
+    """
 
     def __init__(self, spool: Spool, limit: int | None = None) -> None:
         self._spool = spool
@@ -199,7 +228,9 @@ class SpooledDict(Mapping[str, T]):
         if key not in self._read:
             if not self._table:
                 raise KeyError(key)
-            row = self._spool.execute(f"select data from {self._table} where key = ?", _stored(key)).fetchone()
+            row = self._spool.execute(
+                f"select data from {self._table} where key = ?", _stored(key)
+            ).fetchone()
             if row is None:
                 raise KeyError(key)
             if len(self._read) == MAX_READ:
@@ -211,14 +242,19 @@ class SpooledDict(Mapping[str, T]):
         if not self._table:
             self._table = self._spool.table("key blob unique, data blob")
         rows = ((_stored(key), _dumps(value)) for key, value in self._last.items())
-        self._spool.execute_all(f"insert into {self._table} values (?, ?) on conflict (key) do update set data = excluded.data", rows)
+        self._spool.execute_all(
+            f"insert into {self._table} values (?, ?) on conflict (key) do update set data = "
+            f"excluded.data",
+            rows,
+        )
         self._last = {}
         self._read = {}
 
 
 class SpooledSort(Generic[T]):
-    """Groups of values to read in the order of their keys, and of their addition if keys are equal. A key is a tuple of integers, floating
-    point numbers, and bytes."""
+    """Groups of values to read in the order of their keys, and of their addition if keys are equal.
+    A key is a tuple of integers, floating point numbers, and bytes.
+    """
 
     def __init__(self, spool: Spool, width: int) -> None:
         self._spool = spool
@@ -237,14 +273,19 @@ class SpooledSort(Generic[T]):
             yield from sorted(self._last, key=itemgetter(0))
             return
         self._write()
-        for *key, data in self._spool.execute(f"select * from {self._table} order by {', '.join(self._columns)}, rowid"):
+        for *key, data in self._spool.execute(
+            f"select * from {self._table} order by {', '.join(self._columns)}, rowid"
+        ):
             yield tuple(key), _loads(data)
 
     def _write(self) -> None:
         if not self._table:
             self._table = self._spool.table(", ".join([*self._columns, "data blob"]))
         marks = ", ".join("?" * (len(self._columns) + 1))
-        self._spool.execute_all(f"insert into {self._table} values ({marks})", ((*key, _dumps(values)) for key, values in self._last))
+        self._spool.execute_all(
+            f"insert into {self._table} values ({marks})",
+            ((*key, _dumps(values)) for key, values in self._last),
+        )
         self._last = []
 
 

@@ -8,7 +8,9 @@ from itertools import islice
 from typing import NamedTuple
 
 MAX_LENGTH = 128
-"""Characters of a name: no suggestion is made for a longer one, as the time to compare two grows with the product of their lengths."""
+"""Characters of a name: no suggestion is made for a longer one, as the time to compare two grows
+with the product of their lengths.
+"""
 
 MAX_CANDIDATES = 1000
 """Candidates that a name is compared with; an input may hold millions."""
@@ -18,7 +20,9 @@ MAX_SEARCHES = 50
 
 
 CUTOFF = 0.7
-"""Twice the letters that two names have in common, as a share of all their letters, from which they are near."""
+"""Twice the letters that two names have in common, as a share of all their letters, from which they
+are near.
+"""
 
 
 def letters_and_digits(name: str) -> str:
@@ -34,13 +38,16 @@ class _Candidates(NamedTuple):
     letters: dict[str, int]
 
     def alike(self, bare: str) -> list[str]:
-        """The simplified candidates that may be near a name: not those whose length, or whose letters that the other lacks, exclude it.
-        difflib takes a hundred times as long for each."""
+        """The simplified candidates that may be near a name: not those whose length, or whose
+        letters that the other lacks, exclude it. difflib takes a hundred times as long for each.
+        """
         bits, length = _letter_bits(bare), len(bare)
         return [
             key
             for key, others in self.letters.items()
-            if 2 * min(length - (bits & ~others).bit_count(), len(key) - (others & ~bits).bit_count()) >= CUTOFF * (length + len(key))
+            if 2
+            * min(length - (bits & ~others).bit_count(), len(key) - (others & ~bits).bit_count())
+            >= CUTOFF * (length + len(key))
         ]
 
 
@@ -65,17 +72,29 @@ def _letter_bits(name: str) -> int:
     return bits
 
 
-def nearest(name: str, candidates: Iterable[str], simplify: Callable[[str], str] = letters_and_digits) -> str | None:
-    """The candidate that was most likely meant by a name that is not among them; None if none is near.
+def nearest(
+    name: str, candidates: Iterable[str], simplify: Callable[[str], str] = letters_and_digits
+) -> str | None:
+    """The candidate that was most likely meant by a name that is not among them; None if none is
+    near.
 
-    Names are compared by what `simplify` leaves of them. A candidate that differs in case or separators only comes first; then one that is
-    equal when simplified, the shortest one that begins with the name, one with a single typo, the first one that begins with the same
-    letter and has the others in their order (`RGBA16F`), if these are a third of its letters, and one with a few typos.
+    Names are compared by what `simplify` leaves of them. A candidate that differs in case or
+    separators only comes first; then one that is equal when simplified, the shortest one that
+    begins with the name, one with a single typo, the first one that begins with the same letter and
+    has the others in their order (`RGBA16F`), if these are a third of its letters, and one with a
+    few typos.
     """
     bare = simplify(name) if len(name) <= MAX_LENGTH else ""
     if not bare:
         return None
-    known = _candidates(tuple(candidate for candidate in islice(candidates, MAX_CANDIDATES) if len(candidate) <= MAX_LENGTH), simplify)
+    known = _candidates(
+        tuple(
+            candidate
+            for candidate in islice(candidates, MAX_CANDIDATES)
+            if len(candidate) <= MAX_LENGTH
+        ),
+        simplify,
+    )
     plain = letters_and_digits(name)
     if plain in known.by_letters:
         return known.by_letters[plain]
@@ -94,13 +113,19 @@ def nearest(name: str, candidates: Iterable[str], simplify: Callable[[str], str]
     if len(bare) >= 4:
         for key, candidate in simplified.items():
             letters = iter(key)
-            if key[0] == bare[0] and len(key) <= 3 * len(bare) and all(letter in letters for letter in bare):
+            if (
+                key[0] == bare[0]
+                and len(key) <= 3 * len(bare)
+                and all(letter in letters for letter in bare)
+            ):
                 return candidate
     return simplified[close[0]] if close else None
 
 
 def did_you_mean(name: str, candidates: Iterable[str], separator: str = "; ") -> str:
-    """The end of a message about an unknown name: "; did you mean `samples`?", or nothing if no candidate is near."""
+    """The end of a message about an unknown name: "; did you mean `samples`?", or nothing if no
+    candidate is near.
+    """
     return question(nearest(name, candidates), separator)
 
 
@@ -116,14 +141,18 @@ def near_or_all(name: str, words: Sequence[str]) -> str:
 
 
 class Suggestions:
-    """Suggestions for several unknown names among the same candidates. Each name is searched for once, and at most MAX_SEARCHES are."""
+    """Suggestions for several unknown names among the same candidates. Each name is searched for
+    once, and at most MAX_SEARCHES are.
+    """
 
     def __init__(self, candidates: Iterable[str]) -> None:
         self._candidates = candidates
         self._nearest: dict[str, str | None] = {}
 
     def nearest(self, name: str) -> str | None:
-        """The candidate that was most likely meant by a name; None if none is near, or if too many names were searched for."""
+        """The candidate that was most likely meant by a name; None if none is near, or if too many
+        names were searched for.
+        """
         if name not in self._nearest and len(self._nearest) < MAX_SEARCHES:
             self._nearest[name] = nearest(name, self._candidates)
         return self._nearest.get(name)

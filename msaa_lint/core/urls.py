@@ -1,7 +1,7 @@
 """Inputs on object storage, and on any other file system that fsspec knows, by URL.
 
-Only the command line names URLs. What an input states is read from the named folder, or that of the named file, and from nowhere else. What
-is opened is read by ranges, as it is needed.
+Only the command line names URLs. What an input states is read from the named folder, or that of the
+named file, and from nowhere else. What is opened is read by ranges, as it is needed.
 """
 
 from __future__ import annotations
@@ -28,7 +28,9 @@ PAGE = 1000
 """The number of entries of a folder that are listed at a time."""
 
 MIN_AGE = 60.0
-"""Seconds from which on the time at which an object was last written is its version: another write at the same time is unlikely."""
+"""Seconds from which on the time at which an object was last written is its version: another write
+at the same time is unlikely.
+"""
 
 ABSENT = "absent"
 """The version of an object that does not exist."""
@@ -57,7 +59,9 @@ class UrlError(OSError):
 
 
 class Stated(NamedTuple):
-    """What the storage states about an object: its size in bytes (None: unknown), and its version, which is empty if that is unknown."""
+    """What the storage states about an object: its size in bytes (None: unknown), and its version,
+    which is empty if that is unknown.
+    """
 
     size: int | None
     version: str
@@ -89,7 +93,9 @@ def is_url(path: str) -> bool:
 
 
 def name_of(path: str) -> str:
-    """A path or URL of the command line as outputs name it: that of a `file` URL is its path, and no other has credentials in it."""
+    """A path or URL of the command line as outputs name it: that of a `file` URL is its path, and
+    no other has credentials in it.
+    """
     if not is_url(path):
         return path
     scheme, rest = _parts(path)
@@ -98,7 +104,11 @@ def name_of(path: str) -> str:
         from urllib.parse import unquote
 
         # Of `file:///C:/frames`, the slash is not part of the path.
-        local = re.sub(r"\A/(?=[A-Za-z]:)", "", "/" + unquote(below)) if os.name == "nt" else "/" + unquote(below)
+        local = (
+            re.sub(r"\A/(?=[A-Za-z]:)", "", "/" + unquote(below))
+            if os.name == "nt"
+            else "/" + unquote(below)
+        )
         return local if authority in ("", "localhost") else f"file://{rest}"
     if _has_password(rest):
         in_authority = "@" in authority
@@ -117,9 +127,15 @@ def problem(url: str) -> str | None:
     if scheme in _LOCAL and rest.partition("/")[0] not in ("", "localhost"):
         return "a `file` URL of another machine cannot be read: name a path, as in `file:///folder`"
     if _has_password(rest):
-        return "a URL with credentials is not read because others can see it: set them in the environment, and write the URL without them"
+        return (
+            "a URL with credentials is not read because others can see it: set them in the "
+            "environment, and write the URL without them"
+        )
     if scheme in ("http", "https") and "?" in rest:
-        return "a URL with a query is not read because the query may be a signature: download the file, and name it"
+        return (
+            "a URL with a query is not read because the query may be a signature: download the "
+            "file, and name it"
+        )
     return None
 
 
@@ -136,19 +152,26 @@ def _has_password(rest: str) -> bool:
 
 
 def allow(folder: str) -> None:
-    """Allows what inputs state to be read from a folder, which the user named, or in which the named object is."""
+    """Allows what inputs state to be read from a folder, which the user named, or in which the
+    named object is.
+    """
     _allowed.add(folder.rstrip("/"))
 
 
 def root_of(folder: str) -> str:
-    """The folder that what an input in `folder` states may be in: the outermost one that is allowed."""
+    """The folder that what an input in `folder` states may be in: the outermost one that is
+    allowed.
+    """
     folder = folder.rstrip("/")
-    return min((each for each in _allowed if f"{folder}/".startswith(f"{each}/")), key=len, default=folder)
+    return min(
+        (each for each in _allowed if f"{folder}/".startswith(f"{each}/")), key=len, default=folder
+    )
 
 
 def inside(path: str, root: str) -> str | None:
-    """The URL of a path that content states, which begins with the URL of the input's folder; None if it leads out of `root`. Raises
-    OSError if it states a URL."""
+    """The URL of a path that content states, which begins with the URL of the input's folder; None
+    if it leads out of `root`. Raises OSError if it states a URL.
+    """
     if root.rstrip("/") not in _allowed or path.count("://") > 1:
         raise OSError("it is a URL, not a path")
     url = normalized(path)
@@ -188,7 +211,9 @@ def entries(url: str) -> list[Entry]:
 
 
 def _infos(system: Any, path: str) -> Iterator[Mapping[str, Any]]:
-    """What a storage states about the entries of a folder: page by page, if it is one with millions of them."""
+    """What a storage states about the entries of a folder: page by page, if it is one with millions
+    of them.
+    """
     if not type(system).__module__.startswith("s3fs."):
         yield from system.ls(path, detail=True)
         return
@@ -236,8 +261,9 @@ def length(url: str) -> int:
 
 
 def version(url: str, is_fresh: bool = False) -> str:
-    """What the storage states as the version of an object: ABSENT if there is none, empty if it states none. That of a listed input is as
-    of its listing, unless `is_fresh` asks again."""
+    """What the storage states as the version of an object: ABSENT if there is none, empty if it
+    states none. That of a listed input is as of its listing, unless `is_fresh` asks again.
+    """
     if not is_fresh and url in _listed:
         return _listed[url].version
     try:
@@ -251,7 +277,9 @@ def version(url: str, is_fresh: bool = False) -> str:
 
 
 def keep_version(url: str, version: str) -> None:
-    """Keeps the version of an object that is read, unless that is a listed input, for other inputs that state it."""
+    """Keeps the version of an object that is read, unless that is a listed input, for other inputs
+    that state it.
+    """
     if url not in _listed:
         _versions[url] = version
 
@@ -262,7 +290,9 @@ def version_read(url: str) -> str | None:
 
 
 def open_object(url: str, entry: Entry | None = None) -> tuple[BinaryIO, Stated]:
-    """An object, open for reading, and what the storage states about it, which `entry` saves asking. Raises OSError."""
+    """An object, open for reading, and what the storage states about it, which `entry` saves
+    asking. Raises OSError.
+    """
     with _errors():
         system, path = _file_system(url)
         if entry is None:
@@ -274,7 +304,9 @@ def open_object(url: str, entry: Entry | None = None) -> tuple[BinaryIO, Stated]
             stated = entry.stated
         if stated.size is None:
             return io.BufferedReader(_Stream(system.open(path, "rb"))), stated
-    return io.BufferedReader(_Object(system, path, stated.size), min(stated.size + 1, BLOCK)), stated
+    return io.BufferedReader(
+        _Object(system, path, stated.size), min(stated.size + 1, BLOCK)
+    ), stated
 
 
 def open_listed(url: str) -> BinaryIO:
@@ -288,8 +320,16 @@ def _stated(info: Mapping[str, Any]) -> Stated:
     version = next((f"{info[key]} {size}" for key in _VERSIONS if info.get(key)), "")
     written = next((info[key] for key in _TIMES if info.get(key)), None)
     if not version and written is not None:
-        seconds = written if isinstance(written, (int, float)) else written.timestamp() if hasattr(written, "timestamp") else None
-        version = f"{seconds} {size}" if seconds is not None and time.time() - seconds > MIN_AGE else ""
+        seconds = (
+            written
+            if isinstance(written, (int, float))
+            else written.timestamp()
+            if hasattr(written, "timestamp")
+            else None
+        )
+        version = (
+            f"{seconds} {size}" if seconds is not None and time.time() - seconds > MIN_AGE else ""
+        )
     return Stated(size if isinstance(size, int) else None, version)
 
 
@@ -303,7 +343,11 @@ def _file_system(url: str) -> tuple[Any, str]:
     try:
         kind: Any = get_filesystem_class(scheme)
     except ImportError as error:
-        raise UrlError(needs_extra(f"reading `{scheme}://`", _EXTRAS[scheme]) if scheme in _EXTRAS else _first_line(error)) from None
+        raise UrlError(
+            needs_extra(f"reading `{scheme}://`", _EXTRAS[scheme])
+            if scheme in _EXTRAS
+            else _first_line(error)
+        ) from None
     except ValueError:
         raise UrlError(f"unknown protocol `{scheme}`: fsspec has no file system for it") from None
     # Unlike fsspec's own function, this gives `::` no meaning, which an object's name may contain.
@@ -323,7 +367,9 @@ def _errors() -> Iterator[None]:
         if isinstance(error, FileNotFoundError):
             # A file system may say so of anything that goes wrong.
             cause = error.__cause__
-            if not isinstance(cause, Exception) or not (_is_unreachable(cause) or getattr(cause, "status", 404) != 404):
+            if not isinstance(cause, Exception) or not (
+                _is_unreachable(cause) or getattr(cause, "status", 404) != 404
+            ):
                 raise FileNotFoundError(errno.ENOENT, "no such file or folder") from None
             error = cause
         raise UrlError(_reason(error)) from None
@@ -340,9 +386,15 @@ def _kinds(error: Exception) -> str:
 def _reason(error: Exception) -> str:
     kinds = _kinds(error)
     if isinstance(error, PermissionError) or getattr(error, "status", None) in (401, 403):
-        return f"access denied ({_first_line(error)}): check the credentials in the environment, and what they may read"
+        return (
+            f"access denied ({_first_line(error)}): check the credentials in the environment, "
+            f"and what they may read"
+        )
     if _NO_CREDENTIALS.search(kinds):
-        return "no credentials: set those of the storage in the environment, for S3 AWS_PROFILE, or AWS_ACCESS_KEY_ID and its secret"
+        return (
+            "no credentials: set those of the storage in the environment, for S3 AWS_PROFILE, "
+            "or AWS_ACCESS_KEY_ID and its secret"
+        )
     if _is_unreachable(error):
         return f"the storage cannot be reached: {_first_line(error)}"
     return f"the storage reports {type(error).__name__}: {_first_line(error)}"

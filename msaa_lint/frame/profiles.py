@@ -1,7 +1,9 @@
-"""Which device is meant: the one that a description names or describes, what `--profile` and the configuration's `profile` name.
+"""Which device is meant: the one that a description names or describes, what `--profile` and the
+configuration's `profile` name.
 
-A name is a built-in device's, a class of devices', a vendor's, or the path of a report (`devices/reports`); `phone.json#2` and
-`phone.json#Mali-G715` pick one of several devices in a report. Of reports nothing is imported before one is named.
+A name is a built-in device's, a class of devices', a vendor's, or the path of a report
+(`devices/reports`); `phone.json#2` and `phone.json#Mali-G715` pick one of several devices in a
+report. Of reports nothing is imported before one is named.
 """
 
 import os
@@ -28,7 +30,9 @@ MAX_LISTED = 1000
 
 
 class Problem(NamedTuple):
-    """Why no device can be had: the code of a finding at the place that names it, in words, and what may help."""
+    """Why no device can be had: the code of a finding at the place that names it, in words, and
+    what may help.
+    """
 
     code: str
     message: str
@@ -36,13 +40,16 @@ class Problem(NamedTuple):
 
 
 def device_of(name: str | None) -> DeviceProfile | None:
-    """The device that descriptions without one are judged for; None where there is none of that name (`profile_of` says why)."""
+    """The device that descriptions without one are judged for; None where there is none of that
+    name (`profile_of` says why).
+    """
     found = profile_of(name) if name is not None else None
     return found if isinstance(found, DeviceProfile) else None
 
 
 def profile_of(name: str, project: str | None = None) -> DeviceProfile | Problem:
-    """The device that `--profile` or a configuration names; of a vendor's only that is known. Paths count from the current folder.
+    """The device that `--profile` or a configuration names; of a vendor's only that is known. Paths
+    count from the current folder.
 
     `project` is that of the configuration, in which a report must be; None for `--profile`.
     """
@@ -50,11 +57,17 @@ def profile_of(name: str, project: str | None = None) -> DeviceProfile | Problem
     if found is not None:
         return found
     if name in WORDS["vendor"]:
-        return DeviceProfile(name=name, vendor=name, minimum=True, source="only the vendor is known")
+        return DeviceProfile(
+            name=name, vendor=name, minimum=True, source="only the vendor is known"
+        )
     if is_path(name):
         return _reported(name, os.curdir, project)
     close = nearest(name, known_profiles())
-    help = f"did you mean `{close}`?" if close else f"there are {', '.join(known_profiles())}, and paths of device reports"
+    help = (
+        f"did you mean `{close}`?"
+        if close
+        else f"there are {', '.join(known_profiles())}, and paths of device reports"
+    )
     return Problem("MSAA904", f"no profile {quoted_path(name)}", help)
 
 
@@ -64,9 +77,11 @@ def known_profiles() -> tuple[str, ...]:
 
 
 def replace_captured(description: "Description", default: DeviceProfile | None) -> None:
-    """Replaces the device that a frame was captured on by the given one, if any, in memory that the program would choose there.
+    """Replaces the device that a frame was captured on by the given one, if any, in memory that the
+    program would choose there.
 
-    A program that prefers lazily allocated memory takes other memory where there is none, so that of its images is then unknown.
+    A program that prefers lazily allocated memory takes other memory where there is none, so that
+    of its images is then unknown.
     """
     from .description.models import Device
 
@@ -80,11 +95,15 @@ def replace_captured(description: "Description", default: DeviceProfile | None) 
         image.memory = None
 
 
-def device_for(description: "Description", file: str, default: DeviceProfile | None) -> DeviceProfile | Problem | None:
-    """The device that a description names or describes, or the family of Metal's GPUs that it states, else the given one.
+def device_for(
+    description: "Description", file: str, default: DeviceProfile | None
+) -> DeviceProfile | Problem | None:
+    """The device that a description names or describes, or the family of Metal's GPUs that it
+    states, else the given one.
 
-    A path counts from the folder of the description's `file` (a name that is no path, such as `<stdin>`: from the current folder) and must
-    stay in its project: a description may come from a stranger's branch. A Problem is one of the description, at its `device`.
+    A path counts from the folder of the description's `file` (a name that is no path, such as
+    `<stdin>`: from the current folder) and must stay in its project: a description may come from a
+    stranger's branch. A Problem is one of the description, at its `device`.
     """
     from .description.models import Device
     from .facts.global_facts import described, of_family
@@ -100,11 +119,15 @@ def device_for(description: "Description", file: str, default: DeviceProfile | N
     if is_path(stated):
         folder = folder_of(file)
         return _reported(stated, folder, project_root(folder))
-    return Problem("MSAA904", f"no device {quoted_path(stated)}", f"built-in devices: {', '.join(names())}")
+    return Problem(
+        "MSAA904", f"no device {quoted_path(stated)}", f"built-in devices: {', '.join(names())}"
+    )
 
 
 def _reported(name: str, folder: str, project: str | None) -> DeviceProfile | Problem:
-    """The device of a report that a name is the path of. `project` is None for a path of the command line."""
+    """The device of a report that a name is the path of. `project` is None for a path of the
+    command line.
+    """
     path, which = split(name)
     found = reports(os.path.join(folder, path), path, project)
     if isinstance(found, Problem):
@@ -114,15 +137,18 @@ def _reported(name: str, folder: str, project: str | None) -> DeviceProfile | Pr
     report = pick(found, which)
     if report is not None:
         return report.profile
-    there = ", ".join(f"`{path}#{number}` is {each.profile.name}" for number, each in enumerate(found[:8], 1))
+    there = ", ".join(
+        f"`{path}#{number}` is {each.profile.name}" for number, each in enumerate(found[:8], 1)
+    )
     if which:
         return Problem("MSAA904", f"no device {quoted_path(which)} in {quoted_path(path)}", there)
     return Problem("MSAA903", f"{quoted_path(path)} has {len(found)} devices: say which", there)
 
 
 def reports(path: str, called: str, project: str | None) -> "list[Report] | Problem":
-    """The devices of a report's file. `called` is what messages and the profiles' sources call it; `project` is None for a path of the
-    command line."""
+    """The devices of a report's file. `called` is what messages and the profiles' sources call it;
+    `project` is None for a path of the command line.
+    """
     from .devices.reports import EXPECTED, MAX_BYTES, NotAReport
 
     try:
@@ -138,7 +164,9 @@ def reports(path: str, called: str, project: str | None) -> "list[Report] | Prob
         return _read[key]
     except Outside:
         return Problem(
-            "MSAA903", f"{quoted_path(called)} is outside the project", "only --profile on the command line can name such a file"
+            "MSAA903",
+            f"{quoted_path(called)} is outside the project",
+            "only --profile on the command line can name such a file",
         )
     except FileNotFoundError:
         return Problem("MSAA904", f"no file {quoted_path(called)}", _near(path, called))
@@ -171,7 +199,11 @@ def _near(path: str, called: str) -> str:
         return f"built-in devices: {', '.join(names())}"
     try:
         with os.scandir(folder or os.curdir) as entries:
-            there = [entry.name for entry, _ in zip(entries, range(MAX_LISTED), strict=False) if entry.name.endswith(ENDINGS)]
+            there = [
+                entry.name
+                for entry, _ in zip(entries, range(MAX_LISTED), strict=False)
+                if entry.name.endswith(ENDINGS)
+            ]
     except OSError:
         return f"the folder {quoted_path(os.path.dirname(called))} is not there"
     close = nearest(name, sorted(there))

@@ -23,10 +23,11 @@ from .reading_progress import ObservedStream
 class CaptureInput(NamedTuple):
     """A capture converted to a description.
 
-    `format` is one of `readers.CAPTURES`. `source` is the text of the description, whose origins are the captured calls; `modules` is the
-    code of its shaders by name. `broken` says why the rest of the capture could not be read, which the last line of the text stands for;
-    empty if all was read. `limits` say what is not checked because it exceeds a limit, with the lines of the text that stand for it.
-    `notes` are lines for the user about what is missing.
+    `format` is one of `readers.CAPTURES`. `source` is the text of the description, whose origins
+    are the captured calls; `modules` is the code of its shaders by name. `broken` says why the rest
+    of the capture could not be read, which the last line of the text stands for; empty if all was
+    read. `limits` say what is not checked because it exceeds a limit, with the lines of the text
+    that stand for it. `notes` are lines for the user about what is missing.
     """
 
     format: str
@@ -45,20 +46,31 @@ class CaptureInput(NamedTuple):
 
 
 def read_capture(
-    stream: BinaryIO, format: str, name: str, path: str | None, is_binary: bool = False, frame_end: str | None = None
+    stream: BinaryIO,
+    format: str,
+    name: str,
+    path: str | None,
+    is_binary: bool = False,
+    frame_end: str | None = None,
 ) -> CaptureInput:
-    """Reads a capture of a format (one of `readers.CAPTURES`) from a binary stream, in memory that does not grow with its length.
+    """Reads a capture of a format (one of `readers.CAPTURES`) from a binary stream, in memory that
+    does not grow with its length.
 
-    `name` is the capture's name in findings. `path` locates the files that belong to it; None for a stream. The lines of the stream are not
-    those of the capture if it `is_binary`. `frame_end` says what ends a frame: `present`, `submit`, or `label:` and the text of a debug
-    label; None if the capture shows it. An invalid capture does not raise; Unreadable if a capture lacks the label.
+    `name` is the capture's name in findings. `path` locates the files that belong to it; None for a
+    stream. The lines of the stream are not those of the capture if it `is_binary`. `frame_end` says
+    what ends a frame: `present`, `submit`, or `label:` and the text of a debug label; None if the
+    capture shows it. An invalid capture does not raise; Unreadable if a capture lacks the label.
     """
     module = import_module(f".readers.{format.replace('-', '_')}", __package__)
     tracker = Tracker(frame_end)
     broken: CaptureError | None = None
     place = Place(1, 1)
     observer = reading_progress.observer
-    observed = stream if observer is None else ObservedStream(stream, name, lambda: tracker.frames.total, observer)
+    observed = (
+        stream
+        if observer is None
+        else ObservedStream(stream, name, lambda: tracker.frames.total, observer)
+    )
     try:
         for call in module.calls(observed, tracker.wanted, path):
             tracker.feed(call)
@@ -81,7 +93,9 @@ def read_capture(
         notes.append(f"{name}: the last entry is truncated and was skipped")
     if tracker.frames.dropped:
         count = f"{tracker.frames.dropped} of {tracker.frames.total} frames"
-        notes.append(f"{name}: {count} were not linted because the capture has too many kinds of frames")
+        notes.append(
+            f"{name}: {count} were not linted because the capture has too many kinds of frames"
+        )
     limits = []
     for limit, place in tracker.frames.limits.items():
         comment = f"# {limit}"
@@ -95,11 +109,15 @@ def read_capture(
         origins = [origin and origin._replace(line=None, column=None) for origin in origins]
     message = broken.message if broken is not None else ""
     source, summary = Source(name, text, origins), capture_summary(tracker, left_out)
-    return CaptureInput(format, source, modules, tracker.frames.total, message, tuple(limits), tuple(notes), summary)
+    return CaptureInput(
+        format, source, modules, tracker.frames.total, message, tuple(limits), tuple(notes), summary
+    )
 
 
 def _frame_end_notes(tracker: Tracker, name: str) -> list[str]:
-    """What the option for the end of frames did not do. Unreadable if the capture lacks the label."""
+    """What the option for the end of frames did not do. Unreadable if the capture lacks the
+    label.
+    """
     frames = tracker.frames
     if frames.frame_end is None:
         return []
@@ -108,10 +126,17 @@ def _frame_end_notes(tracker: Tracker, name: str) -> list[str]:
     label = frames.frame_label
     if label is not None and not label.is_found:
         others = list(label.others)
-        hint = did_you_mean(label.text, others) or (f"; it has {', '.join(map(quoted, others[:5]))}" if others else "; it has no labels")
-        raise Unreadable(f"the capture has no debug label {quoted(label.text)}, which `--frame-end` names{hint}")
+        hint = did_you_mean(label.text, others) or (
+            f"; it has {', '.join(map(quoted, others[:5]))}" if others else "; it has no labels"
+        )
+        raise Unreadable(
+            f"the capture has no debug label {quoted(label.text)}, which `--frame-end` names{hint}"
+        )
     if frames.frame_end == "present" and frames.total and not frames.is_marked:
-        return [f"{name}: the capture presents nothing, so that it is one frame: `--frame-end submit` ends frames at submissions"]
+        return [
+            f"{name}: the capture presents nothing, so that it is one frame: `--frame-end submit` "
+            f"ends frames at submissions"
+        ]
     return []
 
 
@@ -124,7 +149,9 @@ def located_findings(capture: CaptureInput, findings: Sequence[Finding]) -> list
             finding = finding._replace(fix=finding.fix._replace(edits=(), shown=True))
         origin = capture.source.origin(finding.span.start) if finding.span is not None else None
         if origin is not None and origin.by:
-            finding = finding._replace(capture_location=CaptureLocation(origin.by, origin.call, origin.frames, origin.of))
+            finding = finding._replace(
+                capture_location=CaptureLocation(origin.by, origin.call, origin.frames, origin.of)
+            )
         located.append(finding)
     return located
 
@@ -135,10 +162,20 @@ def capture_problems(capture: CaptureInput) -> list[Finding]:
     if capture.broken:
         text = capture.source.text
         start = text.rfind("\n", 0, len(text) - 1) + 1
-        result.append(diagnostic("MSAA901", f"the capture ends here: {capture.broken}", capture.source.name, Span(start, len(text) - 1)))
+        result.append(
+            diagnostic(
+                "MSAA901",
+                f"the capture ends here: {capture.broken}",
+                capture.source.name,
+                Span(start, len(text) - 1),
+            )
+        )
     return result
 
 
 def limit_findings(capture: CaptureInput) -> list[Finding]:
     """The findings about what of a capture is not checked because it exceeds a limit."""
-    return [diagnostic("MSAA906", f"limit exceeded: {limit}", capture.source.name, span) for limit, span in capture.limits]
+    return [
+        diagnostic("MSAA906", f"limit exceeded: {limit}", capture.source.name, span)
+        for limit, span in capture.limits
+    ]

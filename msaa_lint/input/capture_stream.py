@@ -1,4 +1,6 @@
-"""Streams of captures that do not come from a plain file: standard input, decompressed data, and the output of a converter."""
+"""Streams of captures that do not come from a plain file: standard input, decompressed data, and
+the output of a converter.
+"""
 
 import io
 from collections.abc import Iterable
@@ -8,7 +10,9 @@ from .file_types import HEAD_BYTES
 
 
 class StreamFailure(Exception):
-    """The rest of a capture cannot be had: why. `is_limit` says whether that is because it would exceed a limit."""
+    """The rest of a capture cannot be had: why. `is_limit` says whether that is because it would
+    exceed a limit.
+    """
 
     def __init__(self, message: str, is_limit: bool = False) -> None:
         super().__init__(message)
@@ -16,7 +20,9 @@ class StreamFailure(Exception):
 
 
 class CaptureStream(io.BufferedReader):
-    """The bytes of pieces, as a stream that ends where their source fails. `failure` then says why."""
+    """The bytes of pieces, as a stream that ends where their source fails. `failure` then says
+    why.
+    """
 
     def __init__(self, pieces: Iterable[bytes]) -> None:
         self._joined = _JoinedPieces(pieces)
@@ -39,7 +45,9 @@ def pieces_of(stream: BinaryIO, size: int) -> Iterable[bytes]:
 
 
 class _JoinedPieces(io.RawIOBase):
-    """Fills buffers completely: a format is detected from a head of full length, however slowly a pipe delivers it."""
+    """Fills buffers completely: a format is detected from a head of full length, however slowly a
+    pipe delivers it.
+    """
 
     def __init__(self, pieces: Iterable[bytes]) -> None:
         self._pieces = iter(pieces)

@@ -1,5 +1,6 @@
-"""A program that reads a file of the user natively. It is looked up outside the project in the working folder, and runs with the
-environment of all child processes."""
+"""A program that reads a file of the user natively. It is looked up outside the project in the
+working folder, and runs with the environment of all child processes.
+"""
 
 from __future__ import annotations
 
@@ -23,13 +24,17 @@ BLOCK = 1 << 16
 
 
 def installed(program: str) -> str | None:
-    """The path of a program, looked up outside the project in the working folder; None if it is not installed."""
+    """The path of a program, looked up outside the project in the working folder; None if it is not
+    installed.
+    """
     record_program(program)
     return shutil.which(program, path=child_environment().get("PATH", ""))
 
 
 class Program:
-    """A program that runs. It is killed at the end of the `with` statement, and when it writes nothing for `patience` seconds."""
+    """A program that runs. It is killed at the end of the `with` statement, and when it writes
+    nothing for `patience` seconds.
+    """
 
     def __init__(self, command: list[str], folder: str, patience: float) -> None:
         program = installed(command[0])
@@ -68,7 +73,9 @@ class Program:
                 pipe.close()
 
     def output(self) -> Iterator[bytes]:
-        """The standard output as it comes. Raises StreamFailure at its end if the program failed."""
+        """The standard output as it comes. Raises StreamFailure at its end if the program
+        failed.
+        """
         while True:
             self._waits_since = time.monotonic()
             piece = os.read(self._stdout.fileno(), BLOCK)
@@ -82,9 +89,15 @@ class Program:
         self._ended.set()
         self.errors.join(1)
         if self._is_late:
-            raise StreamFailure(f"{self._name} wrote nothing for {self._patience:.0f} s and was stopped")
+            raise StreamFailure(
+                f"{self._name} wrote nothing for {self._patience:.0f} s and was stopped"
+            )
         if code:
-            how = f"was ended by {signal_name(-code)}" if code < 0 else f"failed with exit code {code}"
+            how = (
+                f"was ended by {signal_name(-code)}"
+                if code < 0
+                else f"failed with exit code {code}"
+            )
             words = self.errors.last()
             raise StreamFailure(f"{self._name} {how}" + (f": {words}" if words else ""))
 

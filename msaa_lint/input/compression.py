@@ -9,17 +9,23 @@ from .capture_stream import CaptureStream, StreamFailure
 from .file_types import COMPRESSED, Compression
 
 BLOCK = 1 << 13
-"""Bytes read at a time. What follows a member is copied once per member, so many tiny members cost this much each."""
+"""Bytes read at a time. What follows a member is copied once per member, so many tiny members cost
+this much each.
+"""
 
 STEP = 1 << 14
 """Bytes decompressed at a time: what is lost before invalid data."""
 
 MAX_BYTES = 2 << 30
 MAX_RATIO = 256
-"""A capture may decompress to MAX_BYTES, and MAX_RATIO times its size more: 1 MB of zeros could decompress for hours."""
+"""A capture may decompress to MAX_BYTES, and MAX_RATIO times its size more: 1 MB of zeros could
+decompress for hours.
+"""
 
 MAX_MEMORY = 256 << 20
-"""Memory in bytes that the dictionary of xz data may take. `xz -9` takes 64 MiB; zstd has a limit of 128 MiB itself."""
+"""Memory in bytes that the dictionary of xz data may take. `xz -9` takes 64 MiB; zstd has a limit
+of 128 MiB itself.
+"""
 
 
 def _gzip() -> Any:
@@ -81,12 +87,18 @@ def _pieces(stream: BinaryIO, compression: Compression) -> Iterator[bytes]:
             except MemoryError:
                 raise
             except Exception as error:  # zlib, lzma, bz2 and zstd each have their own
-                raise StreamFailure(f"the {compression.name} data is invalid: {_first_line(error)}") from None
+                raise StreamFailure(
+                    f"the {compression.name} data is invalid: {_first_line(error)}"
+                ) from None
             data = b""
             room -= len(piece)
             if room < 0:
                 size = f"{MAX_BYTES >> 30} GiB and {MAX_RATIO} times its size"
-                raise StreamFailure(f"the rest of the capture was not read because it decompresses to more than {size}", True)
+                raise StreamFailure(
+                    f"the rest of the capture was not read because it decompresses to more than "
+                    f"{size}",
+                    True,
+                )
             if piece:
                 yield piece
         data = decompressor.unused_data.lstrip(b"\0")

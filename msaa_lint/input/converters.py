@@ -1,7 +1,8 @@
 """Binary captures, read through the converters of the tools that write them.
 
-A converter parses the file natively, so it runs only for a file that the user names. It is looked up outside the project in the working
-folder, and runs in an empty folder, with the environment of all child processes.
+A converter parses the file natively, so it runs only for a file that the user names. It is looked
+up outside the project in the working folder, and runs in an empty folder, with the environment of
+all child processes.
 """
 
 from __future__ import annotations
@@ -27,17 +28,25 @@ MAX_WARNINGS, MAX_WARNING = 4, 200
 """How many warnings of a converter are shown, and how many characters of each."""
 
 _MARK = b"[gfxrecon]"
-_LOG_START = re.compile(rb"(?<=[}\n])\[gfxrecon\](?:\[\d{1,20}\])? (DEBUG|INFO|WARNING|ERROR|FATAL)\b")
+_LOG_START = re.compile(
+    rb"(?<=[}\n])\[gfxrecon\](?:\[\d{1,20}\])? (DEBUG|INFO|WARNING|ERROR|FATAL)\b"
+)
 _LOG_LINE = re.compile(_LOG_START.pattern + rb"([^\n]*)\n")
 _LOG_START_BYTES = 48
 """More bytes than the beginning of a line of the log has, with the character before it."""
 
-_FAILURE = re.compile(rb"\[gfxrecon\][^\n]{0,40}? (?:(?:ERROR|FATAL)\b[^\n]*? - |WARNING - (?=Incomplete block))([^\n]*)")
-"""What gfxrecon-convert logs when it has not read all of a capture; version 0.9 still exits with 0."""
+_FAILURE = re.compile(
+    rb"\[gfxrecon\][^\n]{0,40}? (?:(?:ERROR|FATAL)\b[^\n]*? - |WARNING - (?=Incomplete "
+    rb"block))([^\n]*)"
+)
+"""What gfxrecon-convert logs when it has not read all of a capture; version 0.9 still exits with
+0.
+"""
 
 
 class ConvertedCapture(NamedTuple):
-    """The text of a converted capture. The files that belong to it are beside `path`, where there may be no file.
+    """The text of a converted capture. The files that belong to it are beside `path`, where there
+    may be no file.
 
     `warnings` has what the converter warned of before the stream ended, each text once.
     """
@@ -54,7 +63,9 @@ def is_installed(kind: BinaryCapture) -> bool:
 
 @contextmanager
 def converted(kind: BinaryCapture, path: str) -> Iterator[ConvertedCapture]:
-    """Converts a capture while it is read. Its converter must be installed. Raises OSError if the converter cannot be started."""
+    """Converts a capture while it is read. Its converter must be installed. Raises OSError if the
+    converter cannot be started.
+    """
     with ExitStack() as stack:
         folder = ScratchFolder()
         stack.callback(folder.remove)
@@ -63,17 +74,29 @@ def converted(kind: BinaryCapture, path: str) -> Iterator[ConvertedCapture]:
 
 
 def _gfxreconstruct(path: str, folder: str, stack: ExitStack) -> ConvertedCapture:
-    """The output of gfxrecon-convert as it comes, and the shaders that gfxrecon-extract writes: the former has no code."""
+    """The output of gfxrecon-convert as it comes, and the shaders that gfxrecon-extract writes: the
+    former has no code.
+    """
     target = os.path.join(folder, "capture.gfxr")
     if installed("gfxrecon-extract") is not None:
-        with Program(["gfxrecon-extract", "--dir", f"{target}.shaders", path], folder, PATIENCE) as program, suppress(StreamFailure):
+        with (
+            Program(
+                ["gfxrecon-extract", "--dir", f"{target}.shaders", path], folder, PATIENCE
+            ) as program,
+            suppress(StreamFailure),
+        ):
             # What fails here fails again in the conversion, which says so.
             program.finish()
-    with Program(["gfxrecon-convert", "--help"], folder, PATIENCE) as program, suppress(StreamFailure):
+    with (
+        Program(["gfxrecon-convert", "--help"], folder, PATIENCE) as program,
+        suppress(StreamFailure),
+    ):
         program.finish()
     # Version 0.9 writes JSON Lines alone, and has no such option.
     lines = ["--format", "jsonl"] if "--format" in program.text() else []
-    program = stack.enter_context(Program(["gfxrecon-convert", *lines, "--output", "stdout", path], folder, PATIENCE))
+    program = stack.enter_context(
+        Program(["gfxrecon-convert", *lines, "--output", "stdout", path], folder, PATIENCE)
+    )
     warnings: list[str] = []
     return ConvertedCapture(CaptureStream(_without_log(program, warnings)), target, warnings)
 
@@ -82,7 +105,11 @@ def _renderdoc(path: str, folder: str, stack: ExitStack) -> ConvertedCapture:
     """The file that renderdoccmd writes, beside the zip of its shaders and buffers."""
     target = os.path.join(folder, "capture.zip.xml")
     failure: StreamFailure | None = None
-    with Program(["renderdoccmd", "convert", "-i", "rdc", "-f", path, "-o", target, "-c", "zip.xml"], folder, PATIENCE) as program:
+    with Program(
+        ["renderdoccmd", "convert", "-i", "rdc", "-f", path, "-o", target, "-c", "zip.xml"],
+        folder,
+        PATIENCE,
+    ) as program:
         try:
             program.finish()
         except StreamFailure as error:
@@ -100,8 +127,9 @@ def _renderdoc(path: str, folder: str, stack: ExitStack) -> ConvertedCapture:
 def _without_log(program: Program, warnings: list[str]) -> Iterator[bytes]:
     """The output of gfxrecon-convert without its log, which it writes to the same stream.
 
-    Line ends are escaped within JSON, so none of it looks like a line of the log. Raises StreamFailure if the log says that the capture
-    was not read to its end. Adds what it warns of to `warnings`.
+    Line ends are escaped within JSON, so none of it looks like a line of the log. Raises
+    StreamFailure if the log says that the capture was not read to its end. Adds what it warns of to
+    `warnings`.
     """
     failure: StreamFailure | None = None
     problem = b""

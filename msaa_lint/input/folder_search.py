@@ -15,19 +15,46 @@ from msaa_lint.core.project import is_inside, project_root, shown
 from msaa_lint.core.quote import quoted
 from msaa_lint.core.urls import is_url
 
-from .file_types import BINARY, CAPTURES, DATA, DESCRIPTIONS, INPUT, NEAR, OTHER, PAGE_ENDINGS, SOURCES, missing_extra
+from .file_types import (
+    BINARY,
+    CAPTURES,
+    DATA,
+    DESCRIPTIONS,
+    INPUT,
+    NEAR,
+    OTHER,
+    PAGE_ENDINGS,
+    SOURCES,
+    missing_extra,
+)
 from .ignore_files import IgnoreFiles, above
 
 MAX_DEPTH = 64
-SKIPPED_FOLDERS = frozenset({"node_modules", "bower_components", "__pycache__", "__pypackages__", "site-packages", "venv", "CVS"})
+SKIPPED_FOLDERS = frozenset(
+    {
+        "node_modules",
+        "bower_components",
+        "__pycache__",
+        "__pypackages__",
+        "site-packages",
+        "venv",
+        "CVS",
+    }
+)
 MIN_ENTRIES = 20
-"""The number of entries of folders from which on it may be known what files are: opening a few takes less time than looking them up."""
+"""The number of entries of folders from which on it may be known what files are: opening a few
+takes less time than looking them up.
+"""
 _OUTPUTS = (".json", ".sarif", ".xml", ".md")
-"""Endings of files that msaa-lint may have written and that are not inputs; other files are not opened to see."""
+"""Endings of files that msaa-lint may have written and that are not inputs; other files are not
+opened to see.
+"""
 
 
 class Scope(Protocol):
-    """The settings that discovery needs: the globs of inputs in folders and of files that are not linted; whether .gitignore applies."""
+    """The settings that discovery needs: the globs of inputs in folders and of files that are not
+    linted; whether .gitignore applies.
+    """
 
     @property
     def include(self) -> Sequence[Glob]: ...
@@ -64,7 +91,9 @@ AnEntry = TypeVar("AnEntry", bound=Entry)
 
 
 class Folder(NamedTuple):
-    """A folder to search, how deep it is in the named one, and the ignore files of the folders above it."""
+    """A folder to search, how deep it is in the named one, and the ignore files of the folders
+    above it.
+    """
 
     path: str
     depth: int
@@ -72,8 +101,9 @@ class Folder(NamedTuple):
 
 
 class Search:
-    """The search of one named folder: its project, the numbers of inputs, problems, and files that are no inputs, and the candidates that
-    `exclude` and ignore files skip."""
+    """The search of one named folder: its project, the numbers of inputs, problems, and files that
+    are no inputs, and the candidates that `exclude` and ignore files skip.
+    """
 
     def __init__(self, top: str) -> None:
         self.top = top
@@ -87,8 +117,10 @@ class Search:
 
 
 class FolderSearch:
-    """The files found so far, with their projects (None for a named file). `related` has the other source code, `near` the files that are
-    nearly inputs, and `binary` the binary captures, in order. `known_kind` may know what `content` says of a file from an earlier run."""
+    """The files found so far, with their projects (None for a named file). `related` has the other
+    source code, `near` the files that are nearly inputs, and `binary` the binary captures, in
+    order. `known_kind` may know what `content` says of a file from an earlier run.
+    """
 
     def __init__(
         self,
@@ -128,18 +160,29 @@ class FolderSearch:
         scan: Callable[[str], Sequence[AnEntry]],
         add: Callable[[Folder, Sequence[AnEntry], Search, list[Folder]], None],
     ) -> None:
-        """Searches a folder and the folders in it: `scan` lists one, and `add` adds the inputs among what is in it."""
+        """Searches a folder and the folders in it: `scan` lists one, and `add` adds the inputs
+        among what is in it.
+        """
         findings, unreadable, near = len(self.findings), self.unreadable_sources, len(self.near)
         waiting = [Folder(search.top, 0, ignore_files)]
         while waiting:
             folder = waiting.pop()
             if folder.depth > MAX_DEPTH:
-                self.notes.append(f"{shown(folder.path)} is more than {MAX_DEPTH} folders deep: name it to lint it")
+                self.notes.append(
+                    f"{shown(folder.path)} is more than {MAX_DEPTH} folders deep: name it to lint "
+                    f"it"
+                )
                 continue
             try:
                 entries = scan(folder.path)
             except OSError as error:
-                self.findings.append(diagnostic("MSAA921", f"cannot read the folder: {error.strerror or error}", shown(folder.path)))
+                self.findings.append(
+                    diagnostic(
+                        "MSAA921",
+                        f"cannot read the folder: {error.strerror or error}",
+                        shown(folder.path),
+                    )
+                )
                 continue
             if folder.path == search.top or all(entry.name != "pyvenv.cfg" for entry in entries):
                 add(folder, entries, search, waiting)
@@ -151,13 +194,27 @@ class FolderSearch:
         """Adds a finding for a folder without inputs, unless another one says why."""
         if not search.inputs and not search.problems:
             reason = missing_extra() if search.unreadable else self._reason(search, search.near)
-            self.findings.append(diagnostic("MSAA921", f"nothing to lint in {quoted(search.top)}: {reason}", shown(search.top)))
+            self.findings.append(
+                diagnostic(
+                    "MSAA921",
+                    f"nothing to lint in {quoted(search.top)}: {reason}",
+                    shown(search.top),
+                )
+            )
 
-    def _add_entries(self, folder: Folder, entries: Sequence[os.DirEntry[str]], search: Search, waiting: list[Folder]) -> None:
+    def _add_entries(
+        self,
+        folder: Folder,
+        entries: Sequence[os.DirEntry[str]],
+        search: Search,
+        waiting: list[Folder],
+    ) -> None:
         """Adds the inputs among the entries of a folder, and its folders to `waiting`."""
         self.entries += len(entries)
         settings = self.settings_for(folder.path)
-        ignore_files = folder.above.below(folder.path, {entry.name for entry in entries if entry.name.startswith(".")})
+        ignore_files = folder.above.below(
+            folder.path, {entry.name for entry in entries if entry.name.startswith(".")}
+        )
         in_force = ignore_files if settings.respect_gitignore else IgnoreFiles()
         prefix = os.path.abspath(folder.path).replace(os.sep, "/").rstrip("/") + "/"
         for entry in entries:
@@ -193,7 +250,9 @@ class FolderSearch:
         """Whether a file may be an input, by its name."""
         if include:
             return excluding(path, include) is not None
-        return not name.startswith(".") and name.endswith((*DESCRIPTIONS, *DATA, *CAPTURES, *(SOURCES if self.sources else ())))
+        return not name.startswith(".") and name.endswith(
+            (*DESCRIPTIONS, *DATA, *CAPTURES, *(SOURCES if self.sources else ()))
+        )
 
     def _add_file(self, entry: Entry, path: str, include: Sequence[Glob], search: Search) -> None:
         """Adds a candidate if it is an input."""
@@ -208,16 +267,29 @@ class FolderSearch:
             self.notes.append(f"{shown(path)} cannot be read to see if it is an input")
         if kind == OTHER:
             self.skip(path, "not an input")
-            if not is_url(path) and entry.name.lower().endswith(SOURCES) and entry.is_file(follow_symlinks=False):
+            if (
+                not is_url(path)
+                and entry.name.lower().endswith(SOURCES)
+                and entry.is_file(follow_symlinks=False)
+            ):
                 self.related[shown(path)] = search
         if kind == NEAR:
             self.near[shown(path)] = None
         elif kind == BINARY:
             self.binary[shown(path)] = None
-        elif kind == INPUT and entry.is_symlink() and not (is_inside(path, search.project) and entry.is_file()):
-            self.notes.append(f"{shown(path)} is a link that is broken or leaves the project: name it to lint it")
+        elif (
+            kind == INPUT
+            and entry.is_symlink()
+            and not (is_inside(path, search.project) and entry.is_file())
+        ):
+            self.notes.append(
+                f"{shown(path)} is a link that is broken or leaves the project: name it to lint it"
+            )
         elif kind == INPUT and entry.is_file():
-            if entry.name.lower().endswith((*SOURCES, *PAGE_ENDINGS)) and not self._can_read_sources:
+            if (
+                entry.name.lower().endswith((*SOURCES, *PAGE_ENDINGS))
+                and not self._can_read_sources
+            ):
                 self.unreadable_sources += 1
             else:
                 self.files.setdefault(shown(path), search.project)
@@ -253,7 +325,9 @@ class FolderSearch:
         names = ", ".join("*" + ending for ending in DESCRIPTIONS)
         skipped = [
             f"{count(excluded, 'excluded input')}" if excluded else "",
-            f"{count(len(search.ignored), 'path')} that .gitignore or .ignore lists" if search.ignored else "",
+            f"{count(len(search.ignored), 'path')} that .gitignore or .ignore lists"
+            if search.ignored
+            else "",
             f"{count(near, 'file')} that look a little like descriptions" if near else "",
         ]
         skips = ", ".join(filter(None, skipped))

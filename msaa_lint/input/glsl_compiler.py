@@ -1,5 +1,6 @@
-"""GLSL to SPIR-V, by glslangValidator or glslc. The compiler parses the file natively, so it runs only for a file that the user names, and
-in an empty folder."""
+"""GLSL to SPIR-V, by glslangValidator or glslc. The compiler parses the file natively, so it runs
+only for a file that the user names, and in an empty folder.
+"""
 
 from __future__ import annotations
 
@@ -16,11 +17,20 @@ PATIENCE = 60.0
 
 COMPILERS = {
     "glslangValidator": ("-V", "--target-env", "vulkan1.1", "--aml", "--amb", "-S", "frag"),
-    "glslc": ("--target-env=vulkan1.1", "-fauto-map-locations", "-fauto-bind-uniforms", "-fshader-stage=fragment"),
+    "glslc": (
+        "--target-env=vulkan1.1",
+        "-fauto-map-locations",
+        "-fauto-bind-uniforms",
+        "-fshader-stage=fragment",
+    ),
 }
-"""The compilers in the order of preference, with their options: inputs, outputs, and descriptors without places get some."""
+"""The compilers in the order of preference, with their options: inputs, outputs, and descriptors
+without places get some.
+"""
 
-_ERROR = re.compile(r"^(?:ERROR: )?(?P<file>.*?):(?P<line>\d+): (?:error: )?(?P<text>.*)$", re.MULTILINE)
+_ERROR = re.compile(
+    r"^(?:ERROR: )?(?P<file>.*?):(?P<line>\d+): (?:error: )?(?P<text>.*)$", re.MULTILINE
+)
 
 
 class CompilationError(Exception):
@@ -28,18 +38,24 @@ class CompilationError(Exception):
 
 
 def compiled(path: str) -> bytes:
-    """The SPIR-V of a fragment shader. Raises CompilationError, with the line of the first error, and OSError if the compiler cannot be
-    started."""
+    """The SPIR-V of a fragment shader. Raises CompilationError, with the line of the first error,
+    and OSError if the compiler cannot be started.
+    """
     compiler = next((name for name in COMPILERS if installed(name) is not None), None)
     if compiler is None:
         raise CompilationError(
-            "it is GLSL, and no compiler is installed: install glslangValidator or glslc (on Debian run `apt install glslang-tools`), or "
+            "it is GLSL, and no compiler is installed: install glslangValidator or glslc (on "
+            "Debian run `apt install glslang-tools`), or "
             "give SPIR-V"
         )
     folder = ScratchFolder()
     try:
         target = os.path.join(folder.path, "shader.spv")
-        with Program([compiler, *COMPILERS[compiler], "-o", target, os.path.abspath(path)], folder.path, PATIENCE) as program:
+        with Program(
+            [compiler, *COMPILERS[compiler], "-o", target, os.path.abspath(path)],
+            folder.path,
+            PATIENCE,
+        ) as program:
             try:
                 program.finish()
                 with open(target, "rb") as file:
@@ -53,4 +69,8 @@ def compiled(path: str) -> bytes:
 def _first_error(output: str) -> str:
     """The first error in the output of a compiler, with its line; empty without one."""
     found = _ERROR.search(output)
-    return f"line {found['line']}: {' '.join(found['text'].split())[:200]}" if found is not None else ""
+    return (
+        f"line {found['line']}: {' '.join(found['text'].split())[:200]}"
+        if found is not None
+        else ""
+    )

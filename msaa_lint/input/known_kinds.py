@@ -1,5 +1,6 @@
-"""What the files of folders are, kept between runs: to find out, each file has to be opened, which takes longer than everything else in a
-run from the cache."""
+"""What the files of folders are, kept between runs: to find out, each file has to be opened, which
+takes longer than everything else in a run from the cache.
+"""
 
 from __future__ import annotations
 
@@ -17,7 +18,9 @@ if TYPE_CHECKING:
 
 
 class KnownKinds:
-    """What the files of a search are, folder by folder. `cache` opens the cache when it is needed."""
+    """What the files of a search are, folder by folder. `cache` opens the cache when it is
+    needed.
+    """
 
     def __init__(self, cache: Callable[[], Cache | None]) -> None:
         self._open = cache
@@ -27,7 +30,9 @@ class KnownKinds:
         self._used: dict[str, Any] = {}
 
     def of(self, path: str, find: Callable[[str], str]) -> str:
-        """What a file is according to `find`, which was asked in an earlier run if the file has not been written since. Raises OSError."""
+        """What a file is according to `find`, which was asked in an earlier run if the file has not
+        been written since. Raises OSError.
+        """
         if os.name != "posix":
             return find(path)
         folder, name = os.path.split(os.path.abspath(path))
@@ -47,7 +52,9 @@ class KnownKinds:
     def _enter(self, folder: str) -> None:
         if self._used != self._known and (cache := self._open()) is not None:
             cache.write("kinds", self._folder, dumps(self._used))
-        data = cache.read("kinds", folder) if folder and (cache := self._open()) is not None else None
+        data = (
+            cache.read("kinds", folder) if folder and (cache := self._open()) is not None else None
+        )
         self._folder, self._known, self._used = folder, {}, {}
         with suppress(ValueError):
             self._known = cast(dict[str, Any], loads(data, {})) if data is not None else {}

@@ -29,9 +29,13 @@ observer: Observer | None = None
 
 
 class ObservedStream:
-    """A stream that reports how much was read of it. `frames` returns the number of frames so far."""
+    """A stream that reports how much was read of it. `frames` returns the number of frames so
+    far.
+    """
 
-    def __init__(self, stream: BinaryIO, name: str, frames: Callable[[], int], observer: Observer) -> None:
+    def __init__(
+        self, stream: BinaryIO, name: str, frames: Callable[[], int], observer: Observer
+    ) -> None:
         self._stream = stream
         self._name = name
         self._frames = frames

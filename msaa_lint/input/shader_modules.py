@@ -1,8 +1,9 @@
 """Loads the SPIR-V or GLSL of shader stages, and extracts what matters for multisampling.
 
-A module comes with the input (a capture), or is a file of the project: its path is relative to the folder of the description. Files are
-untrusted: their size is limited and they are only read as data. A problem with a module is a warning at its `module`; rules that need the
-shader stay undecided.
+A module comes with the input (a capture), or is a file of the project: its path is relative to the
+folder of the description. Files are untrusted: their size is limited and they are only read as
+data. A problem with a module is a warning at its `module`; rules that need the shader stay
+undecided.
 """
 
 import os
@@ -24,8 +25,10 @@ from msaa_lint.frame.spirv.reflect import Reflected, reflected
 from msaa_lint.frame.spirv.words import SpirvError
 
 MAX_WORK = 8_000_000
-"""The budget of an input, however small its modules: the words of modules, for each analysis, and the instructions followed, each of which
-counts as STEP words. It corresponds to about 4 seconds; a game's frame takes a tenth of it."""
+"""The budget of an input, however small its modules: the words of modules, for each analysis, and
+the instructions followed, each of which counts as STEP words. It corresponds to about 4 seconds; a
+game's frame takes a tenth of it.
+"""
 
 ANALYSES = 16
 """The budget's part that grows with the modules of an input, as a multiple of their words."""
@@ -33,7 +36,10 @@ ANALYSES = 16
 STEP, ANALYSIS = 16, 1000
 """What an instruction that is followed, and any analysis, count as, in words."""
 
-TOO_MANY = "this shader module and later ones were not analyzed because there are too many or they are too large"
+TOO_MANY = (
+    "this shader module and later ones were not analyzed because there are too many or they "
+    "are too large"
+)
 
 GLSL = (".frag", ".comp", ".glsl", ".vert", ".tesc", ".tese", ".geom", ".mesh", ".task")
 """File name extensions of GLSL."""
@@ -54,15 +60,17 @@ class _Unusable(Exception):
         self.help = help
 
     def copy(self) -> "_Unusable":
-        """Returns the same error without its traceback, which would keep all that is known of a frame."""
+        """Returns the same error without its traceback, which would keep all that is known of a
+        frame.
+        """
         return _Unusable(self.code, str(self), self.help)
 
 
 class ShaderAnalyses:
     """The shader modules of one run. Each is analyzed once for each entry point and specialization.
 
-    The modules of an input have one budget, from which an analysis is taken also if it was done for an input before: whether a module is
-    analyzed does not depend on other inputs.
+    The modules of an input have one budget, from which an analysis is taken also if it was done for
+    an input before: whether a module is analyzed does not depend on other inputs.
     """
 
     def __init__(self) -> None:
@@ -82,9 +90,13 @@ class ShaderAnalyses:
         self.left = MAX_WORK
         self._charged, self._sources = set(), set()
 
-    def reflected(self, source: object, name: str, code: Callable[[], bytes], query: tuple[Any, ...]) -> Reflected:
-        """What a module says. `source` identifies it in the run, `code` reads it; the query is the entry point, the constants, and whether
-        what is written to the alpha of color 0 is asked for. Raises: _Unusable."""
+    def reflected(
+        self, source: object, name: str, code: Callable[[], bytes], query: tuple[Any, ...]
+    ) -> Reflected:
+        """What a module says. `source` identifies it in the run, `code` reads it; the query is the
+        entry point, the constants, and whether what is written to the alpha of color 0 is asked
+        for. Raises: _Unusable.
+        """
         key = (source, *query)
         if key not in self._known:
             try:
@@ -109,14 +121,19 @@ class ShaderAnalyses:
         if self.left < 0:
             raise _Unusable("MSAA906", TOO_MANY)
 
-    def _reflected(self, source: object, name: str, code: Callable[[], bytes], query: tuple[Any, ...]) -> Reflected:
+    def _reflected(
+        self, source: object, name: str, code: Callable[[], bytes], query: tuple[Any, ...]
+    ) -> Reflected:
         module = self._module(source, name, code)
         self.spend(ANALYSIS + len(module.words))
         entry, constants, alpha = query
         try:
             found = reflected(module, entry, dict(constants), alpha)
         except SpirvError as error:
-            raise _Unusable("MSAA904" if "entry point" in str(error) else "MSAA903", f"{quoted_path(name)}: {error}") from None
+            raise _Unusable(
+                "MSAA904" if "entry point" in str(error) else "MSAA903",
+                f"{quoted_path(name)}: {error}",
+            ) from None
         self.left -= STEP * found.steps
         self._work[(source, *query)] = ANALYSIS + len(module.words) + STEP * found.steps
         return found
@@ -161,14 +178,18 @@ class ShaderAnalyses:
             return Module(code)
         except SpirvError as error:
             raise _Unusable(
-                "MSAA903", f"{quoted_path(name)}: {error}", "a module must be SPIR-V, for example from glslang or DXC"
+                "MSAA903",
+                f"{quoted_path(name)}: {error}",
+                "a module must be SPIR-V, for example from glslang or DXC",
             ) from None
 
 
 class Modules:
     """The shader modules of one document. `findings` are the warnings about unusable modules."""
 
-    def __init__(self, document: Document, file: str, analyses: ShaderAnalyses | None = None) -> None:
+    def __init__(
+        self, document: Document, file: str, analyses: ShaderAnalyses | None = None
+    ) -> None:
         self.findings: list[Finding] = []
         self._analyses = analyses or ShaderAnalyses()
         self._own = document.modules
@@ -179,31 +200,54 @@ class Modules:
         self._warned: set[tuple[str, str]] = set()
 
     def reflected(self, stage: ShaderStage, alpha: bool) -> Reflected | None:
-        """The properties of a stage's module; None if it cannot be used. `alpha` also asks what is written to the alpha of color 0."""
+        """The properties of a stage's module; None if it cannot be used. `alpha` also asks what is
+        written to the alpha of color 0.
+        """
         name = stage.module or ""
-        constants = tuple((int(each), value) for each, value in (stage.specialization or {}).items())
+        constants = tuple(
+            (int(each), value) for each, value in (stage.specialization or {}).items()
+        )
         try:
             source, code = self._source(name)
             found = self._analyses.reflected(source, name, code, (stage.name, constants, alpha))
             if found.stage != stage.stage:
-                message = f"{quoted_path(name)}: `{found.name[:40]}` is a shader of stage {found.stage}, not {stage.stage}"
+                message = (
+                    f"{quoted_path(name)}: `{found.name[:40]}` is a shader of stage "
+                    f"{found.stage}, not {stage.stage}"
+                )
                 raise _Unusable("MSAA903", message)
         except _Unusable as error:
             self._warn(error, stage)
             return None
         if found.exhausted:
-            message = f"{quoted_path(name)}: the shader was not followed to its end, because it takes more than {found.steps} steps"
-            self._warn(_Unusable("MSAA906", message, "what it does with samples and alpha after that is unknown"), stage, "note")
+            message = (
+                f"{quoted_path(name)}: the shader was not followed to its end, because it "
+                f"takes more than {found.steps} steps"
+            )
+            self._warn(
+                _Unusable(
+                    "MSAA906", message, "what it does with samples and alpha after that is unknown"
+                ),
+                stage,
+                "note",
+            )
         return found
 
     def _source(self, name: str) -> tuple[object, Callable[[], bytes]]:
-        """What identifies a module in the run, and a function that reads it: of a capture its content, else the file."""
+        """What identifies a module in the run, and a function that reads it: of a capture its
+        content, else the file.
+        """
         own = self._own.get(name)
         if own is None:
             path = os.path.join(self._folder, name)
-            # What was found out for another input is not read again. With its name, which messages state.
+            # What was found out for another input is not read again. With its name, which messages
+            # state.
             record(path, self._project)
-            return (self._project, path if is_url(self._folder) else os.path.abspath(path), name), lambda: self._bytes(name)
+            return (
+                self._project,
+                path if is_url(self._folder) else os.path.abspath(path),
+                name,
+            ), lambda: self._bytes(name)
         if name not in self._digests:
             from hashlib import blake2b
 
@@ -211,15 +255,22 @@ class Modules:
         return self._digests[name], lambda: own
 
     def _warn(self, error: _Unusable, stage: ShaderStage, severity: str = "warning") -> None:
-        # Report each problem once, at the first stage that has it. The budget warning does not name a module.
+        # Report each problem once, at the first stage that has it. The budget warning does not name
+        # a module.
         key = ("" if error.code == "MSAA906" else stage.module or "", str(error))
         if key in self._warned:
             return
         self._warned.add(key)
-        at: Span = stage.place("name") if "entry point" in str(error) and stage.states("name") else stage.place("module")
+        at: Span = (
+            stage.place("name")
+            if "entry point" in str(error) and stage.states("name")
+            else stage.place("module")
+        )
         help = error.help or "rules that need the shader stay undecided"
         self.findings.append(
-            diagnostic(error.code, str(error), self._file, at, f"{stage.path}.module", help=help)._replace(severity=severity)
+            diagnostic(
+                error.code, str(error), self._file, at, f"{stage.path}.module", help=help
+            )._replace(severity=severity)
         )
 
     def _bytes(self, name: str) -> bytes:
@@ -228,11 +279,20 @@ class Modules:
         except Outside:
             raise _Unusable("MSAA903", f"{quoted_path(name)} is outside the project") from None
         except FileNotFoundError:
-            raise _Unusable("MSAA904", f"file not found: {quoted_path(name)}", "rules that need the shader stay undecided") from None
+            raise _Unusable(
+                "MSAA904",
+                f"file not found: {quoted_path(name)}",
+                "rules that need the shader stay undecided",
+            ) from None
         except Unreadable:
-            raise _Unusable("MSAA903", f"{quoted_path(name)} cannot be read: it is larger than {MAX_BYTES >> 20} MiB") from None
+            raise _Unusable(
+                "MSAA903",
+                f"{quoted_path(name)} cannot be read: it is larger than {MAX_BYTES >> 20} MiB",
+            ) from None
         except OSError as error:
-            raise _Unusable("MSAA903", f"{quoted_path(name)} cannot be read: {error.strerror or error}") from None
+            raise _Unusable(
+                "MSAA903", f"{quoted_path(name)} cannot be read: {error.strerror or error}"
+            ) from None
 
 
 def _of_text(name: str, code: bytes) -> bytes:
@@ -248,5 +308,7 @@ def _of_text(name: str, code: bytes) -> bytes:
         raise _Unusable("MSAA903", f"{quoted_path(name)} is GLSL", str(error)) from None
     except UnsupportedShader as error:
         raise _Unusable(
-            "MSAA903", f"{quoted_path(name)} cannot be analyzed: {error}", "name its SPIR-V instead, which is fully supported"
+            "MSAA903",
+            f"{quoted_path(name)} cannot be analyzed: {error}",
+            "name its SPIR-V instead, which is fully supported",
         ) from None

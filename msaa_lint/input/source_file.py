@@ -16,10 +16,12 @@ if TYPE_CHECKING:
 
 
 class SourceText(NamedTuple):
-    """The text of a source file, before it is read. `data` are its bytes, `language` is one of `file_types.LANGUAGES`.
+    """The text of a source file, before it is read. `data` are its bytes, `language` is one of
+    `file_types.LANGUAGES`.
 
-    `is_input` is false for a file that is only read for what it defines; nothing is reported in it. `assumed` are values that the
-    configuration states, by name, and `definitions` are directives that define the macros of its build.
+    `is_input` is false for a file that is only read for what it defines; nothing is reported in it.
+    `assumed` are values that the configuration states, by name, and `definitions` are directives
+    that define the macros of its build.
     """
 
     data: bytes
@@ -31,7 +33,9 @@ class SourceText(NamedTuple):
 
 
 class CodeFile(NamedTuple):
-    """A file of a program: its text, the code in it, and the offset of its text in that of the program."""
+    """A file of a program: its text, the code in it, and the offset of its text in that of the
+    program.
+    """
 
     source: Source
     codes: tuple[Code, ...]
@@ -43,8 +47,9 @@ class CodeFile(NamedTuple):
 class SourceFile(NamedTuple):
     """Source code and the documents in it.
 
-    `data` is the file's bytes, `language` one of `file_types.LANGUAGES`; `notes` are lines for the user. `files` has the files of a program
-    in the order of their texts, which `source` joins; for a file that is read alone, only this file.
+    `data` is the file's bytes, `language` one of `file_types.LANGUAGES`; `notes` are lines for the
+    user. `files` has the files of a program in the order of their texts, which `source` joins; for
+    a file that is read alone, only this file.
     """
 
     data: bytes
@@ -56,13 +61,21 @@ class SourceFile(NamedTuple):
 
     @property
     def description(self) -> str:
-        """The text of the description of what the code states, a document for each part; empty if it states nothing."""
-        return "---\n".join(emit(document.tree) for document in self.program.documents if document.tree is not None)
+        """The text of the description of what the code states, a document for each part; empty if
+        it states nothing.
+        """
+        return "---\n".join(
+            emit(document.tree) for document in self.program.documents if document.tree is not None
+        )
 
     @property
     def modules(self) -> dict[str, bytes]:
         """The code of the shaders that the description names."""
-        return {name: module for document in self.program.documents for name, module in document.modules.items()}
+        return {
+            name: module
+            for document in self.program.documents
+            for name, module in document.modules.items()
+        }
 
     def file_at(self, offset: int) -> CodeFile:
         """The file with an offset of the program's text."""
@@ -91,7 +104,8 @@ def source_text(data: bytes, name: str, language: str) -> SourceText:
 def read_source_file(data: bytes, name: str, language: str) -> SourceFile:
     """Reads source code; bytes that are not UTF-8 are replaced.
 
-    Raises `Unreadable` if the code is too long to parse, and `code.parsing.Missing` if the extra `source` is not installed.
+    Raises `Unreadable` if the code is too long to parse, and `code.parsing.Missing` if the extra
+    `source` is not installed.
     """
     return read_source_text(source_text(data, name, language))
 
@@ -99,18 +113,32 @@ def read_source_file(data: bytes, name: str, language: str) -> SourceFile:
 def read_source_text(text: SourceText) -> SourceFile:
     """Reads one file alone, with the errors of `read_source_file`."""
     program = code.read(text.source, text.language, text.assumed)
-    return SourceFile(text.data, text.source, text.language, program, (CodeFile(text.source, program.codes, text.language),))
+    return SourceFile(
+        text.data,
+        text.source,
+        text.language,
+        program,
+        (CodeFile(text.source, program.codes, text.language),),
+    )
 
 
 def read_program(
-    texts: Sequence[SourceText], includes: Sequence[Sequence[int]], headers: Sequence[bool], cache: "Cache | None" = None
+    texts: Sequence[SourceText],
+    includes: Sequence[Sequence[int]],
+    headers: Sequence[bool],
+    cache: "Cache | None" = None,
 ) -> SourceFile:
-    """Reads the files of a program together; `includes` has the numbers of the files that each file includes, and `headers` says which are
-    headers. `cache` keeps what was read. With the errors of `read_source_file`."""
+    """Reads the files of a program together; `includes` has the numbers of the files that each file
+    includes, and `headers` says which are headers. `cache` keeps what was read. With the errors of
+    `read_source_file`.
+    """
     from .code.project.kept import kept_reads
     from .code.project.reading import ProgramFile, joined, read, starts
 
-    files = [ProgramFile(text.source, text.language, included, text.definitions) for text, included in zip(texts, includes, strict=True)]
+    files = [
+        ProgramFile(text.source, text.language, included, text.definitions)
+        for text, included in zip(texts, includes, strict=True)
+    ]
     codes = [file.code for file in files]
     first = next(text for text in texts if text.is_input)
     parts = tuple(
@@ -123,7 +151,14 @@ def read_program(
         file, place = whole.place(at)
         return f"{file.source.name}:{file.source.position(place.start).line}"
 
-    assumptions = code.assumptions_of([(part.codes[0], part.start) for part in parts], first.assumed)
+    assumptions = code.assumptions_of(
+        [(part.codes[0], part.start) for part in parts], first.assumed
+    )
     # What of assumptions is of use is only known of what is read now.
-    reads = kept_reads(cache if assumptions is None else None, files, headers, lambda: read(files, headers, assumptions, cache))
+    reads = kept_reads(
+        cache if assumptions is None else None,
+        files,
+        headers,
+        lambda: read(files, headers, assumptions, cache),
+    )
     return whole._replace(program=code.program_of(whole.source, codes, reads, line, assumptions))

@@ -1,6 +1,7 @@
 """Finds the inputs at URLs: what a URL names, and the inputs in a folder there.
 
-Globs count from the named folder, or that of the named file. Files that list what to ignore and configurations are not read there.
+Globs count from the named folder, or that of the named file. Files that list what to ignore and
+configurations are not read there.
 """
 
 from __future__ import annotations
@@ -63,10 +64,15 @@ class _UrlFolders:
     def __init__(self, found: FolderSearch) -> None:
         self._found = found
 
-    def add_entries(self, folder: Folder, entries: Sequence[urls.Entry], search: Search, waiting: list[Folder]) -> None:
+    def add_entries(
+        self, folder: Folder, entries: Sequence[urls.Entry], search: Search, waiting: list[Folder]
+    ) -> None:
         """Adds the inputs among the entries of a folder, and its folders to `waiting`."""
         found, settings = self._found, self._found.settings_for(folder.path)
-        include, exclude = _below(settings.include, search.top), _below(settings.exclude, search.top)
+        include, exclude = (
+            _below(settings.include, search.top),
+            _below(settings.exclude, search.top),
+        )
         candidates = []
         for entry in entries:
             path = f"{folder.path}/{entry.name}"

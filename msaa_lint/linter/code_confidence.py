@@ -1,4 +1,6 @@
-"""The confidence of findings in source code: low if one of the values that a finding rests on is assumed, otherwise at most medium."""
+"""The confidence of findings in source code: low if one of the values that a finding rests on is
+assumed, otherwise at most medium.
+"""
 
 from __future__ import annotations
 
@@ -26,9 +28,10 @@ _NAME = re.compile(r"#?[\w.:()]{1,40}")
 class Qualifier:
     """Lowers the confidence of the findings of a document from source code.
 
-    A finding rests on all values of its subject: of the attachment, with its images and resolves; of the image, with the attachments that
-    it is bound to; of the pipeline, and so on. It is of low confidence if one of them is assumed, if more than one condition was decided
-    for them, which may never hold together, or if the document consists of excerpts.
+    A finding rests on all values of its subject: of the attachment, with its images and resolves;
+    of the image, with the attachments that it is bound to; of the pipeline, and so on. It is of low
+    confidence if one of them is assumed, if more than one condition was decided for them, which may
+    never hold together, or if the document consists of excerpts.
     """
 
     def __init__(self, document: Document, attachments: Mapping[int, Sequence[Attachment]]) -> None:
@@ -48,20 +51,29 @@ class Qualifier:
         return finding._replace(confidence=level, notes=notes)
 
     def _assumption(self, subject: Subject) -> str | None:
-        """What is assumed of a subject, in words (empty: one of the document's assumptions); None if nothing is."""
+        """What is assumed of a subject, in words (empty: one of the document's assumptions); None
+        if nothing is.
+        """
         conditions, assumed = self._basis
         if not conditions and not assumed:
             return None
         decided: set[str] = set()
         reasons: set[str] = set()
-        for place in {*self._places_of(_records(subject, self._attachments)), *subject.facts.places.values()}:
+        for place in {
+            *self._places_of(_records(subject, self._attachments)),
+            *subject.facts.places.values(),
+        }:
             if place in assumed:
                 reasons.add(assumed[place])
             decided.update(conditions.get(place, ()))
         if reasons or len(decided) < 2:
             return max(reasons, default=None)
         names = [_PARAMETER.sub(r"\1", name) for name in decided]
-        what = " and ".join(quoted(name) for name in sorted(names)) if all(map(_NAME.fullmatch, names)) else f"{len(names)} conditions"
+        what = (
+            " and ".join(quoted(name) for name in sorted(names))
+            if all(map(_NAME.fullmatch, names))
+            else f"{len(names)} conditions"
+        )
         return f"{what} hold at the same time"
 
     def _places_of(self, records: Iterable[Record]) -> Iterator[Span]:
@@ -108,7 +120,9 @@ def _of_resolve(resolve: Resolve) -> Iterator[Record]:
         if end is not None:
             yield end.record
             yield from _of_images(end.targets)
-    yield from _of_images(target for target in (resolve.source_image, resolve.target_image) if target is not None)
+    yield from _of_images(
+        target for target in (resolve.source_image, resolve.target_image) if target is not None
+    )
 
 
 def _of_images(targets: Iterable[Target]) -> Iterator[Record]:

@@ -1,4 +1,6 @@
-"""The files of a program in source code: which of its findings lie in each, and what its text has of its own."""
+"""The files of a program in source code: which of its findings lie in each, and what its text has
+of its own.
+"""
 
 from __future__ import annotations
 
@@ -20,7 +22,9 @@ _LINE = re.compile(r"[^\r\n]*(?:\r\n|\r|\n|\Z)")
 
 
 def in_file(code: SourceFile, finding: Finding) -> tuple[CodeFile, Finding]:
-    """The file that a finding of a program lies in, and the finding with its places there. A label in another file names that file."""
+    """The file that a finding of a program lies in, and the finding with its places there. A label
+    in another file names that file.
+    """
     if finding.span is None:
         return code.files[0], finding._replace(file=code.files[0].source.name)
     file, span = code.place(finding.span)
@@ -39,7 +43,11 @@ def hidden_in(file: CodeFile) -> Iterable[Finding]:
     lines = _LINE.findall(code_only(file).text)
     # The blanked text may have fewer lines: it has none for what follows the last code.
     numbers = [found.span and file.source.position(found.span.start).line for found in findings]
-    return [found for found, number in zip(findings, numbers, strict=True) if number and any(map(str.strip, lines[number - 1 : number]))]
+    return [
+        found
+        for found, number in zip(findings, numbers, strict=True)
+        if number and any(map(str.strip, lines[number - 1 : number]))
+    ]
 
 
 def code_only(file: CodeFile) -> Source:
@@ -55,4 +63,6 @@ def code_only(file: CodeFile) -> Source:
 def in_order(code: SourceFile, findings: Iterable[Finding]) -> list[Finding]:
     """Findings in the order of the files of a program, and of their places."""
     order = {file.source.name: number for number, file in enumerate(code.files)}
-    return sorted(findings, key=lambda finding: (order.get(finding.file, -1), location_order(finding)))
+    return sorted(
+        findings, key=lambda finding: (order.get(finding.file, -1), location_order(finding))
+    )

@@ -1,4 +1,6 @@
-"""A name for everything but inputs that findings depend on, so that two runs can be told to have had the same settings."""
+"""A name for everything but inputs that findings depend on, so that two runs can be told to have
+had the same settings.
+"""
 
 from __future__ import annotations
 
@@ -14,8 +16,9 @@ if TYPE_CHECKING:
 
 
 def configuration_digest(request: Request, resolved: Iterable[ResolvedSettings]) -> str:
-    """The digest of the settings of a run: options, configurations by their place below the current folder, and rule pages and devices by
-    their content. It is the same wherever the folder is."""
+    """The digest of the settings of a run: options, configurations by their place below the current
+    folder, and rule pages and devices by their content. It is the same wherever the folder is.
+    """
     stated = (request.ignores, request.format, request.frame_end, bool(request.without_baseline))
     parts = sorted(repr((_place(each.configuration), _values(each))) for each in resolved)
     return text_digest(repr((stated, parts)))
@@ -31,7 +34,10 @@ def _values(resolved: ResolvedSettings) -> tuple[object, ...]:
         output=(),
         docs_url="",
         origin={},
-        per_file_ignores=tuple((glob._replace(root=_place(glob.root) or ""), rules) for glob, rules in settings.per_file_ignores),
+        per_file_ignores=tuple(
+            (glob._replace(root=_place(glob.root) or ""), rules)
+            for glob, rules in settings.per_file_ignores
+        ),
         exclude=tuple(glob._replace(root=_place(glob.root) or "") for glob in settings.exclude),
         include=tuple(glob._replace(root=_place(glob.root) or "") for glob in settings.include),
         command_line=settings.command_line._replace(pages=()),

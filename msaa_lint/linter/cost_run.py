@@ -1,4 +1,6 @@
-"""Runs `cost`: the costs of the inputs of a request, found and read under the same configuration as for `check`."""
+"""Runs `cost`: the costs of the inputs of a request, found and read under the same configuration as
+for `check`.
+"""
 
 from __future__ import annotations
 
@@ -27,7 +29,9 @@ MAX_FRAMES = 50
 
 
 class CostResult(NamedTuple):
-    """The costs of the frames in order of the inputs; a result with the errors and nothing else; lines for standard error."""
+    """The costs of the frames in order of the inputs; a result with the errors and nothing else;
+    lines for standard error.
+    """
 
     frames: Sequence[CostedFrame]
     errors: Result
@@ -41,25 +45,40 @@ class CostResult(NamedTuple):
 def run_costs(request: Request, terms: Terms, counts: Sequence[int]) -> CostResult:
     """The costs of the inputs of a request, after fixes and with other sample counts.
 
-    A problem of an input or the configuration is an error in the result; the other inputs still get their costs.
+    A problem of an input or the configuration is an error in the result; the other inputs still get
+    their costs.
     """
     workspace = Workspace(request)
     discovered = workspace.discover()
     frames: SpooledList[CostedFrame] = SpooledList(workspace.spool, limit=MAX_FRAMES)
     findings: list[Finding] = []
     notes = list(discovered.notes)
-    for part in parts(CostLinter(workspace, terms, counts), discovered.files, ALONE if request.traceback else request.division):
+    for part in parts(
+        CostLinter(workspace, terms, counts),
+        discovered.files,
+        ALONE if request.traceback else request.division,
+    ):
         frames.extend(part.frames)
         findings.extend(part.errors)
         workspace.sources.update(part.sources)
         notes.extend(part.notes)
-    errors = [finding for finding in dict.fromkeys([*workspace.findings, *findings]) if finding.fatal]
-    files = dict.fromkeys([*map(request.input_name, discovered.files), *(finding.file for finding in errors)])
-    return CostResult(frames.finished(), Result(errors, [], [], list(files), workspace.sources.finished(), []), notes)
+    errors = [
+        finding for finding in dict.fromkeys([*workspace.findings, *findings]) if finding.fatal
+    ]
+    files = dict.fromkeys(
+        [*map(request.input_name, discovered.files), *(finding.file for finding in errors)]
+    )
+    return CostResult(
+        frames.finished(),
+        Result(errors, [], [], list(files), workspace.sources.finished(), []),
+        notes,
+    )
 
 
 class CostPart(NamedTuple):
-    """What an input adds to the result. `errors` are its problems, `sources` has the text that they are about."""
+    """What an input adds to the result. `errors` are its problems, `sources` has the text that they
+    are about.
+    """
 
     frames: Sequence[CostedFrame] = ()
     errors: Sequence[Finding] = ()
@@ -90,7 +109,9 @@ class CostLinter:
         return {}
 
     def included(self, part: CostPart) -> bool:
-        """Whether custom rules may take what they took for a part in another process, which then counts here."""
+        """Whether custom rules may take what they took for a part in another process, which then
+        counts here.
+        """
         return self.workspace.include(part.spent)
 
     def failed(self, unit: Unit, reason: str) -> CostPart:
@@ -114,14 +135,20 @@ class CostLinter:
         documents = _valid_documents(result) if errors else list(result.documents)
         trials = _trials(file, result) if not errors and can_try_fixes(result) else None
         if not can_try_fixes(result):
-            notes.append(f"{result.file} is too large to try fixes: costs are those of the frame as written")
+            notes.append(
+                f"{result.file} is too large to try fixes: costs are those of the frame as written"
+            )
         frames = costed_frames(result, documents, trials, self._terms, self._counts, steps)
         return CostPart(frames, errors, {result.file: result.source} if errors else {}, notes)
 
 
 def _valid_documents(result: FileResult) -> list[DocumentResult]:
-    """The documents without problems, of an input with errors; none of them if the text itself is broken."""
-    spans = {problem.span for document in result.documents for problem in document.document.problems}
+    """The documents without problems, of an input with errors; none of them if the text itself is
+    broken.
+    """
+    spans = {
+        problem.span for document in result.documents for problem in document.document.problems
+    }
     if any(finding.fatal and finding.span not in spans for finding in result.findings):
         return []
     return [document for document in result.documents if not document.document.problems]

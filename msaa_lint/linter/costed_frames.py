@@ -1,4 +1,6 @@
-"""The frames of a linted input with their costs: as written, after fixes, and with other sample counts."""
+"""The frames of a linted input with their costs: as written, after fixes, and with other sample
+counts.
+"""
 
 from __future__ import annotations
 
@@ -34,8 +36,9 @@ def costed_frames(
     counts: Sequence[int],
     steps: bool = False,
 ) -> list[CostedFrame]:
-    """The costs of some documents of an input. `trials` are the fixes of the input, None if there are none to make; `steps` also asks for
-    what each fix adds to those before it."""
+    """The costs of some documents of an input. `trials` are the fixes of the input, None if there
+    are none to make; `steps` also asks for what each fix adds to those before it.
+    """
     frames = [_costed(result, document, trials, terms, counts) for document in documents]
     if trials is None or not steps:
         return frames
@@ -43,7 +46,9 @@ def costed_frames(
     allowance = PriceAllowance(Allowance(MAX_REREAD), Allowance(MAX_COSTED))
     fixes = [DocumentFixes(document, editable=not result.is_code) for document in documents]
     return [
-        frame._replace(fix_steps=fix_steps(each, fixed.get(each.result.number, ()), terms, allowance))
+        frame._replace(
+            fix_steps=fix_steps(each, fixed.get(each.result.number, ()), terms, allowance)
+        )
         for frame, each in zip(frames, fixes, strict=True)
     ]
 
@@ -51,7 +56,8 @@ def costed_frames(
 def _fixed_findings(result: FileResult, trials: Trials) -> dict[int, list[Finding]]:
     """The findings that fixes remove, by the number of their document.
 
-    One that other fixes have moved is recognized by its rule and subject; those that only appear after other fixes are left out.
+    One that other fixes have moved is recognized by its rule and subject; those that only appear
+    after other fixes are left out.
     """
     documents, findings = unmerged(result).documents, unmerged(result).findings
     keys = {finding_key(finding) for finding in trials.all.fixed_findings}
@@ -70,11 +76,14 @@ def _fixed_findings(result: FileResult, trials: Trials) -> dict[int, list[Findin
     return fixed
 
 
-def fix_steps(fixes: DocumentFixes, findings: Sequence[Finding], terms: Terms, allowance: PriceAllowance) -> list[FixStep]:
-    """What the fix of each finding changes once those before it are made, the most expensive finding first.
+def fix_steps(
+    fixes: DocumentFixes, findings: Sequence[Finding], terms: Terms, allowance: PriceAllowance
+) -> list[FixStep]:
+    """What the fix of each finding changes once those before it are made, the most expensive
+    finding first.
 
-    These add up, unlike prices, of which each is that of one fix alone. Only `MAX_STEPS` fixes, and as many as the allowance pays for,
-    have a step.
+    These add up, unlike prices, of which each is that of one fix alone. Only `MAX_STEPS` fixes, and
+    as many as the allowance pays for, have a step.
     """
     document = fixes.result.document
     last = frame_cost(Frame(document), fixes.result.device, terms).total
@@ -95,8 +104,12 @@ def fix_steps(fixes: DocumentFixes, findings: Sequence[Finding], terms: Terms, a
     return steps
 
 
-def _total(fixes: DocumentFixes, changes: Sequence[Change], terms: Terms, allowance: PriceAllowance) -> Amount | None:
-    """The cost of a document after changes; None if they cannot be made together, or take too long to read."""
+def _total(
+    fixes: DocumentFixes, changes: Sequence[Change], terms: Terms, allowance: PriceAllowance
+) -> Amount | None:
+    """The cost of a document after changes; None if they cannot be made together, or take too long
+    to read.
+    """
     try:
         with apply_temporarily(changes):
             return frame_cost(Frame(fixes.result.document), fixes.result.device, terms).total
@@ -104,15 +117,34 @@ def _total(fixes: DocumentFixes, changes: Sequence[Change], terms: Terms, allowa
         if not allowance.reread.take(len(fixes.result.document.source.text)):
             return None
         document = fixes.reread(changes)
-    return frame_cost(Frame(document), fixes.result.device, terms).total if document is not None else None
+    return (
+        frame_cost(Frame(document), fixes.result.device, terms).total
+        if document is not None
+        else None
+    )
 
 
-def _costed(result: FileResult, document: DocumentResult, trials: Trials | None, terms: Terms, counts: Sequence[int]) -> CostedFrame:
-    """The costs of one document: as written, after its fixes, and with other sample counts, after the same fixes."""
+def _costed(
+    result: FileResult,
+    document: DocumentResult,
+    trials: Trials | None,
+    terms: Terms,
+    counts: Sequence[int],
+) -> CostedFrame:
+    """The costs of one document: as written, after its fixes, and with other sample counts, after
+    the same fixes.
+    """
     written = Frame(document.document)
     cost = frame_cost(written, document.device, terms)
     others = variants(document.document, document.device, terms, counts)
-    frame = CostedFrame(result.file, document.number, len(result.documents), cost, others, graph=frame_graph(written, cost))
+    frame = CostedFrame(
+        result.file,
+        document.number,
+        len(result.documents),
+        cost,
+        others,
+        graph=frame_graph(written, cost),
+    )
     if trials is None:
         return frame
     safe, everything = _document(trials.safe, document), _document(trials.all, document)
@@ -121,7 +153,9 @@ def _costed(result: FileResult, document: DocumentResult, trials: Trials | None,
     fixed_frame = Frame(everything.document)
     fixed_cost = frame_cost(fixed_frame, everything.device, terms)
     return frame._replace(
-        safely_fixed=frame_cost(Frame(safe.document), safe.device, terms) if safe is not None else None,
+        safely_fixed=frame_cost(Frame(safe.document), safe.device, terms)
+        if safe is not None
+        else None,
         fixed=fixed_cost,
         fixed_variants=variants(everything.document, everything.device, terms, counts),
         fixed_graph=frame_graph(fixed_frame, fixed_cost),
@@ -132,4 +166,6 @@ def _document(fixes: FixResult, document: DocumentResult) -> DocumentResult | No
     """A document after fixes; None if nothing of its input is fixed."""
     if not fixes.fixed_findings:
         return None
-    return next((fixed for fixed in fixes.result.documents if fixed.number == document.number), None)
+    return next(
+        (fixed for fixed in fixes.result.documents if fixed.number == document.number), None
+    )

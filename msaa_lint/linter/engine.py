@@ -1,4 +1,6 @@
-"""The rules of a run, and what lints inputs by them. Both are loaded with the first input to lint: all may be known from an earlier run."""
+"""The rules of a run, and what lints inputs by them. Both are loaded with the first input to lint:
+all may be known from an earlier run.
+"""
 
 from collections.abc import Mapping, Sequence
 from functools import cached_property
@@ -25,7 +27,8 @@ if TYPE_CHECKING:
 class Engine:
     """A set of rules for any number of inputs.
 
-    The `limits` are those of the run. An engine without them belongs to no run. Without a registry, the rules are the built-in ones.
+    The `limits` are those of the run. An engine without them belongs to no run. Without a registry,
+    the rules are the built-in ones.
     """
 
     def __init__(self, registry: "Registry | None", limits: RunLimits | None = None) -> None:
@@ -58,20 +61,33 @@ class Engine:
 
         return InputLinter(self.registry, self._limits)
 
-    def lint(self, data: "bytes | CaptureInput | SourceFile", file: str, options: LintOptions) -> FileResult:
-        """The findings of one input in order of location. `data` is a file's bytes, or a capture or source code already read."""
+    def lint(
+        self, data: "bytes | CaptureInput | SourceFile", file: str, options: LintOptions
+    ) -> FileResult:
+        """The findings of one input in order of location. `data` is a file's bytes, or a capture or
+        source code already read.
+        """
         return self.linter.lint(data, file, options)
 
-    def lint_description(self, source: Source, file: str, options: LintOptions, modules: Mapping[str, bytes]) -> FileResult:
-        """The findings of a description that msaa-lint wrote, of a capture or source code; `modules` are its shaders by name."""
+    def lint_description(
+        self, source: Source, file: str, options: LintOptions, modules: Mapping[str, bytes]
+    ) -> FileResult:
+        """The findings of a description that msaa-lint wrote, of a capture or source code;
+        `modules` are its shaders by name.
+        """
         return self.linter.lint_description(source, file, options, modules)
 
 
 def load_rules(
-    paths: Sequence[str] = (), projects: Mapping[str, str] = {}, budget: Budget | None = None, traceback: bool = False
+    paths: Sequence[str] = (),
+    projects: Mapping[str, str] = {},
+    budget: Budget | None = None,
+    traceback: bool = False,
 ) -> "Registry":
-    """The built-in rules and the user's own rules at `paths`, the latter checked within the `budget` of the run. `projects` has those of
-    paths in a configuration. `traceback` is as for `registry.load`."""
+    """The built-in rules and the user's own rules at `paths`, the latter checked within the
+    `budget` of the run. `projects` has those of paths in a configuration. `traceback` is as for
+    `registry.load`.
+    """
     from .rules.registry import load
 
     def check_fixes(rule: "Rule") -> list[Finding]:

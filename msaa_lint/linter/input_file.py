@@ -23,7 +23,9 @@ if TYPE_CHECKING:
 
 
 class ResolvedSettings(NamedTuple):
-    """The settings that apply to a file, with the rules, the device and the limits that they name."""
+    """The settings that apply to a file, with the rules, the device and the limits that they
+    name.
+    """
 
     settings: Settings
     selection: Selection
@@ -34,7 +36,9 @@ class ResolvedSettings(NamedTuple):
 
 
 class InputFile(NamedTuple):
-    """An input that has been read, and how to lint it. `path` is `-` for standard input; findings below `min_severity` are hidden."""
+    """An input that has been read, and how to lint it. `path` is `-` for standard input; findings
+    below `min_severity` are hidden.
+    """
 
     path: str
     name: str
@@ -46,16 +50,24 @@ class InputFile(NamedTuple):
 
     def lint(self, data: bytes | None = None, prices: bool = False) -> FileResult:
         """The findings of the input, or of other `data` in its place."""
-        result = self.resolved.engine.lint(self.data if data is None else data, self.name, self.options._replace(prices=prices))
+        result = self.resolved.engine.lint(
+            self.data if data is None else data, self.name, self.options._replace(prices=prices)
+        )
         if data is None and self.log is not None:
             formats = [getattr(self.data, "format", ""), getattr(self.data, "language", "")]
             formats += [document.document.format for document in result.documents]
-            where = f", {configuration_name(self.resolved.configuration)}" if self.resolved.configuration is not None else ""
+            where = (
+                f", {configuration_name(self.resolved.configuration)}"
+                if self.resolved.configuration is not None
+                else ""
+            )
             self.log(f"{self.name}: read as {next(filter(None, formats), 'nothing')}{where}")
         return result
 
     def fixable(self, result: FileResult) -> Callable[[Finding], bool]:
-        """Whether to fix a finding of the input or of its description: one that the settings turn off or hide is left alone."""
+        """Whether to fix a finding of the input or of its description: one that the settings turn
+        off or hide is left alone.
+        """
         settle, least = self.resolved.selection.settle, rank(self.min_severity)
 
         def is_shown(finding: Finding) -> bool:
@@ -68,19 +80,24 @@ class InputFile(NamedTuple):
         return lambda finding: finding_kind(finding) in reported and is_shown(finding)
 
     def description(self, result: FileResult) -> tuple[FileResult, "Lint"]:
-        """The result of linting the text that fixes edit, and a function that lints other contents of that text, to try fixes.
+        """The result of linting the text that fixes edit, and a function that lints other contents
+        of that text, to try fixes.
 
-        The text is the input itself or, if `result` is that of a capture or source code, the description that `convert` writes of it.
+        The text is the input itself or, if `result` is that of a capture or source code, the
+        description that `convert` writes of it.
         """
         data, engine, name = self.data, self.resolved.engine, self.name
         # Of a trial, only the findings count.
         options = self.options._replace(prices=False, keys=None)
         if isinstance(data, bytes):
-            return unmerged(result), lambda text: unmerged(engine.lint(encode(text, data), name, options))
+            return unmerged(result), lambda text: unmerged(
+                engine.lint(encode(text, data), name, options)
+            )
         modules = data.modules
 
         def lint(text: str) -> FileResult:
-            # Without origins, the order of commands would be checked as that of a description that a person wrote.
+            # Without origins, the order of commands would be checked as that of a description that
+            # a person wrote.
             return engine.lint_description(Source(name, text, []), name, options, modules)
 
         return result.description or lint(data.description), lint

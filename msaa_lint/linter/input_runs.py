@@ -1,5 +1,6 @@
-"""What the inputs of a run add to its result, in their order: kept from an earlier run or linted, by several processes if there is enough
-to do."""
+"""What the inputs of a run add to its result, in their order: kept from an earlier run or linted,
+by several processes if there is enough to do.
+"""
 
 from __future__ import annotations
 
@@ -19,26 +20,37 @@ from .workspace import Unit, Workspace
 Part = TypeVar("Part")
 
 MIN_DIVIDED = 300_000
-"""The number of bytes of inputs from which on they are divided among processes, unless a number of processes is asked for: starting these
-takes as long as reading less."""
+"""The number of bytes of inputs from which on they are divided among processes, unless a number of
+processes is asked for: starting these takes as long as reading less.
+"""
 
 MIN_DIVIDED_ANEW = 1_000_000
-"""The same where processes cannot be copies of this one, but start anew: this takes a quarter of a second."""
+"""The same where processes cannot be copies of this one, but start anew: this takes a quarter of a
+second.
+"""
 
 URL_BYTES = 10_000
 """The number of bytes that take as long to lint as a storage takes to answer."""
 
 MIN_KEPT = 20_000
-"""The number of bytes of inputs from which on their parts are kept: linting fewer takes as little time as looking them up."""
+"""The number of bytes of inputs from which on their parts are kept: linting fewer takes as little
+time as looking them up.
+"""
 
 MAX_UNITS = 64
-"""The number of inputs of a task: a process takes longer to begin a task than to lint some small inputs."""
+"""The number of inputs of a task: a process takes longer to begin a task than to lint some small
+inputs.
+"""
 
 MAX_BYTES = 2 << 20
-"""The number of bytes of the inputs of a task, unless it has only one: they take some tenths of a second."""
+"""The number of bytes of the inputs of a task, unless it has only one: they take some tenths of a
+second.
+"""
 
 MIN_TASKS = 8
-"""The number of tasks for each worker, if there are enough inputs, so that all workers end together."""
+"""The number of tasks for each worker, if there are enough inputs, so that all workers end
+together.
+"""
 
 MAX_WAITING = 100
 """The number of parts in memory that wait for those of inputs before theirs."""
@@ -47,7 +59,9 @@ MAX_LOOKED_UP = 64
 """The number of inputs of which is looked up together what is known of them."""
 
 MAX_PROCESSES = 8
-"""The number of processes on this machine, unless one is asked for: each takes memory of its own."""
+"""The number of processes on this machine, unless one is asked for: each takes memory of its
+own.
+"""
 
 
 class Numbered(NamedTuple):
@@ -59,14 +73,18 @@ class Numbered(NamedTuple):
 
 
 class Task(NamedTuple):
-    """What a process lints before it returns what it found: units with the same configuration, which is named by its path."""
+    """What a process lints before it returns what it found: units with the same configuration,
+    which is named by its path.
+    """
 
     units: Sequence[Numbered]
     configuration: str | None
 
 
 class Linter(Protocol[Part]):
-    """What reads the inputs of a workspace one by one: `Part` is what an input adds to the result of the run."""
+    """What reads the inputs of a workspace one by one: `Part` is what an input adds to the result
+    of the run.
+    """
 
     workspace: Workspace
 
@@ -75,11 +93,15 @@ class Linter(Protocol[Part]):
         ...
 
     def known(self, units: Sequence[Unit]) -> Mapping[int, Part]:
-        """What is known from an earlier run, by the numbers of the inputs and programs among these."""
+        """What is known from an earlier run, by the numbers of the inputs and programs among
+        these.
+        """
         ...
 
     def included(self, part: Part) -> bool:
-        """Counts what custom rules took for a part in another process or run; False if that may be more than they have left in this one."""
+        """Counts what custom rules took for a part in another process or run; False if that may be
+        more than they have left in this one.
+        """
         ...
 
     def failed(self, unit: Unit, reason: str) -> Part:
@@ -94,7 +116,9 @@ class Linter(Protocol[Part]):
 class InputRuns(Generic[Part]):
     """What the inputs and programs of a run add to its result."""
 
-    def __init__(self, linter: Linter[Part], units: Sequence[Unit], per_task: int = MAX_UNITS) -> None:
+    def __init__(
+        self, linter: Linter[Part], units: Sequence[Unit], per_task: int = MAX_UNITS
+    ) -> None:
         self.linter = linter
         self._per_task = per_task
         self._workspace = linter.workspace
@@ -109,13 +133,17 @@ class InputRuns(Generic[Part]):
                 yield self._part(unit, known.get(number))
 
     def divided(self, backend: Backend, job: Callable[[Task], list[Part]]) -> Generator[Part]:
-        """Yields the parts, which `backend` determines by `job`. They are what one process would say."""
+        """Yields the parts, which `backend` determines by `job`. They are what one process would
+        say.
+        """
         for unit in self._units:
             # Here, what the rules of a configuration take is counted once.
             self._configuration(unit)
         known = _Known(self.linter, self._units)
         waiting = known.parts
-        results = backend.results(job, self._with_rules(self._tasks(known, backend.workers)), list_of_each)
+        results = backend.results(
+            job, self._with_rules(self._tasks(known, backend.workers)), list_of_each
+        )
         try:
             for number, unit in enumerate(self._units):
                 if unit == STDIN:
@@ -124,8 +152,17 @@ class InputRuns(Generic[Part]):
                 known.look_up(number)
                 while str(number) not in waiting:
                     task, found = next(results)
-                    parts = [self.linter.failed(each.unit, found.reason) for each in task.units] if isinstance(found, Failure) else found
-                    waiting.update({str(each.number): part for each, part in zip(task.units, parts, strict=True)})
+                    parts = (
+                        [self.linter.failed(each.unit, found.reason) for each in task.units]
+                        if isinstance(found, Failure)
+                        else found
+                    )
+                    waiting.update(
+                        {
+                            str(each.number): part
+                            for each, part in zip(task.units, parts, strict=True)
+                        }
+                    )
                 yield self._part(unit, waiting.pop(str(number)))
         finally:
             results.close()  # type: ignore[attr-defined]
@@ -135,7 +172,13 @@ class InputRuns(Generic[Part]):
         """What the units of a task add to the result."""
         parts = []
         self._workspace.use(task.configuration)
-        self._workspace.enter({each.unit: each.project for each in task.units if isinstance(each.unit, str) and each.project is not None})
+        self._workspace.enter(
+            {
+                each.unit: each.project
+                for each in task.units
+                if isinstance(each.unit, str) and each.project is not None
+            }
+        )
         known = self.linter.known([each.unit for each in task.units])
         for number, (_, unit, _) in enumerate(task.units):
             self._workspace.forget_spent()
@@ -145,10 +188,14 @@ class InputRuns(Generic[Part]):
 
     def _part(self, unit: Unit, known: Part | None) -> Part:
         """What a unit adds, which may be known, if custom rules may take what they took for it."""
-        return known if known is not None and self.linter.included(known) else self.linter.part(unit)
+        return (
+            known if known is not None and self.linter.included(known) else self.linter.part(unit)
+        )
 
     def _configuration(self, unit: Unit) -> str | None:
-        return self._workspace.resolve(unit if isinstance(unit, str) else unit.inputs[0]).configuration
+        return self._workspace.resolve(
+            unit if isinstance(unit, str) else unit.inputs[0]
+        ).configuration
 
     def _with_rules(self, tasks: Iterator[Task]) -> Iterator[Task]:
         """Loads the rules before the first task: copies of this process then have them."""
@@ -157,9 +204,14 @@ class InputRuns(Generic[Part]):
             yield task
 
     def _tasks(self, known: _Known[Part], workers: int) -> Iterator[Task]:
-        """The units of which nothing is known, in groups: long programs first, so that all processes end together, then inputs in their
-        order."""
-        programs = [Numbered(number, unit) for number, unit in enumerate(self._units) if isinstance(unit, ProgramInput)]
+        """The units of which nothing is known, in groups: long programs first, so that all
+        processes end together, then inputs in their order.
+        """
+        programs = [
+            Numbered(number, unit)
+            for number, unit in enumerate(self._units)
+            if isinstance(unit, ProgramInput)
+        ]
         unknown = (each for each in programs if not known.is_known(each.number))
         for each in sorted(unknown, key=lambda each: -self._workspace.length(each.unit)):
             yield Task((each,), self._configuration(each.unit))
@@ -170,7 +222,9 @@ class InputRuns(Generic[Part]):
             if isinstance(unit, ProgramInput) or unit == STDIN or known.is_known(number):
                 continue
             size, configuration = self._workspace.length(unit), self._configuration(unit)
-            if group and (len(group) == per_task or length + size > MAX_BYTES or configuration != common):
+            if group and (
+                len(group) == per_task or length + size > MAX_BYTES or configuration != common
+            ):
                 yield Task(group, common)
                 group, length = [], 0
             group.append(Numbered(number, unit, self._workspace.project(unit)))
@@ -180,7 +234,9 @@ class InputRuns(Generic[Part]):
 
 
 class _Known(Generic[Part]):
-    """What is known of units, which is looked up in their order; `parts` has it, by their numbers."""
+    """What is known of units, which is looked up in their order; `parts` has it, by their
+    numbers.
+    """
 
     def __init__(self, linter: Linter[Part], units: Sequence[Unit]) -> None:
         self.parts: SpooledDict[Part] = SpooledDict(linter.workspace.spool, MAX_WAITING)
@@ -217,11 +273,15 @@ def is_worth_keeping(workspace: Workspace, units: Sequence[Unit]) -> bool:
 def _reach(workspace: Workspace, units: Sequence[Unit], length: int) -> bool:
     """Whether units take as long as linting so many bytes."""
     waits = (URL_BYTES if isinstance(unit, str) and is_url(unit) else 0 for unit in units)
-    return any(total >= length for total in accumulate(map(add, map(workspace.length, units), waits)))
+    return any(
+        total >= length for total in accumulate(map(add, map(workspace.length, units), waits))
+    )
 
 
 def processes(workspace: Workspace, units: Sequence[Unit], jobs: int | None) -> int:
-    """The number of processes for units, if `jobs` are asked for; None asks for as many as there are cores, if there is enough to do."""
+    """The number of processes for units, if `jobs` are asked for; None asks for as many as there
+    are cores, if there is enough to do.
+    """
     if len(units) < 2 or jobs == 1:
         return 1
     if jobs is not None:
@@ -229,4 +289,8 @@ def processes(workspace: Workspace, units: Sequence[Unit], jobs: int | None) -> 
     from msaa_lint.core.execution.processes import can_copy, cores
 
     count = min(cores(), MAX_PROCESSES)
-    return count if count > 1 and _reach(workspace, units, MIN_DIVIDED if can_copy() else MIN_DIVIDED_ANEW) else 1
+    return (
+        count
+        if count > 1 and _reach(workspace, units, MIN_DIVIDED if can_copy() else MIN_DIVIDED_ANEW)
+        else 1
+    )

@@ -1,4 +1,6 @@
-"""Linting in other processes: in copies of this one, which know what it knows, and in those that what they need travels to."""
+"""Linting in other processes: in copies of this one, which know what it knows, and in those that
+what they need travels to.
+"""
 
 from __future__ import annotations
 
@@ -22,9 +24,9 @@ from .workspace import Workspace
 class Snapshot(NamedTuple):
     """What linting depends on besides the inputs.
 
-    `folder` is the current one, `linter` creates what reads inputs, `current` is the path of the configuration of the current folder, and
-    `configurations` are all of them by path. `files` are the contents of the files that the settings name, such as rule pages, by absolute
-    path.
+    `folder` is the current one, `linter` creates what reads inputs, `current` is the path of the
+    configuration of the current folder, and `configurations` are all of them by path. `files` are
+    the contents of the files that the settings name, such as rule pages, by absolute path.
     """
 
     request: Request
@@ -67,7 +69,9 @@ class TravelledJob:
         return TravelledJob, (self._data,)
 
     def __call__(self, task: Task) -> list[Any]:
-        """What the units of a task add to the result. Raises Unusable if this machine lacks the folder that their paths are relative to."""
+        """What the units of a task add to the result. Raises Unusable if this machine lacks the
+        folder that their paths are relative to.
+        """
         with self._lock:
             snapshot, runs = self._prepare()
             with _as_stated(snapshot):
@@ -106,20 +110,40 @@ def _snapshot(runs: InputRuns[Part]) -> Snapshot:
         key: loaded._replace(settings=loaded.settings._replace(rules=_pages(loaded.settings.rules)))
         for key, loaded in workspace.loaded.items()
     }
-    files = {path: data for path, project in opened.files.items() if (data := content(path, project)) is not None}
-    return Snapshot(request, os.getcwd(), runs.linter.travelling(), workspace.current.configuration, configurations, files)
+    files = {
+        path: data
+        for path, project in opened.files.items()
+        if (data := content(path, project)) is not None
+    }
+    return Snapshot(
+        request,
+        os.getcwd(),
+        runs.linter.travelling(),
+        workspace.current.configuration,
+        configurations,
+        files,
+    )
 
 
 def _with_pages(overrides: Mapping[str, object]) -> dict[str, object]:
     rules = overrides.get("rules")
-    return {**overrides, **({"rules": list(_pages(rules))} if isinstance(rules, Sequence) and rules else {})}
+    return {
+        **overrides,
+        **({"rules": list(_pages(rules))} if isinstance(rules, Sequence) and rules else {}),
+    }
 
 
 def _pages(paths: Sequence[str]) -> tuple[str, ...]:
     """Rule pages, those of folders among them one by one."""
-    return tuple(os.path.abspath(page) for path in paths for page in (pages(path) if os.path.isdir(path) else [path]))
+    return tuple(
+        os.path.abspath(page)
+        for path in paths
+        for page in (pages(path) if os.path.isdir(path) else [path])
+    )
 
 
 def _runs(snapshot: Snapshot) -> InputRuns[Any]:
-    workspace = Workspace(snapshot.request, KnownConfigurations(snapshot.configurations, snapshot.current))
+    workspace = Workspace(
+        snapshot.request, KnownConfigurations(snapshot.configurations, snapshot.current)
+    )
     return InputRuns(snapshot.linter(workspace), ())

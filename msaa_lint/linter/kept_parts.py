@@ -1,8 +1,9 @@
 """What is kept between runs of what inputs add to their results, in the user's cache folder.
 
-What an input adds depends on its settings, on what the run determines, and on the files that were opened for it, whose contents are kept
-with it by name: the input itself, shader modules, and the compilers that were looked up. Of what is at a URL, the version that its storage
-states takes the place of the content.
+What an input adds depends on its settings, on what the run determines, and on the files that were
+opened for it, whose contents are kept with it by name: the input itself, shader modules, and the
+compilers that were looked up. Of what is at a URL, the version that its storage states takes the
+place of the content.
 """
 
 from __future__ import annotations
@@ -53,12 +54,16 @@ MAX_TEXT = 16 << 20
 """The number of bytes of an input up to which its text is read again, and not kept."""
 
 MIN_PROGRAM = 4000
-"""The number of bytes of a program from which on its part is kept; that of a shorter one takes as little time."""
+"""The number of bytes of a program from which on its part is kept; that of a shorter one takes as
+little time.
+"""
 
 _KIND = "part"
 
 State = list[Any]
-"""A name for the content of a file, and what differs if it has been written; of a program, only the latter. Empty if there is none."""
+"""A name for the content of a file, and what differs if it has been written; of a program, only the
+latter. Empty if there is none.
+"""
 
 _REFUSED: State = ["outside"]
 """The state of a file outside of the project that it must be in."""
@@ -73,8 +78,10 @@ class _Text(NamedTuple):
 
 
 class _Entry(NamedTuple):
-    """A kept part without its texts; `files` are the states of the files that it depends on, `projects` where those must be that content
-    names, `programs` the states of programs, and `urls` the versions of what is elsewhere."""
+    """A kept part without its texts; `files` are the states of the files that it depends on,
+    `projects` where those must be that content names, `programs` the states of programs, and `urls`
+    the versions of what is elsewhere.
+    """
 
     part: RunPart
     texts: list[_Text]
@@ -85,8 +92,10 @@ class _Entry(NamedTuple):
 
 
 _TYPES = by_name(
-    RunPart, CaptureLocation, CaptureSummary, Counts, Edit, Finding, Fix, InputSummary, Label, MissingKey, Origin, PassTraffic, Price,
-    RenderedFinding, RenderedPart, Saving, Savings, Span, Spent, Suppressed, Undecided, Unread, _Entry, _Text,
+    RunPart, CaptureLocation, CaptureSummary, Counts, Edit, Finding, Fix, InputSummary, Label,
+    MissingKey, Origin, PassTraffic, Price,
+    RenderedFinding, RenderedPart, Saving, Savings, Span, Spent, Suppressed, Undecided, Unread,
+    _Entry, _Text,
 )  # fmt: skip
 
 
@@ -108,7 +117,11 @@ class KeptParts:
         with recording() as opened:
             part = self._linter.part(unit)
         if key is not None and _is_whole(part) and not part.problems and not part.spent.turned_off:
-            entry = self._program_entry(unit, part) if isinstance(unit, ProgramInput) else _entry(part, opened, start)
+            entry = (
+                self._program_entry(unit, part)
+                if isinstance(unit, ProgramInput)
+                else _entry(part, opened, start)
+            )
             if entry is not None:
                 with suppress(RecursionError):
                     self._cache.write(_KIND, key, dumps(entry))
@@ -123,12 +136,17 @@ class KeptParts:
             if key in kept:
                 with suppress(ValueError, RecursionError):
                     entry = loads(kept[key], _TYPES)
-                    if isinstance(entry, _Entry) and (part := self._unchanged(unit, entry)) is not None:
+                    if (
+                        isinstance(entry, _Entry)
+                        and (part := self._unchanged(unit, entry)) is not None
+                    ):
                         found[number] = part
         return found
 
     def included(self, part: RunPart) -> bool:
-        """Whether custom rules may take what they took for a part in another process, which then counts here."""
+        """Whether custom rules may take what they took for a part in another process, which then
+        counts here.
+        """
         return self._linter.included(part)
 
     def failed(self, unit: Unit, reason: str) -> RunPart:
@@ -145,7 +163,10 @@ class KeptParts:
         if isinstance(unit, ProgramInput):
             roots = dict(zip(unit.paths, unit.roots, strict=True))
             index = self.workspace.index
-            if any(index.content(path, roots.get(path)) != state[0] for path, state in entry.files.items()):
+            if any(
+                index.content(path, roots.get(path)) != state[0]
+                for path, state in entry.files.items()
+            ):
                 return None
             for each in entry.texts:
                 text = related_text(each.name, roots.get(each.name))
@@ -155,7 +176,10 @@ class KeptParts:
         else:
             if any(_program_state(name) != state for name, state in entry.programs.items()):
                 return None
-            if any(not _is_unchanged(path, entry.projects.get(path), state) for path, state in entry.files.items()):
+            if any(
+                not _is_unchanged(path, entry.projects.get(path), state)
+                for path, state in entry.files.items()
+            ):
                 return None
             if any(urls.version(url) != version for url, version in entry.urls.items()):
                 return None
@@ -166,16 +190,29 @@ class KeptParts:
                     if data is None or digest(data) != entry.files[path][0]:
                         return None
                     texts[each.name] = decode(data)
-        sources = {each.name: Source(each.name, each.text or texts[each.name], each.origins) for each in entry.texts}
+        sources = {
+            each.name: Source(each.name, each.text or texts[each.name], each.origins)
+            for each in entry.texts
+        }
         return entry.part._replace(sources=sources)
 
     def _program_entry(self, program: ProgramInput, part: RunPart) -> _Entry | None:
         """What is kept of a program; None if its files have changed since they were first read."""
         index, contents = self.workspace.index, self.workspace.contents
-        if any(index.content(path, root) != contents.get(path) for path, root in zip(program.paths, program.roots, strict=True)):
+        if any(
+            index.content(path, root) != contents.get(path)
+            for path, root in zip(program.paths, program.roots, strict=True)
+        ):
             return None
         texts = [_Text(name, None, source.origins) for name, source in part.sources.items()]
-        return _Entry(part._replace(sources={}), texts, {path: [name] for path, name in contents.items()}, {}, {}, {})
+        return _Entry(
+            part._replace(sources={}),
+            texts,
+            {path: [name] for path, name in contents.items()},
+            {},
+            {},
+            {},
+        )
 
     def _key(self, unit: Unit) -> str | None:
         """The name of the part of an input or a program; None if it is not kept."""
@@ -190,21 +227,40 @@ class KeptParts:
         resolved = self.workspace.resolve(path)
         if resolved.configuration not in self._settings:
             settings = resolved.settings._replace(origin={}, baseline=None, output=())
-            pages = {name: text_digest(source.text) for name, source in resolved.engine.custom_pages.items()}
-            values = (os.getcwd(), self._depends_on, settings, resolved.device, resolved.limits, pages)
+            pages = {
+                name: text_digest(source.text)
+                for name, source in resolved.engine.custom_pages.items()
+            }
+            values = (
+                os.getcwd(),
+                self._depends_on,
+                settings,
+                resolved.device,
+                resolved.limits,
+                pages,
+            )
             self._settings[resolved.configuration] = text_digest(repr(values))
         return text_digest(f"{self._settings[resolved.configuration]} {stated}")
 
 
-def keeping(linter: Callable[[Workspace], PartLinter], depends_on: str, workspace: Workspace) -> Linter[RunPart]:
+def keeping(
+    linter: Callable[[Workspace], PartLinter], depends_on: str, workspace: Workspace
+) -> Linter[RunPart]:
     """A linter that keeps its parts, if the workspace permits."""
     cache = workspace.cache
-    return KeptParts(linter(workspace), cache, depends_on) if cache is not None else linter(workspace)
+    return (
+        KeptParts(linter(workspace), cache, depends_on) if cache is not None else linter(workspace)
+    )
 
 
 def _entry(part: RunPart, opened: Opened, start: int) -> _Entry | None:
-    """What is kept of an input; None if a file that it depends on has just been written, or is where its version is unknown."""
-    if any(not version or urls.version(url, is_fresh=True) != version for url, version in opened.urls.items()):
+    """What is kept of an input; None if a file that it depends on has just been written, or is
+    where its version is unknown.
+    """
+    if any(
+        not version or urls.version(url, is_fresh=True) != version
+        for url, version in opened.urls.items()
+    ):
         return None
     files: dict[str, State] = {}
     contents: dict[str, bytes] = {}
@@ -222,7 +278,13 @@ def _entry(part: RunPart, opened: Opened, start: int) -> _Entry | None:
     texts = []
     for name, source in part.sources.items():
         data = contents.get(os.path.abspath(name))
-        texts.append(_Text(name, None if data is not None and _is_text(data, source.text) else source.text, source.origins))
+        texts.append(
+            _Text(
+                name,
+                None if data is not None and _is_text(data, source.text) else source.text,
+                source.origins,
+            )
+        )
     programs = {name: _program_state(name) for name in opened.programs}
     projects = {path: project for path, project in opened.files.items() if project is not None}
     return _Entry(part._replace(sources={}), texts, files, projects, programs, opened.urls)
@@ -241,7 +303,9 @@ def _is_text(data: bytes, text: str) -> bool:
 
 
 def _is_unchanged(path: str, project: str | None, known: State) -> bool:
-    """Whether a file is as it was: nobody can set when its state changed last, and a file that was written may have the same content."""
+    """Whether a file is as it was: nobody can set when its state changed last, and a file that was
+    written may have the same content.
+    """
     state = _state(path, project)
     if _REFUSED in (state, known):
         return state == known

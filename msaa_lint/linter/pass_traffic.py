@@ -14,7 +14,9 @@ from .results import FileResult
 
 
 def pass_traffic(result: FileResult) -> list[PassTraffic]:
-    """The traffic of the passes of each frame of an input, in their order; none of a document with errors."""
+    """The traffic of the passes of each frame of an input, in their order; none of a document with
+    errors.
+    """
     return list(_pass_traffic(result))
 
 
@@ -41,4 +43,8 @@ def _pass_traffic(result: FileResult) -> Iterator[PassTraffic]:
 
 def _samples(each: PassCost) -> int | None:
     """The most samples that an attachment of a pass has, or that a command moves."""
-    return each.shading.samples if each.shading is not None else max((line.samples for line in each.lines), default=None)
+    return (
+        each.shading.samples
+        if each.shading is not None
+        else max((line.samples for line in each.lines), default=None)
+    )

@@ -1,4 +1,6 @@
-"""Prices of findings: the estimated cost of the frame as written minus its cost with the fix. No rule has its own formula."""
+"""Prices of findings: the estimated cost of the frame as written minus its cost with the fix. No
+rule has its own formula.
+"""
 
 from __future__ import annotations
 
@@ -12,7 +14,13 @@ from msaa_lint.frame.cost.input_cost import input_total
 from msaa_lint.frame.cost.model import frame_cost
 from msaa_lint.frame.cost.power import ASSUMED_FPS
 from msaa_lint.frame.description.document import Document
-from msaa_lint.frame.description.models import BeginRendering, BeginRenderPass, Description, PipelineBarrier, RenderPass
+from msaa_lint.frame.description.models import (
+    BeginRendering,
+    BeginRenderPass,
+    Description,
+    PipelineBarrier,
+    RenderPass,
+)
 from msaa_lint.frame.description.record import Record
 from msaa_lint.frame.facts.commands import named_images
 from msaa_lint.frame.facts.frame import Frame
@@ -25,10 +33,14 @@ from .rules.rule_runner import Key, finding_key
 from .savings import assumes_tiler, difference
 
 MAX_REREAD = 1 << 19
-"""Characters that are read again for the prices of one input's fixes: a structural one is priced by reading the text that it gives."""
+"""Characters that are read again for the prices of one input's fixes: a structural one is priced by
+reading the text that it gives.
+"""
 
 MAX_COSTED = 100_000
-"""Passes, attachments, commands and images of which costs are computed for the prices of one input's fixes."""
+"""Passes, attachments, commands and images of which costs are computed for the prices of one
+input's fixes.
+"""
 
 FINDING_WEIGHT = 10
 """What the price of a finding takes beside its part of the frame, in such structures."""
@@ -41,11 +53,16 @@ class Part(NamedTuple):
     images: frozenset[str]
 
 
-NOT_PRICED = "the input has too many findings of this kind to price each of them; the totals include what its fix saves"
+NOT_PRICED = (
+    "the input has too many findings of this kind to price each of them; the totals "
+    "include what its fix saves"
+)
 
 
 class PriceAllowance(NamedTuple):
-    """What the prices of one input may take: characters that are read again, and structures of which costs are computed."""
+    """What the prices of one input may take: characters that are read again, and structures of
+    which costs are computed.
+    """
 
     reread: Allowance
     costed: Allowance
@@ -56,7 +73,9 @@ class NotPriced(Exception):
 
 
 class Prices:
-    """The prices of one document's findings. Costs that several findings have in common are computed once."""
+    """The prices of one document's findings. Costs that several findings have in common are
+    computed once.
+    """
 
     def __init__(self, fixes: DocumentFixes, budget: PriceAllowance) -> None:
         self.document = fixes.result.document
@@ -67,9 +86,11 @@ class Prices:
         self._images: dict[Part, set[str]] = {}
 
     def of(self, changes: Sequence[Change]) -> Price | None:
-        """The saving from some changes; None if a size or format that this depends on is unknown. Raises: NotPriced.
+        """The saving from some changes; None if a size or format that this depends on is unknown.
+        Raises: NotPriced.
 
-        Only the passes and images that the changes concern are computed, because the rest costs the same before and after.
+        Only the passes and images that the changes concern are computed, because the rest costs the
+        same before and after.
         """
         part = self._parts.of(changes)
         if part == NO_PART:
@@ -83,7 +104,9 @@ class Prices:
     def notes(self, price: Price) -> tuple[str, ...]:
         """What a price assumes that the input does not state."""
         size = self.document.description.frame
-        assumes_fps = (size is None or size.fps is None) and bool(price.read_mb_per_s or price.write_mb_per_s)
+        assumes_fps = (size is None or size.fps is None) and bool(
+            price.read_mb_per_s or price.write_mb_per_s
+        )
         return (f"the cost assumes {ASSUMED_FPS:g} frames per second",) if assumes_fps else ()
 
     def cost(self, part: Part | None) -> FrameCost:
@@ -98,7 +121,9 @@ class Prices:
             raise NotPriced
 
     def cost_with(self, changes: Sequence[Change], part: Part | None) -> FrameCost | None:
-        """The cost of a part of the frame, or of all of it, after changes; None if they cannot be made. Raises: NotPriced."""
+        """The cost of a part of the frame, or of all of it, after changes; None if they cannot be
+        made. Raises: NotPriced.
+        """
         try:
             with apply_temporarily(changes):
                 self._take(part)
@@ -120,7 +145,9 @@ class Prices:
 
 
 class Parts:
-    """The parts of a frame: whose cost a change may alter, and the description with nothing but a part."""
+    """The parts of a frame: whose cost a change may alter, and the description with nothing but a
+    part.
+    """
 
     def __init__(self, frame: Frame) -> None:
         self._description = frame.description
@@ -129,25 +156,38 @@ class Parts:
         """By pass: the framebuffers that are made for it, or that it is begun with."""
         self._commands = frame.commands
         self._naming: dict[str, list[int]] = {}
-        """By image: the positions of the commands, without those that begin passes, that name it."""
+        """By image: the positions of the commands, without those that begin passes, that name
+        it.
+        """
         begins = (BeginRenderPass, BeginRendering)
         for position, command in enumerate(frame.commands):
-            for name in dict.fromkeys(named_images(command)) if not isinstance(command.body, begins) else ():
+            for name in (
+                dict.fromkeys(named_images(command)) if not isinstance(command.body, begins) else ()
+            ):
                 self._naming.setdefault(name, []).append(position)
         paths = {record.path: name for name, record in frame.description.renderPasses.items()}
         names = {name: path for path, name in paths.items()}
         for framebuffer in frame.description.framebuffers.values():
-            self._begun_with.setdefault(names.get(framebuffer.renderPass or "", ""), []).append(framebuffer.key)
+            self._begun_with.setdefault(names.get(framebuffer.renderPass or "", ""), []).append(
+                framebuffer.key
+            )
         for render_pass in frame.passes:
             for position in render_pass.begun:
                 buffers = frame.framebuffers_of(frame.commands[position].body)
-                self._begun_with.setdefault(render_pass.path, []).extend(buffer.key for buffer in buffers)
+                self._begun_with.setdefault(render_pass.path, []).extend(
+                    buffer.key for buffer in buffers
+                )
         self._order = {name: number for number, name in enumerate(frame.description.framebuffers)}
         self._owners = dict(_owners(frame))
-        self._weights = {path: _weight(render_pass, self._begun_with.get(path, ())) for path, render_pass in self._passes.items()}
+        self._weights = {
+            path: _weight(render_pass, self._begun_with.get(path, ()))
+            for path, render_pass in self._passes.items()
+        }
 
     def of(self, changes: Sequence[Change]) -> Part | None:
-        """The part whose cost changes may alter. None, for the whole frame, if one of them concerns neither a pass nor an image."""
+        """The part whose cost changes may alter. None, for the whole frame, if one of them concerns
+        neither a pass nor an image.
+        """
         passes: set[str] = set()
         images: set[str] = set()
         for change in changes:
@@ -166,28 +206,58 @@ class Parts:
         return sum(self._weights.get(path, 0) for path in part.passes) + named + len(part.images)
 
     def restrict(self, part: Part, images: Collection[str]) -> tuple[Description, set[str]]:
-        """The description with only the passes of a part, the commands that concern it, and the images that those name or that are given.
+        """The description with only the passes of a part, the commands that concern it, and the
+        images that those name or that are given.
 
         Also returns the names of these images.
         """
         description = self._description
-        passes = sorted((self._passes[path] for path in part.passes), key=lambda render_pass: (render_pass.kind, render_pass.record.head))
+        passes = sorted(
+            (self._passes[path] for path in part.passes),
+            key=lambda render_pass: (render_pass.kind, render_pass.record.head),
+        )
         subset = Description.__new__(Description)
         vars(subset).update(vars(description))
-        subset.renderPasses = {each.name: each.record for each in passes if isinstance(each.record, RenderPass)}
+        subset.renderPasses = {
+            each.name: each.record for each in passes if isinstance(each.record, RenderPass)
+        }
         subset.pipelines = {}
         if description.commands is not None:
             positions = {position for each in passes for position in each.begun}
-            positions.update(position for name in part.images for position in self._naming.get(name, ()))
+            positions.update(
+                position for name in part.images for position in self._naming.get(name, ())
+            )
             subset.commands = tuple(self._commands[position] for position in sorted(positions))
         keys = dict.fromkeys(key for each in passes for key in self._begun_with.get(each.path, ()))
-        subset.framebuffers = {key: description.framebuffers[key] for key in sorted(keys, key=self._order.__getitem__)}
-        attachments = [attachment for record in subset.renderPasses.values() for attachment in record.attachments]
+        subset.framebuffers = {
+            key: description.framebuffers[key] for key in sorted(keys, key=self._order.__getitem__)
+        }
+        attachments = [
+            attachment
+            for record in subset.renderPasses.values()
+            for attachment in record.attachments
+        ]
         names = {*images, *part.images}
-        names.update(attachment.image for attachment in attachments if attachment is not None and attachment.image is not None)
-        names.update(name for command in subset.commands or () if command is not None for name in named_images(command))
-        names.update(name for framebuffer in subset.framebuffers.values() for name in framebuffer.attachments if name is not None)
-        subset.images = {name: description.images[name] for name in sorted(names) if name in description.images}
+        names.update(
+            attachment.image
+            for attachment in attachments
+            if attachment is not None and attachment.image is not None
+        )
+        names.update(
+            name
+            for command in subset.commands or ()
+            if command is not None
+            for name in named_images(command)
+        )
+        names.update(
+            name
+            for framebuffer in subset.framebuffers.values()
+            for name in framebuffer.attachments
+            if name is not None
+        )
+        subset.images = {
+            name: description.images[name] for name in sorted(names) if name in description.images
+        }
         return subset, names
 
 
@@ -196,7 +266,9 @@ NO_PART = Part(frozenset(), frozenset())
 
 
 def _owners(frame: Frame) -> Iterator[tuple[int, Part]]:
-    """The records of passes and images, by identity, with the part that changes with each; and those that cost nothing."""
+    """The records of passes and images, by identity, with the part that changes with each; and
+    those that cost nothing.
+    """
     users: dict[str, set[str]] = {}
     for render_pass in frame.passes:
         part = Part(frozenset({render_pass.path}), frozenset())
@@ -213,8 +285,15 @@ def _owners(frame: Frame) -> Iterator[tuple[int, Part]]:
 
 
 def _weight(render_pass: Pass, framebuffers: Sequence[str]) -> int:
-    subpasses = sum(1 + len(subpass.color) + len(subpass.resolves) for subpass in render_pass.subpasses)
-    return 1 + (2 + len(framebuffers)) * len(render_pass.attachments) + subpasses + len(render_pass.begun)
+    subpasses = sum(
+        1 + len(subpass.color) + len(subpass.resolves) for subpass in render_pass.subpasses
+    )
+    return (
+        1
+        + (2 + len(framebuffers)) * len(render_pass.attachments)
+        + subpasses
+        + len(render_pass.begun)
+    )
 
 
 def _records(render_pass: Pass, frame: Frame) -> Iterator[Record]:
@@ -245,9 +324,13 @@ def _images(render_pass: Pass) -> Iterator[str]:
 
 
 def price_findings(
-    documents: Sequence[DocumentFixes], documents_by_key: Mapping[Key, Sequence[int]], findings: Sequence[Finding]
+    documents: Sequence[DocumentFixes],
+    documents_by_key: Mapping[Key, Sequence[int]],
+    findings: Sequence[Finding],
 ) -> list[Finding]:
-    """The findings of an input with their prices. Beyond a budget, findings are not priced and say so."""
+    """The findings of an input with their prices. Beyond a budget, findings are not priced and say
+    so.
+    """
     budget = PriceAllowance(Allowance(MAX_REREAD), Allowance(MAX_COSTED))
     prices: dict[int, Prices] = {}
     priced = []
@@ -272,4 +355,6 @@ def _priced(fixes: DocumentFixes, prices: Prices, finding: Finding) -> Finding:
     if price is None:
         return finding
     notes = (*finding.notes, *(price_notes if any(price) else ()), *prices.notes(price))
-    return finding._replace(price=price, notes=notes, assumes_tiler=any(price) and assumes_tiler(fixes.result.device))
+    return finding._replace(
+        price=price, notes=notes, assumes_tiler=any(price) and assumes_tiler(fixes.result.device)
+    )

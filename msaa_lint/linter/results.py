@@ -16,19 +16,23 @@ if TYPE_CHECKING:
 _INDEX = re.compile(r"\[[0-9]+\]")
 
 NUMBERS = r"^documents\[[0-9]+\]\.|\[[0-9]+\]| #[0-9]+"
-"""A pattern of the numbers in a subject that say nothing of it: the document, which is not stated of a single one, indices, which shift
-when an entry before them is removed, and those of captured objects without a name, which every capture gives anew. RE2 reads it as well."""
+"""A pattern of the numbers in a subject that say nothing of it: the document, which is not stated
+of a single one, indices, which shift when an entry before them is removed, and those of captured
+objects without a name, which every capture gives anew. RE2 reads it as well.
+"""
 
 
 MAX_TRIED = 1 << 20
-"""Characters of a text up to which its fixes are tried for a summary; `--fix`, `--diff`, and `--fail-on-cost` try them for any."""
+"""Characters of a text up to which its fixes are tried for a summary; `--fix`, `--diff`, and
+`--fail-on-cost` try them for any.
+"""
 
 
 class DocumentResult(NamedTuple):
     """One document of an input, with the fixes of its findings by finding.
 
-    `number` is its index in a multi-document stream; `device` is the profile it was linted for; `checked` is false if problems of the
-    document kept rules from running.
+    `number` is its index in a multi-document stream; `device` is the profile it was linted for;
+    `checked` is false if problems of the document kept rules from running.
     """
 
     document: "Document"
@@ -41,10 +45,10 @@ class DocumentResult(NamedTuple):
 class FileResult(NamedTuple):
     """The result of linting one input.
 
-    `source` is None if the input could not be decoded. `is_code` is true for source code; `sources` has the text of each file of a program,
-    whose findings name their files. `description` is the result that fixes work
-    with, if it is another: that of the description of a capture, or with the findings of each document of a program; `documents` are the
-    same.
+    `source` is None if the input could not be decoded. `is_code` is true for source code; `sources`
+    has the text of each file of a program, whose findings name their files. `description` is the
+    result that fixes work with, if it is another: that of the description of a capture, or with the
+    findings of each document of a program; `documents` are the same.
     """
 
     file: str
@@ -64,17 +68,23 @@ def unmerged(result: FileResult) -> FileResult:
 
 
 def can_try_fixes(result: FileResult) -> bool:
-    """Whether the text that was linted, of a capture its description, is small enough to try its fixes for a summary."""
+    """Whether the text that was linted, of a capture its description, is small enough to try its
+    fixes for a summary.
+    """
     return result.source is not None and len(result.source.text) <= MAX_TRIED
 
 
 def finding_kind(finding: Finding) -> tuple[str, str]:
-    """A finding's code and the structural path of its subject without indices, which shift when an entry before them is removed."""
+    """A finding's code and the structural path of its subject without indices, which shift when an
+    entry before them is removed.
+    """
     return (finding.code, _INDEX.sub("[]", finding.subject))
 
 
 def location_order(finding: Finding) -> tuple[int, int, str, str]:
-    """The sort key of the findings of one file: location, then code and message; findings without a location come first."""
+    """The sort key of the findings of one file: location, then code and message; findings without a
+    location come first.
+    """
     start, end = finding.span if finding.span is not None else (-1, -1)
     return (start, end, finding.code, finding.message)
 
@@ -82,4 +92,8 @@ def location_order(finding: Finding) -> tuple[int, int, str, str]:
 def price_order(finding: Finding) -> tuple[float, float]:
     """The sort key by price, highest first; a choice costs nothing."""
     price, fix = finding.price, finding.fix
-    return (-price.milliwatts, -price.memory_mib) if price is not None and not (fix is not None and fix.choice) else (0.0, 0.0)
+    return (
+        (-price.milliwatts, -price.memory_mib)
+        if price is not None and not (fix is not None and fix.choice)
+        else (0.0, 0.0)
+    )

@@ -1,4 +1,6 @@
-"""Runs `check`: lints every input of a request, and fixes it if asked to. The command line and `msaa_lint.lint` both use it."""
+"""Runs `check`: lints every input of a request, and fixes it if asked to. The command line and
+`msaa_lint.lint` both use it.
+"""
 
 import os
 from collections.abc import Callable, Iterator, Mapping, Sequence, Set
@@ -29,11 +31,21 @@ if TYPE_CHECKING:
     from .suppress.baseline import Baseline
 
 Progress = Callable[[int, int, str], None]
-"""Called before each input with the number of inputs done, the number of all inputs, and the input's path."""
+"""Called before each input with the number of inputs done, the number of all inputs, and the
+input's path.
+"""
 
 _UNSUMMARIZED_FORMATS = frozenset({"gitlab", "azure", "teamcity", "rdjson", "junit"})
 
-PRICED_FORMATS = _UNSUMMARIZED_FORMATS.union(TABLE_FORMATS) | {"full", "json", "sarif", "github", "markdown", "statistics", "html"}
+PRICED_FORMATS = _UNSUMMARIZED_FORMATS.union(TABLE_FORMATS) | {
+    "full",
+    "json",
+    "sarif",
+    "github",
+    "markdown",
+    "statistics",
+    "html",
+}
 """The outputs that show prices; for the others prices are not computed."""
 
 RULE_PAGE_FORMATS = frozenset({"sarif", "html"})
@@ -46,10 +58,12 @@ SUMMARIZED_FORMATS = PRICED_FORMATS - _UNSUMMARIZED_FORMATS | {"concise"}
 class Outcome(NamedTuple):
     """The result of a run.
 
-    `settings` are those of the current folder, with the outputs and thresholds; `notes` are lines for standard error. `fixed` has the
-    fixed text of each input, `failing` by file what fixes save of the findings that can fail the run. `frames` are the frames of the
-    inputs with their costs, if an output shows them. `passes` is what passes move, `owners` names the inputs whose passes findings in other
-    files are about, and `configuration` is a name for the settings of the inputs, if an output has rows of them.
+    `settings` are those of the current folder, with the outputs and thresholds; `notes` are lines
+    for standard error. `fixed` has the fixed text of each input, `failing` by file what fixes save
+    of the findings that can fail the run. `frames` are the frames of the inputs with their costs,
+    if an output shows them. `passes` is what passes move, `owners` names the inputs whose passes
+    findings in other files are about, and `configuration` is a name for the settings of the inputs,
+    if an output has rows of them.
     """
 
     result: Result
@@ -63,8 +77,12 @@ class Outcome(NamedTuple):
     configuration: str = ""
 
 
-def run(request: Request, progress: Progress | None = None, results: Results | None = None) -> Outcome:
-    """Lints every input of a request. A problem of an input, a rule page or the configuration is a finding, never an exception."""
+def run(
+    request: Request, progress: Progress | None = None, results: Results | None = None
+) -> Outcome:
+    """Lints every input of a request. A problem of an input, a rule page or the configuration is a
+    finding, never an exception.
+    """
     return _Run(request, results).run(progress)
 
 
@@ -74,11 +92,17 @@ class _Run:
         self.workspace = Workspace(request)
         self.settings = self.workspace.current.settings
         self.baseline = self._load_baseline()
-        outputs = set(request.formats or [text.partition("=")[0] for text in self.settings.output] or [request.fallback])
+        outputs = set(
+            request.formats
+            or [text.partition("=")[0] for text in self.settings.output]
+            or [request.fallback]
+        )
         limited = self.settings.fail_on_cost is not None
         contents = Contents(
             prices=request.by_price or limited or not PRICED_FORMATS.isdisjoint(outputs),
-            savings=limited or request.fix is not None or not SUMMARIZED_FORMATS.isdisjoint(outputs),
+            savings=limited
+            or request.fix is not None
+            or not SUMMARIZED_FORMATS.isdisjoint(outputs),
             frames="html" in outputs,
             passes=not outputs.isdisjoint(TABLE_FORMATS),
         )
@@ -102,9 +126,17 @@ class _Run:
         self.notes: list[str] = []
 
     def _render(self, outputs: Set[str], has_callback: bool) -> Render | None:
-        """What renders the report input by input, if that is possible: findings need not be known all at once."""
+        """What renders the report input by input, if that is possible: findings need not be known
+        all at once.
+        """
         request = self.request
-        if len(outputs) > 1 or self.baseline is not None or request.by_price or request.fix is not None or has_callback:
+        if (
+            len(outputs) > 1
+            or self.baseline is not None
+            or request.by_price
+            or request.fix is not None
+            or has_callback
+        ):
             return None
         renderer = request.renderers.get(next(iter(outputs)))
         return partial(renderer, docs_url=self.settings.docs_url) if renderer is not None else None
@@ -136,13 +168,30 @@ class _Run:
             self._add(next(parts), names)
             done += len(paths)
             collect_garbage()
-        notes = [*discovered.notes, *self.notes, *self._stale_entries(files), *self.workspace.close()]
+        notes = [
+            *discovered.notes,
+            *self.notes,
+            *self._stale_entries(files),
+            *self.workspace.close(),
+        ]
         current, spool = self.workspace.current, self.workspace.spool
         if self.report is not None:
             rendered = self.report.finish(self.findings.in_order())
-            result = Result((), (), (), files, {}, (), self.savings.finished(), untried=self.untried, rendered=rendered)
+            result = Result(
+                (),
+                (),
+                (),
+                files,
+                {},
+                (),
+                self.savings.finished(),
+                untried=self.untried,
+                rendered=rendered,
+            )
             return Outcome(result, self.settings, notes, failing=self.failing.finished())
-        rules = rule_infos(current.engine.registry, current.selection.for_file(os.curdir), self.with_pages)
+        rules = rule_infos(
+            current.engine.registry, current.selection.for_file(os.curdir), self.with_pages
+        )
         findings = self.findings.by_price() if self.request.by_price else self.findings.by_file()
         suppressed = SpooledList(spool, chain(self.suppressed, self.accepted))
         result = Result(
@@ -158,16 +207,35 @@ class _Run:
             self.untried,
         )
         passes, configuration = self.passes.finished(), self._configuration()
-        return Outcome(result, self.settings, notes, self.fixed, self.failing.finished(), self.frames, passes, self.owners, configuration)
+        return Outcome(
+            result,
+            self.settings,
+            notes,
+            self.fixed,
+            self.failing.finished(),
+            self.frames,
+            passes,
+            self.owners,
+            configuration,
+        )
 
     def _parts(self, units: Sequence[Unit]) -> Iterator[RunPart]:
         """What the units add to the result, in their order."""
         request = self.request
-        if request.fix is not None or request.log is not None or request.traceback or self.linter.has_callback:
+        if (
+            request.fix is not None
+            or request.log is not None
+            or request.traceback
+            or self.linter.has_callback
+        ):
             # These have effects in this process, in the order of the inputs.
             return parts(self.linter, units)
         depends_on = self._parts_depend_on()
-        cache = self.workspace.cache if depends_on is not None and is_worth_keeping(self.workspace, units) else None
+        cache = (
+            self.workspace.cache
+            if depends_on is not None and is_worth_keeping(self.workspace, units)
+            else None
+        )
         if cache is None or depends_on is None:
             return parts(self.linter, units, request.division)
         from .kept_parts import KeptParts
@@ -175,12 +243,24 @@ class _Run:
         return parts(KeptParts(self.linter, cache, depends_on), units, request.division)
 
     def _parts_depend_on(self) -> str | None:
-        """What the parts of inputs depend on besides their files and settings; None if they are not kept, which have no frames."""
+        """What the parts of inputs depend on besides their files and settings; None if they are not
+        kept, which have no frames.
+        """
         if self.linter.contents.frames:
             return None
         request, settings = self.request, self.settings
-        accepted = (settings.fail_confidence, self.baseline) if settings.fail_on_cost is not None else None
-        stated = (request.ignores, request.format, request.frame_end, request.keys, request.all_keys, request.edits, settings.min_severity)
+        accepted = (
+            (settings.fail_confidence, self.baseline) if settings.fail_on_cost is not None else None
+        )
+        stated = (
+            request.ignores,
+            request.format,
+            request.frame_end,
+            request.keys,
+            request.all_keys,
+            request.edits,
+            settings.min_severity,
+        )
         rendered = self.linter.render is not None and self.settings.docs_url
         return repr((self.linter.contents, stated, accepted, rendered))
 
@@ -195,7 +275,11 @@ class _Run:
             self.accepted.extend(accepted)
             self.undecided.extend(part.undecided)
             self.suppressed.extend(part.suppressed)
-            unknown = {name: InputSummary(name, failed=True) for name in names if name not in self.summaries}
+            unknown = {
+                name: InputSummary(name, failed=True)
+                for name in names
+                if name not in self.summaries
+            }
             self.summaries.update(unknown | {summary.file: summary for summary in part.summaries})
             self.workspace.sources.update(part.sources)
         self.savings.update(part.savings)
@@ -223,4 +307,11 @@ class _Run:
         from .suppress import baseline
 
         findings = chain(self.findings, (each.finding for each in self.accepted))
-        return list(map(str, baseline.stale(self.baseline, findings, files, self.workspace.current.selection.names())))
+        return list(
+            map(
+                str,
+                baseline.stale(
+                    self.baseline, findings, files, self.workspace.current.selection.names()
+                ),
+            )
+        )

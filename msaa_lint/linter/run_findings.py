@@ -14,7 +14,8 @@ Found = Finding | RenderedFinding
 
 
 class RunFindings:
-    """The findings of the inputs, and those of the run: about the configuration, rule pages, and paths.
+    """The findings of the inputs, and those of the run: about the configuration, rule pages, and
+    paths.
 
     The former are those after settings. Of a file the latter come first.
     """
@@ -33,7 +34,9 @@ class RunFindings:
         return self._numbers.get(file, -1)
 
     def add(self, problems: Sequence[Finding], findings: Sequence[Found]) -> None:
-        """Adds the findings of an input: about reading it, and others. Those of the run up to now come before the former."""
+        """Adds the findings of an input: about reading it, and others. Those of the run up to now
+        come before the former.
+        """
         of_run = self._workspace.findings
         self._add(0, [*of_run, *problems])
         of_run.clear()
@@ -44,7 +47,9 @@ class RunFindings:
         for finding in findings:
             by_file.setdefault(finding.file, []).append(finding)
         for file, of_file in by_file.items():
-            self._rows.add((self.number(file), file.encode("utf-8", "surrogatepass"), phase), of_file)
+            self._rows.add(
+                (self.number(file), file.encode("utf-8", "surrogatepass"), phase), of_file
+            )
 
     def __iter__(self) -> Iterator[Finding]:
         """The findings as they were added."""
@@ -74,8 +79,12 @@ class RunFindings:
         for _, findings in rows:
             yield from findings
 
-    def _shown(self, rows: Iterable[tuple[tuple[int, bytes, int], Sequence[Found]]]) -> Iterator[Found]:
-        """What is reported of sorted rows. Two configurations may name the same broken rule page, and two programs the same header."""
+    def _shown(
+        self, rows: Iterable[tuple[tuple[int, bytes, int], Sequence[Found]]]
+    ) -> Iterator[Found]:
+        """What is reported of sorted rows. Two configurations may name the same broken rule page,
+        and two programs the same header.
+        """
         current = self._workspace.current
         settle, least = current.selection.settle, rank(current.settings.min_severity)
         for _, of_file in groupby(rows, key=lambda row: row[0][1]):
@@ -83,10 +92,15 @@ class RunFindings:
                 settled
                 for (_, _, phase), group in of_file
                 for found in group
-                if (settled := settle(found) if not phase and isinstance(found, Finding) else found) is not None
+                if (settled := settle(found) if not phase and isinstance(found, Finding) else found)
+                is not None
             )
             for found in dict.fromkeys(findings):
-                if isinstance(found, RenderedFinding) or found.fatal or rank(found.severity) >= least:
+                if (
+                    isinstance(found, RenderedFinding)
+                    or found.fatal
+                    or rank(found.severity) >= least
+                ):
                     yield found
 
 

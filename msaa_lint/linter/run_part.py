@@ -3,7 +3,14 @@
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
-from msaa_lint.core.finding import Finding, InputSummary, PassTraffic, Savings, Suppressed, Undecided
+from msaa_lint.core.finding import (
+    Finding,
+    InputSummary,
+    PassTraffic,
+    Savings,
+    Suppressed,
+    Undecided,
+)
 from msaa_lint.core.rendered import RenderedPart
 from msaa_lint.core.text.source import Source
 
@@ -18,12 +25,14 @@ if TYPE_CHECKING:
 class RunPart(NamedTuple):
     """What one input, or the files of a program, add to the result of a run.
 
-    `findings` are those after settings and before the baseline, which does not apply to `diagnostics`. `sources` has the texts that
-    reports show. `savings`, `failing`, and `untried` are by file. `problems` are the findings about files that cannot be read. `frames`
-    are the frames with their costs, if a report shows them. `notes` are lines for standard error, `fixed` the fixed texts, `passes` what
-    passes move, if an output has rows of them, which are of the `owners` of the other files of a program, and `spent` is what custom rules
-    took. `rendered` takes the place of findings except `problems`, undecided rules, summaries, and sources in a report that is rendered
-    input by input.
+    `findings` are those after settings and before the baseline, which does not apply to
+    `diagnostics`. `sources` has the texts that reports show. `savings`, `failing`, and `untried`
+    are by file. `problems` are the findings about files that cannot be read. `frames` are the
+    frames with their costs, if a report shows them. `notes` are lines for standard error, `fixed`
+    the fixed texts, `passes` what passes move, if an output has rows of them, which are of the
+    `owners` of the other files of a program, and `spent` is what custom rules took. `rendered`
+    takes the place of findings except `problems`, undecided rules, summaries, and sources in a
+    report that is rendered input by input.
     """
 
     diagnostics: Sequence[Finding] = ()

@@ -1,4 +1,6 @@
-"""The report of a run that is rendered input by input, so that what is known of an input need not leave the process that reads it."""
+"""The report of a run that is rendered input by input, so that what is known of an input need not
+leave the process that reads it.
+"""
 
 from collections.abc import Callable, Iterator, Mapping
 
@@ -13,7 +15,9 @@ Render = Callable[[Result], RenderedPart]
 
 
 MAX_TEXTS = 100
-"""The number of texts of inputs that stay in memory: those of undecided rules may be longer than the input."""
+"""The number of texts of inputs that stay in memory: those of undecided rules may be longer than
+the input.
+"""
 
 
 class RunReport:
@@ -29,9 +33,14 @@ class RunReport:
         self._counts = no_counts()
 
     def add(self, part: RenderedPart, numbers: Mapping[str, int]) -> None:
-        """Adds what inputs add to the report, whose numbers are stated by name. Those that it does not know could not be read."""
+        """Adds what inputs add to the report, whose numbers are stated by name. Those that it does
+        not know could not be read.
+        """
         unknown = [InputSummary(name, failed=True) for name in numbers if name not in part.inputs]
-        for each in (part, *([self._render(Result((), (), (), (), {}, (), inputs=unknown))] if unknown else [])):
+        for each in (
+            part,
+            *([self._render(Result((), (), (), (), {}, (), inputs=unknown))] if unknown else []),
+        ):
             self._suppressed.extend(filter(None, [each.suppressed]))
             self._undecided.extend(filter(None, [each.undecided]))
             for name, text in each.inputs.items():
@@ -50,5 +59,7 @@ class RunReport:
 
     def _finding(self, finding: Finding) -> RenderedFinding:
         """A finding about the configuration, a rule page, or an input that could not be read."""
-        (rendered,) = self._render(Result([finding], (), (), (), self._workspace.sources, ())).findings
+        (rendered,) = self._render(
+            Result([finding], (), (), (), self._workspace.sources, ())
+        ).findings
         return rendered

@@ -1,4 +1,6 @@
-"""What fixes save of an input, determined by making them: the cost of its frames before them minus their cost after them."""
+"""What fixes save of an input, determined by making them: the cost of its frames before them minus
+their cost after them.
+"""
 
 from __future__ import annotations
 
@@ -28,7 +30,9 @@ class Trials(NamedTuple):
 
 
 def try_fixes(result: FileResult, lint: Lint, selects: Callable[[Finding], bool]) -> Trials:
-    """Makes the fixes of a linted text as `--fix` and `--fix --unsafe-fixes` do; `lint` lints its text after fixes."""
+    """Makes the fixes of a linted text as `--fix` and `--fix --unsafe-fixes` do; `lint` lints its
+    text after fixes.
+    """
     safe = fix_text(result, lint, False, selects)
     if any(_is_unsafe(finding) for finding in (*result.findings, *safe.result.findings)):
         return Trials(safe, fix_text(result, lint, True, selects))
@@ -43,15 +47,27 @@ def savings(result: FileResult, trials: Trials, prices: bool, converted: bool = 
     """What the fixes of a text save; without `prices`, only how many findings they remove."""
     before = total(result) if prices else None
     safe = _saving(trials.safe, before, converted)
-    return Savings(safe, safe if trials.all is trials.safe else _saving(trials.all, before, converted), converted)
+    return Savings(
+        safe,
+        safe if trials.all is trials.safe else _saving(trials.all, before, converted),
+        converted,
+    )
 
 
 def _saving(fixes: FixResult, before: InputTotal | None, converted: bool) -> Saving:
     findings = merge(fixes.fixed_findings, fixes.result.documents)
     # The parts of source code share findings.
-    count = len({(finding_kind(finding), finding.message) for finding in findings} if converted else findings)
+    count = len(
+        {(finding_kind(finding), finding.message) for finding in findings}
+        if converted
+        else findings
+    )
     price = difference(before, total(fixes.result)) if before is not None and count else None
-    on_tiler = price is not None and any(price) and any(assumes_tiler(document.device) for document in fixes.result.documents)
+    on_tiler = (
+        price is not None
+        and any(price)
+        and any(assumes_tiler(document.device) for document in fixes.result.documents)
+    )
     return Saving(count, price, on_tiler)
 
 
@@ -62,10 +78,19 @@ def assumes_tiler(device: DeviceProfile | None) -> bool:
 
 def total(result: FileResult, terms: Terms | None = None) -> InputTotal:
     """The cost of all frames of an input."""
-    return input_total([frame_cost(Frame(document.document), document.device, terms) for document in result.documents])
+    return input_total(
+        [
+            frame_cost(Frame(document.document), document.device, terms)
+            for document in result.documents
+        ]
+    )
 
 
 def difference(before: InputTotal, after: InputTotal) -> Price | None:
-    """What the first costs more than the second; None if they cost the same as far as is known, but not all is known."""
-    price = Price(*(round(a - b, _DECIMALS) + 0.0 for a, b in zip(before.amount, after.amount, strict=True)))
+    """What the first costs more than the second; None if they cost the same as far as is known, but
+    not all is known.
+    """
+    price = Price(
+        *(round(a - b, _DECIMALS) + 0.0 for a, b in zip(before.amount, after.amount, strict=True))
+    )
     return None if not any(price) and (before.unknown or after.unknown) else price

@@ -29,14 +29,18 @@ FAMILIES = (("c", "cpp", "objc", "objcpp"), ("swift",), ("rust",))
 
 TOGETHER = tuple(language for family in FAMILIES for language in family)
 
-_FAMILY_ENDINGS = tuple(tuple(ending for language in family for ending in LANGUAGES[language]) for family in FAMILIES)
+_FAMILY_ENDINGS = tuple(
+    tuple(ending for language in family for ending in LANGUAGES[language]) for family in FAMILIES
+)
 _ENDINGS = tuple(ending for endings in _FAMILY_ENDINGS for ending in endings)
 
 
 class ProgramInput(NamedTuple):
-    """The source files of a program, by path, in the order of reading. Findings are reported in `inputs`; `includes` has the numbers of the
-    files that each file includes, `headers` says which are headers, and `roots` has the projects that they must be in,
-    and `definitions` has the directives that define the macros of their builds."""
+    """The source files of a program, by path, in the order of reading. Findings are reported in
+    `inputs`; `includes` has the numbers of the files that each file includes, `headers` says which
+    are headers, and `roots` has the projects that they must be in, and `definitions` has the
+    directives that define the macros of their builds.
+    """
 
     paths: tuple[str, ...]
     inputs: tuple[str, ...]
@@ -47,28 +51,43 @@ class ProgramInput(NamedTuple):
 
 
 def is_read_together(path: str) -> bool:
-    """Whether a file is source code in a language whose files form programs, by its name. Files at URLs are read one at a time."""
+    """Whether a file is source code in a language whose files form programs, by its name. Files at
+    URLs are read one at a time.
+    """
     return path.lower().endswith(_ENDINGS) and not is_url(path)
 
 
 def units_of(files: Sequence[str], programs: Sequence[ProgramInput]) -> list[str | ProgramInput]:
-    """What is read at once, in the order of the files: a program comes where its first input does."""
+    """What is read at once, in the order of the files: a program comes where its first input
+    does.
+    """
     of = {path: program for program in programs for path in program.inputs}
     return list(dict.fromkeys(of.get(path, path) for path in files))
 
 
-def programs(inputs: Iterable[str], related: Mapping[str, str], projects: Mapping[str, str], index: Index) -> list[ProgramInput]:
+def programs(
+    inputs: Iterable[str], related: Mapping[str, str], projects: Mapping[str, str], index: Index
+) -> list[ProgramInput]:
     """The programs of source files, by their first file.
 
-    `related` are the other source files of folders, with their projects; `projects` has those of inputs that are not named; `index` has the
-    words of files. What the inputs include elsewhere in their projects is read, too. A file that cannot be read is in no program.
+    `related` are the other source files of folders, with their projects; `projects` has those of
+    inputs that are not named; `index` has the words of files. What the inputs include elsewhere in
+    their projects is read, too. A file that cannot be read is in no program.
     """
     inputs = list(inputs)
     found: list[ProgramInput] = []
     for endings in _FAMILY_ENDINGS:
-        search = _Search({path for path in inputs if path.lower().endswith(endings)}, {**projects, **related}, index)
+        search = _Search(
+            {path for path in inputs if path.lower().endswith(endings)},
+            {**projects, **related},
+            index,
+        )
         candidates = [path for path in related if path.lower().endswith(endings)]
-        if not search.inputs and not any(words.has_api for path in candidates if (words := index.of(path, related[path])) is not None):
+        if not search.inputs and not any(
+            words.has_api
+            for path in candidates
+            if (words := index.of(path, related[path])) is not None
+        ):
             continue
         from msaa_lint.input.code.project.programs import Project
 
@@ -79,7 +98,9 @@ def programs(inputs: Iterable[str], related: Mapping[str, str], projects: Mappin
 
 
 class _Search:
-    """The files of programs. `roots` has the projects that files must be in; a named file may be anywhere."""
+    """The files of programs. `roots` has the projects that files must be in; a named file may be
+    anywhere.
+    """
 
     def __init__(self, inputs: set[str], roots: dict[str, str], index: Index) -> None:
         self.index = index
@@ -104,14 +125,24 @@ class _Search:
             if found is None:
                 continue
             target, folder = self.build(path).target, self.module(path)
-            entry = self.entries[path] = Entry(path, found, path in self.inputs, path in candidates, target, folder)
+            entry = self.entries[path] = Entry(
+                path, found, path in self.inputs, path in candidates, target, folder
+            )
             if path not in self.inputs and path not in elsewhere:
                 continue
             near = self.near(path)
-            stated = (name for name in entry.words.includes if "." in name and name.rpartition("/")[2] not in names)
+            stated = (
+                name
+                for name in entry.words.includes
+                if "." in name and name.rpartition("/")[2] not in names
+            )
             for header in map(shown, near.included(path, stated)):
                 for other in (header, *map(shown, near.sources(header))):
-                    if other not in known and is_read_together(other) and len(elsewhere) < MAX_ELSEWHERE:
+                    if (
+                        other not in known
+                        and is_read_together(other)
+                        and len(elsewhere) < MAX_ELSEWHERE
+                    ):
                         known.add(other)
                         elsewhere.add(other)
                         self.roots[other] = near.root
@@ -151,13 +182,20 @@ class _Search:
 def _input(project: Project, program: Program, search: _Search) -> ProgramInput:
     """The files of a program that are read: headers before sources."""
     inputs = set(program.inputs)
-    own = [number for number in program.files if number in inputs or project.entries[number].is_related]
-    numbers = sorted((*own, *program.seen), key=lambda number: (not project.headers[number], number))
+    own = [
+        number for number in program.files if number in inputs or project.entries[number].is_related
+    ]
+    numbers = sorted(
+        (*own, *program.seen), key=lambda number: (not project.headers[number], number)
+    )
     position = {number: at for at, number in enumerate(numbers)}
     return ProgramInput(
         tuple(project.entries[number].path for number in numbers),
         tuple(project.entries[number].path for number in program.inputs),
-        tuple(tuple(position[other] for other in project.includes[number] if other in position) for number in numbers),
+        tuple(
+            tuple(position[other] for other in project.includes[number] if other in position)
+            for number in numbers
+        ),
         tuple(project.headers[number] for number in numbers),
         tuple(search.roots.get(project.entries[number].path) for number in numbers),
         tuple(search.build(project.entries[number].path).definitions for number in numbers),
@@ -178,4 +216,6 @@ def related_text(path: str, project: str | None) -> SourceText | None:
     if data is None:
         return None
     language = language_of(path, data[:HEAD_BYTES].decode("latin-1"))
-    return source_text(data, path, language)._replace(is_input=False) if language in TOGETHER else None
+    return (
+        source_text(data, path, language)._replace(is_input=False) if language in TOGETHER else None
+    )

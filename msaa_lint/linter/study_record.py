@@ -1,7 +1,8 @@
-"""Reads the record that `msaa-lint study --record` writes next to a description, and compares it with the frame.
+"""Reads the record that `msaa-lint study --record` writes next to a description, and compares it
+with the frame.
 
-A record has digests of everything that the result of a study depends on. It may come from an untrusted branch, so it is limited and
-validated.
+A record has digests of everything that the result of a study depends on. It may come from an
+untrusted branch, so it is limited and validated.
 """
 
 import math
@@ -37,7 +38,9 @@ MAX_DEPTH = 8
 MAX_NODES = 20_000
 MAX_TEXT = 200
 MAX_MODULES = 64
-"""Shader modules whose content counts; of the others, and of those above the limit of their size, only the names do."""
+"""Shader modules whose content counts; of the others, and of those above the limit of their size,
+only the names do.
+"""
 
 MAX_MODULE_BYTES = 1 << 22
 
@@ -58,16 +61,19 @@ class _Outdated(Exception):
 
 
 class Shading(NamedTuple):
-    """The cost of shading under which techniques were timed: its name, and what it adds to a full screen at one sample, in milliseconds,
-    if that is known."""
+    """The cost of shading under which techniques were timed: its name, and what it adds to a full
+    screen at one sample, in milliseconds, if that is known.
+    """
 
     name: str
     full_screen_ms: float | None
 
 
 class Entry(NamedTuple):
-    """The study of one document: digests by part, the device of its times (or empty), the cost of shading (None without times), the error
-    that compares sample counts, size in pixels, results by sample count."""
+    """The study of one document: digests by part, the device of its times (or empty), the cost of
+    shading (None without times), the error that compares sample counts, size in pixels, results by
+    sample count.
+    """
 
     inputs: dict[str, str]
     device: str
@@ -83,7 +89,9 @@ def path_of(file: str) -> str:
 
 
 def studied(frame: "Frame", file: str) -> Studied:
-    """Compares the record of a description with its frame. `file` is the path of the description, or a name such as `<stdin>`."""
+    """Compares the record of a description with its frame. `file` is the path of the description,
+    or a name such as `<stdin>`.
+    """
     path = path_of(file)
     try:
         if not os.path.lexists(path):
@@ -97,15 +105,32 @@ def studied(frame: "Frame", file: str) -> Studied:
     same = [entry for entry in entries if entry.inputs == current]
     # Without times, the cost of shading does not matter.
     found = next(
-        (entry for entry in same if entry.shading is None or entry.shading.name in (stated or DEFAULT_SHADING, AS_DESCRIBED)), None
+        (
+            entry
+            for entry in same
+            if entry.shading is None
+            or entry.shading.name in (stated or DEFAULT_SHADING, AS_DESCRIBED)
+        ),
+        None,
     )
     if found is not None:
         measured = ", ".join(f"{count}x" for count in sorted(found.counts))
-        counts = {count: Measured(found.counts[count].justified, _says(count, found, stated)) for count in sorted(found.counts)}
+        counts = {
+            count: Measured(found.counts[count].justified, _says(count, found, stated))
+            for count in sorted(found.counts)
+        }
         return Studied("", f"it measured {measured}", counts)
     if same and same[0].shading is not None:
-        expected = f"scene.shading is {stated}" if stated is not None else f"without scene.shading, {DEFAULT_SHADING} counts"
-        return Studied(STALE, f"it was made under {quoted(same[0].shading.name, 40)} shading, and {expected}; {_AGAIN}")
+        expected = (
+            f"scene.shading is {stated}"
+            if stated is not None
+            else f"without scene.shading, {DEFAULT_SHADING} counts"
+        )
+        return Studied(
+            STALE,
+            f"it was made under {quoted(same[0].shading.name, 40)} shading, and {expected}; "
+            f"{_AGAIN}",
+        )
     nearest = min(entries, key=lambda entry: len(_changed(entry, current)))
     return Studied(STALE, f"{_listed(_changed(nearest, current))} changed since; {_AGAIN}")
 
@@ -130,19 +155,26 @@ def _listed(words: list[str]) -> str:
 def digests(frame: "Frame", file: str) -> dict[str, str]:
     """Digests by part of what a study of a frame depends on; `file` is the path of its description.
 
-    That excludes sample counts, of which a study measures several, the cost of shading, which is compared by its name, names, load and
-    store operations, layouts, memory, and images that nothing is rendered to.
+    That excludes sample counts, of which a study measures several, the cost of shading, which is
+    compared by its name, names, load and store operations, layouts, memory, and images that nothing
+    is rendered to.
     """
     from hashlib import sha256
 
-    return {part: sha256(text.encode("utf-8", "surrogatepass")).hexdigest()[:16] for part, text in inputs(frame, file).items()}
+    return {
+        part: sha256(text.encode("utf-8", "surrogatepass")).hexdigest()[:16]
+        for part, text in inputs(frame, file).items()
+    }
 
 
 def inputs(frame: "Frame", file: str) -> dict[str, str]:
     """The text by part of what a study of a frame depends on."""
     description = frame.description
     size = description.frame
-    states = ([(member, _canonical(getattr(pipeline, member))) for member in _PIPELINE] for pipeline, _ in frame.pipelines)
+    states = (
+        [(member, _canonical(getattr(pipeline, member))) for member in _PIPELINE]
+        for pipeline, _ in frame.pipelines
+    )
     return {
         "attachments": repr(sorted(set(map(repr, _attachments(frame))))),
         "device": repr(_canonical(description.device)),
@@ -155,7 +187,9 @@ def inputs(frame: "Frame", file: str) -> dict[str, str]:
 
 
 def _attachments(frame: "Frame") -> Iterator[object]:
-    """Formats and encodings of multisampled images, whether other color targets are encoded, and resolve modes."""
+    """Formats and encodings of multisampled images, whether other color targets are encoded, and
+    resolve modes.
+    """
     for target in frame.all_targets:
         encoding = target.image.encoding if target.image is not None else None
         usage = target.image.usage if target.image is not None else None
@@ -178,11 +212,18 @@ def _fragment_shaders(frame: "Frame", file: str) -> Iterator[str]:
 
     folder = folder_of(file)
     contents: dict[str, str] = {}
-    for stage in (stage for pipeline, _ in frame.pipelines for stage in pipeline.stages if stage.stage == "FRAGMENT"):
+    for stage in (
+        stage
+        for pipeline, _ in frame.pipelines
+        for stage in pipeline.stages
+        if stage.stage == "FRAGMENT"
+    ):
         name = stage.module or ""
         if name and name not in contents and len(contents) < MAX_MODULES:
             try:
-                contents[name] = sha256(read(os.path.join(folder, name), MAX_MODULE_BYTES, project_root(folder))).hexdigest()
+                contents[name] = sha256(
+                    read(os.path.join(folder, name), MAX_MODULE_BYTES, project_root(folder))
+                ).hexdigest()
             except (OSError, Unreadable, ValueError):
                 contents[name] = ""
         yield repr((_canonical(stage), contents.get(name)))
@@ -194,7 +235,11 @@ def _canonical(value: object) -> object:
     if shape is not None:
         record: Record = value  # type: ignore[assignment]
         members = [(name, getattr(record, name)) for name in sorted(shape) if name not in _LEFT_OUT]
-        return [(name, _canonical(member)) for name, member in members if member != getattr(type(record), name, None)]
+        return [
+            (name, _canonical(member))
+            for name, member in members
+            if member != getattr(type(record), name, None)
+        ]
     if isinstance(value, dict):
         return sorted((str(key), _canonical(member)) for key, member in value.items())
     if isinstance(value, (list, tuple)):
@@ -211,7 +256,9 @@ def _read(path: str) -> list[Entry]:
 
     name = os.path.basename(path)
     try:
-        source = Source(name, decode(read(path, MAX_BYTES, project_root(os.path.dirname(path) or os.curdir))))
+        source = Source(
+            name, decode(read(path, MAX_BYTES, project_root(os.path.dirname(path) or os.curdir)))
+        )
     except Unreadable as error:
         raise Unusable(f"{name}: {str(error).replace('the input', 'it')}") from None
     except OSError as error:
@@ -238,13 +285,24 @@ def _entries(root: "Node") -> Iterator[Entry]:
     if studies.kind != "sequence" or not studies.value:
         raise Unusable("`studies` must be a list with at least one element", studies)
     for node in studies.value:
-        parts, device, shading, error_of, size, counts = _members(node, ("inputs", "device", "shading", "error_of", "size", "counts"))
+        parts, device, shading, error_of, size, counts = _members(
+            node, ("inputs", "device", "shading", "error_of", "size", "counts")
+        )
         digests = dict(zip(PARTS, (_text(part) for part in _members(parts, PARTS)), strict=True))
         if size.kind != "sequence" or len(size.value) != 2:
             raise Unusable("`size` must be a list of width and height", size)
         width, height = (_pixels(side) for side in size.value)
-        entry = Entry(digests, _text(device), _shading(shading), _text(error_of), (width, height), _counts(counts))
-        if entry.shading is None and any(count.time_ms is not None for count in entry.counts.values()):
+        entry = Entry(
+            digests,
+            _text(device),
+            _shading(shading),
+            _text(error_of),
+            (width, height),
+            _counts(counts),
+        )
+        if entry.shading is None and any(
+            count.time_ms is not None for count in entry.counts.values()
+        ):
             raise Unusable("times need a cost of shading", shading)
         yield entry
 
@@ -271,7 +329,9 @@ def _counts(node: "Node") -> dict[int, _Count]:
     for key, value in node.value.items():
         if key not in known:
             raise Unusable(f"{quoted(key, 20)} is not a sample count", node.keys[key])
-        error, time, justified, reason = _members(value, ("error", "time_ms", "justified", "reason"))
+        error, time, justified, reason = _members(
+            value, ("error", "time_ms", "justified", "reason")
+        )
         if not isinstance(justified.value, bool):
             raise Unusable("`justified` must be true or false", justified)
         time_ms = None if time.value is None else _number(time)
@@ -285,16 +345,29 @@ def _says(count: int, entry: Entry, stated: str | None) -> str:
     base = max((samples for samples in entry.counts if samples <= 4), default=None)
     where = f"at {entry.size[0]}x{entry.size[1]}" + (f" on {entry.device}" if entry.device else "")
     if entry.shading is not None:
-        screen = [] if entry.shading.full_screen_ms is None else [f"{entry.shading.full_screen_ms:.3g} ms a full screen"]
+        screen = (
+            []
+            if entry.shading.full_screen_ms is None
+            else [f"{entry.shading.full_screen_ms:.3g} ms a full screen"]
+        )
         notes = ", ".join([*screen, *(["the default"] if stated is None else [])])
-        cost = f"under {entry.shading.name} shading" if entry.shading.name != AS_DESCRIBED else "with its own fragment shaders"
-        where += f" {cost}" + (f" ({notes})" if notes and entry.shading.name != AS_DESCRIBED else "")
+        cost = (
+            f"under {entry.shading.name} shading"
+            if entry.shading.name != AS_DESCRIBED
+            else "with its own fragment shaders"
+        )
+        where += f" {cost}" + (
+            f" ({notes})" if notes and entry.shading.name != AS_DESCRIBED else ""
+        )
     where += f"; {measured.reason}" if measured.reason else ""
     if base is None or base == count:
         return f"its {entry.error_of} is {measured.error:.3g} {where}"
     reference = entry.counts[base]
     if reference.error > 0:
-        error = f"it leaves {100 * measured.error / reference.error:.0f} % of {base}x's {entry.error_of}"
+        error = (
+            f"it leaves {100 * measured.error / reference.error:.0f} % of {base}x's "
+            f"{entry.error_of}"
+        )
     else:
         error = f"{base}x has no {entry.error_of} to lose"
     if measured.time_ms is None or not reference.time_ms:

@@ -7,11 +7,21 @@ from .request import ALONE, Division
 from .workspace import Unit
 
 
-def parts(linter: Linter[Part], units: Sequence[Unit], division: Division = ALONE, per_task: int = MAX_UNITS) -> Generator[Part]:
-    """Yields what the inputs and programs of a run add to its result, in their order; a process gets at most `per_task` inputs at once.
-    Raises Unusable if the cluster cannot be used."""
+def parts(
+    linter: Linter[Part],
+    units: Sequence[Unit],
+    division: Division = ALONE,
+    per_task: int = MAX_UNITS,
+) -> Generator[Part]:
+    """Yields what the inputs and programs of a run add to its result, in their order; a process
+    gets at most `per_task` inputs at once. Raises Unusable if the cluster cannot be used.
+    """
     runs = InputRuns(linter, units, per_task)
-    count = division.jobs if division.backend is not None else processes(linter.workspace, units, division.jobs)
+    count = (
+        division.jobs
+        if division.backend is not None
+        else processes(linter.workspace, units, division.jobs)
+    )
     if count == 1 and division.backend is None:
         return runs.in_this_process()
     from msaa_lint.core.execution.backend import Unusable

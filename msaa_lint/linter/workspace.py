@@ -1,4 +1,6 @@
-"""The settings, rules and inputs of one run: settings are resolved for a file before it is opened."""
+"""The settings, rules and inputs of one run: settings are resolved for a file before it is
+opened.
+"""
 
 import os
 from collections.abc import Iterator, Mapping, Sequence
@@ -52,8 +54,9 @@ Unit = str | ProgramInput
 
 
 class UnitRead:
-    """What reading an input or a program met: problems of its files, the inputs that could not be read as part of a program, and what
-    custom rules have spent."""
+    """What reading an input or a program met: problems of its files, the inputs that could not be
+    read as part of a program, and what custom rules have spent.
+    """
 
     def __init__(self) -> None:
         self.findings: list[Finding] = []
@@ -64,11 +67,14 @@ class UnitRead:
 class Workspace:
     """The settings, rules and inputs of one run, each loaded once.
 
-    `findings` are the problems met so far with configuration files, rule pages and inputs, and `sources` the texts that they point into;
-    `spool` has what does not stay in memory. `current` are the settings that apply to the current folder.
+    `findings` are the problems met so far with configuration files, rule pages and inputs, and
+    `sources` the texts that they point into; `spool` has what does not stay in memory. `current`
+    are the settings that apply to the current folder.
     """
 
-    def __init__(self, request: Request, configurations: Configurations | KnownConfigurations | None = None) -> None:
+    def __init__(
+        self, request: Request, configurations: Configurations | KnownConfigurations | None = None
+    ) -> None:
         self.request = request
         self.findings: list[Finding] = []
         self.spool = Spool()
@@ -119,7 +125,8 @@ class Workspace:
                 enabled = sum(map(selection.enabled, engine.registry.rules))
                 profile = f", profile {settings.profile}" if settings.profile is not None else ""
                 self.request.log(
-                    f"{configuration_name(loaded.path)}: edition {settings.edition or EDITIONS[-1]}, {enabled} rules enabled{profile}"
+                    f"{configuration_name(loaded.path)}: edition "
+                    f"{settings.edition or EDITIONS[-1]}, {enabled} rules enabled{profile}"
                 )
             self._resolved[loaded.path] = ResolvedSettings(
                 settings,
@@ -141,7 +148,11 @@ class Workspace:
         key = settings.rules, tuple(sorted(projects.items()))
         if key not in self._engines:
             paths = [path for path in settings.rules if is_there(path)]
-            registry = load_rules(paths, projects, self._limits.rules, self.request.traceback) if paths else None
+            registry = (
+                load_rules(paths, projects, self._limits.rules, self.request.traceback)
+                if paths
+                else None
+            )
             if registry is not None:
                 self.findings.extend(registry.problems)
                 self.sources.update(registry.sources)
@@ -156,7 +167,15 @@ class Workspace:
         """The inputs that the request names; `sources` includes the source code in folders."""
         inputs_among = self._inputs_among if sources else None
         kinds = KnownKinds(lambda: self.cache)
-        found = discover(self.request.paths, self.settings, sources, self.request.log, inputs_among, self._speaks, kinds.of)
+        found = discover(
+            self.request.paths,
+            self.settings,
+            sources,
+            self.request.log,
+            inputs_among,
+            self._speaks,
+            kinds.of,
+        )
         kinds.close()
         self.findings.extend(found.findings)
         self._projects = found.projects
@@ -164,13 +183,17 @@ class Workspace:
 
     @contextmanager
     def guard(self, path: str) -> Iterator[None]:
-        """Reports an exception that an input causes as a finding of that input, so that the others are still linted."""
+        """Reports an exception that an input causes as a finding of that input, so that the others
+        are still linted.
+        """
         try:
             yield
         except Exception as error:
             if self.request.traceback:
                 raise
-            self.findings.append(diagnostic("MSAA941", internal_error(error), self.request.input_name(path)))
+            self.findings.append(
+                diagnostic("MSAA941", internal_error(error), self.request.input_name(path))
+            )
 
     def open(self, path: str) -> InputFile | None:
         """Reads an input; None, after adding a finding, if it cannot be read."""
@@ -180,7 +203,16 @@ class Workspace:
         resolved = self.resolve(request.stdin_filename or os.curdir if path == STDIN else path)
         try:
             project, assumed = self._projects.get(path), resolved.settings.source
-            data = opening.load(path, resolved.limits, name, request.format, request.data, project, request.frame_end, assumed)
+            data = opening.load(
+                path,
+                resolved.limits,
+                name,
+                request.format,
+                request.data,
+                project,
+                request.frame_end,
+                assumed,
+            )
         except (OSError, Unreadable) as error:
             self.findings.append(opening.unreadable(error, name))
             return None
@@ -196,7 +228,9 @@ class Workspace:
 
     @contextmanager
     def reading(self, unit: Unit) -> Iterator[UnitRead]:
-        """Reads an input or a program in the `with` statement: what is met belongs to it, and not to the workspace."""
+        """Reads an input or a program in the `with` statement: what is met belongs to it, and not
+        to the workspace.
+        """
         name = unit if isinstance(unit, str) else unit.inputs[0]
         # Problems of a configuration are not those of the first input that it applies to.
         self.resolve(self.request.stdin_filename or os.curdir if name == STDIN else name)
@@ -214,23 +248,33 @@ class Workspace:
 
     def not_read(self, unit: Unit, reason: str) -> Finding:
         """The finding about an input that could not be read in another process."""
-        return diagnostic("MSAA941", f"not linted: {reason}", self.request.input_name(unit if isinstance(unit, str) else unit.inputs[0]))
+        return diagnostic(
+            "MSAA941",
+            f"not linted: {reason}",
+            self.request.input_name(unit if isinstance(unit, str) else unit.inputs[0]),
+        )
 
     def _new_keys(self) -> Allowance:
         return Allowance() if self.request.keys is None else Allowance(self.request.keys)
 
     def forget_spent(self) -> None:
-        """Makes the budget of custom rules what it was when this was called first: what they spend is counted by another process."""
+        """Makes the budget of custom rules what it was when this was called first: what they spend
+        is counted by another process.
+        """
         if self._begun is None:
             self._begun = self._limits.rules.copy()
         self._limits.rules.restore(self._begun)
 
     def include(self, spent: Spent) -> bool:
-        """Counts what custom rules have spent elsewhere; False if that may be more than is left here."""
+        """Counts what custom rules have spent elsewhere; False if that may be more than is left
+        here.
+        """
         return self._limits.rules.include(spent)
 
     def use(self, configuration: str | None) -> None:
-        """Makes a configuration apply to all inputs from here on, where the files that state them need not be."""
+        """Makes a configuration apply to all inputs from here on, where the files that state them
+        need not be.
+        """
         if isinstance(self.configurations, KnownConfigurations):
             self.configurations.current = configuration
 
@@ -242,15 +286,31 @@ class Workspace:
         """The project that an input must be in; None for one that is named."""
         return self._projects.get(path)
 
-    def _input(self, path: str, name: str, data: "bytes | CaptureInput | SourceFile", resolved: ResolvedSettings) -> InputFile:
+    def _input(
+        self,
+        path: str,
+        name: str,
+        data: "bytes | CaptureInput | SourceFile",
+        resolved: ResolvedSettings,
+    ) -> InputFile:
         """An input that has been read."""
         request, device = self.request, resolved.device
         self._limits.rules.extend(len(data if isinstance(data, bytes) else data.source.text))
         severity = resolved.selection.for_file(name, device.vendor if device is not None else None)
         options = LintOptions(
-            severity, resolved.limits, request.format, device, request.ignores, False, self._keys, request.all_keys, edits=request.edits
+            severity,
+            resolved.limits,
+            request.format,
+            device,
+            request.ignores,
+            False,
+            self._keys,
+            request.all_keys,
+            edits=request.edits,
         )
-        return InputFile(path, name, data, resolved, options, self.current.settings.min_severity, request.log)
+        return InputFile(
+            path, name, data, resolved, options, self.current.settings.min_severity, request.log
+        )
 
     @cached_property
     def index(self) -> "Index":
@@ -270,7 +330,9 @@ class Workspace:
         return user_cache(version(pages_folder()))
 
     def flush(self) -> None:
-        """Keeps what the cache is for, as far as it is known: this process may be ended after any task."""
+        """Keeps what the cache is for, as far as it is known: this process may be ended after any
+        task.
+        """
         if (cache := self.__dict__.get("cache")) is not None:
             cache.flush()
 
@@ -289,8 +351,12 @@ class Workspace:
 
         return not is_api(path) and self.index.of_entry(path).speaks
 
-    def _inputs_among(self, files: Mapping[str, str | None], related: Mapping[str, str]) -> list[str]:
-        """The inputs among source files of folders: those of the programs that use multisampling."""
+    def _inputs_among(
+        self, files: Mapping[str, str | None], related: Mapping[str, str]
+    ) -> list[str]:
+        """The inputs among source files of folders: those of the programs that use
+        multisampling.
+        """
         from msaa_lint.input.code import installed
 
         if self.request.format is None and installed():
@@ -298,13 +364,21 @@ class Workspace:
         return [path for program in self._programs or () for path in program.inputs]
 
     def programs(self, discovered: Discovered) -> list[ProgramInput]:
-        """The programs that the source files among the inputs form; files under different configurations are in different ones."""
+        """The programs that the source files among the inputs form; files under different
+        configurations are in different ones.
+        """
         if self._programs is None:
             files = {path: discovered.projects.get(path) for path in discovered.files}
-            self._programs = self._find_programs(files, discovered.related) if self.request.format is None else []
+            self._programs = (
+                self._find_programs(files, discovered.related)
+                if self.request.format is None
+                else []
+            )
         return self._programs
 
-    def _find_programs(self, files: Mapping[str, str | None], related: Mapping[str, str]) -> list[ProgramInput]:
+    def _find_programs(
+        self, files: Mapping[str, str | None], related: Mapping[str, str]
+    ) -> list[ProgramInput]:
         by_settings: dict[str | None, tuple[list[str], dict[str, str]]] = {}
         for path in (*files, *related):
             if path != STDIN and is_read_together(path):
@@ -314,19 +388,33 @@ class Workspace:
                 else:
                     others[path] = related[path]
         projects = {path: project for path, project in files.items() if project is not None}
-        return [program for inputs, others in by_settings.values() for program in programs(inputs, others, projects, self.index)]
+        return [
+            program
+            for inputs, others in by_settings.values()
+            for program in programs(inputs, others, projects, self.index)
+        ]
 
     def open_program(self, program: ProgramInput) -> InputFile | None:
-        """Reads the files of a program, with a finding for each input that cannot be read; None if they cannot be read together."""
+        """Reads the files of a program, with a finding for each input that cannot be read; None if
+        they cannot be read together.
+        """
         inputs = set(program.inputs)
         texts = [
-            text._replace(definitions=definitions) if (text := self._text(path, path in inputs, root)) is not None else None
-            for path, root, definitions in zip(program.paths, program.roots, program.definitions, strict=True)
+            text._replace(definitions=definitions)
+            if (text := self._text(path, path in inputs, root)) is not None
+            else None
+            for path, root, definitions in zip(
+                program.paths, program.roots, program.definitions, strict=True
+            )
         ]
         if self.request.cache:
             from msaa_lint.core.cache import digest
 
-            self.contents = {path: digest(text.data) for path, text in zip(program.paths, texts, strict=True) if text is not None}
+            self.contents = {
+                path: digest(text.data)
+                for path, text in zip(program.paths, texts, strict=True)
+                if text is not None
+            }
         kept = [number for number, text in enumerate(texts) if text is not None]
         position = {number: at for at, number in enumerate(kept)}
         read = [text for text in texts if text is not None]
@@ -340,8 +428,13 @@ class Workspace:
             if len(read) == 1 and not first.definitions:
                 data = read_source_text(first)
             else:
-                includes = [[position[other] for other in program.includes[number] if other in position] for number in kept]
-                data = read_program(read, includes, [program.headers[number] for number in kept], self.cache)
+                includes = [
+                    [position[other] for other in program.includes[number] if other in position]
+                    for number in kept
+                ]
+                data = read_program(
+                    read, includes, [program.headers[number] for number in kept], self.cache
+                )
         except Unreadable:
             return None
         resolved = self.resolve(name)
@@ -349,17 +442,29 @@ class Workspace:
         if len(read) == 1 or not resolved.settings.per_file_ignores:
             return file
         vendor = resolved.device.vendor if resolved.device is not None else None
-        in_files = [resolved.selection.for_file(text.source.name, vendor) for text in read if text.is_input]
+        in_files = [
+            resolved.selection.for_file(text.source.name, vendor) for text in read if text.is_input
+        ]
 
         def severity(rule: Weighed, suggested: str, device_vendor: str | None) -> str | None:
-            return next((found for each in in_files if (found := each(rule, suggested, device_vendor)) is not None), None)
+            return next(
+                (
+                    found
+                    for each in in_files
+                    if (found := each(rule, suggested, device_vendor)) is not None
+                ),
+                None,
+            )
 
-        options = file.options._replace(severity=severity, severity_in=lambda other: resolved.selection.for_file(other, vendor))
+        options = file.options._replace(
+            severity=severity, severity_in=lambda other: resolved.selection.for_file(other, vendor)
+        )
         return file._replace(options=options)
 
     def _text(self, path: str, is_input: bool, project: str | None) -> "SourceText | None":
-        """The text of a source file; None, after adding a finding if it is an input, if it cannot be read. An input with other content than
-        its name states is left to `open`."""
+        """The text of a source file; None, after adding a finding if it is an input, if it cannot
+        be read. An input with other content than its name states is left to `open`.
+        """
         from msaa_lint.input import opening
         from msaa_lint.input.code import check_length
         from msaa_lint.input.source_file import SourceText

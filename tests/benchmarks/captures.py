@@ -1,9 +1,12 @@
-"""Measures long captures: `python tests/benchmarks/captures.py [MB ...]`; 250 and 1000 MB unless told.
+"""Measures long captures: `python tests/benchmarks/captures.py [MB ...]`; 250 and 1000 MB unless
+told.
 
-Prints a table in Markdown, for frames that repeat (those of examples/capture/forward.jsonl), frames that never do, and a game's frames
-(long_captures.py), and for RenderDoc's XML (draws of examples/capture/forward.xml, repeated). Measured are whole processes, by wall
-clock: parsing every line with orjson and doing nothing else, the reader alone, and `msaa-lint check`. Rounds alternate, and the least of
-each counts, which other work on the machine spoils last. Peak memory is that of the process, as the kernel counts it (wait4).
+Prints a table in Markdown, for frames that repeat (those of examples/capture/forward.jsonl), frames
+that never do, and a game's frames (long_captures.py), and for RenderDoc's XML (draws of
+examples/capture/forward.xml, repeated). Measured are whole processes, by wall clock: parsing every
+line with orjson and doing nothing else, the reader alone, and `msaa-lint check`. Rounds alternate,
+and the least of each counts, which other work on the machine spoils last. Peak memory is that of
+the process, as the kernel counts it (wait4).
 """
 
 from __future__ import annotations
@@ -26,7 +29,12 @@ MAX_MEMORY = 300
 
 GENERATORS = {"frames that never repeat": long_captures.changing, "a game": long_captures.game}
 EXAMPLES = {"frames that repeat": "forward.jsonl", "RenderDoc's XML": "forward.xml"}
-GOALS = {"frames that repeat": 0.5, "frames that never repeat": 0.25, "a game": 0.25, "RenderDoc's XML": 40}
+GOALS = {
+    "frames that repeat": 0.5,
+    "frames that never repeat": 0.25,
+    "a game": 0.25,
+    "RenderDoc's XML": 40,
+}
 """The least speed of `check`: as a part of orjson's, or in MB/s for XML."""
 
 PARSING, CHECKING = "orjson.loads of every line", "msaa-lint check"
@@ -51,7 +59,11 @@ def parts(lines: list[bytes]) -> tuple[list[bytes], list[bytes]]:
     for last_call in (b'"vkQueuePresentKHR"', b'"vkQueueSubmit'):
         ends = [at for at, line in enumerate(lines) if last_call in line]
         if first is not None and ends and ends[-1] > first:
-            frames = [line for line in lines[first : ends[-1] + 1] if INDEX.match(line) and not OBJECT_CALLS.search(line)]
+            frames = [
+                line
+                for line in lines[first : ends[-1] + 1]
+                if INDEX.match(line) and not OBJECT_CALLS.search(line)
+            ]
             return lines[:first], [INDEX.sub(b"", line, count=1) for line in frames]
     raise Failed("the capture has no frame: no command buffer is begun and submitted")
 
@@ -64,7 +76,9 @@ def repeated(lines: list[bytes], size: int) -> Iterator[bytes]:
     while size > 0:
         yield text
         size -= len(text)
-        text = b"".join(b'{"index":%d,%b\n' % (index + at, line) for at, line in enumerate(frames, 1))
+        text = b"".join(
+            b'{"index":%d,%b\n' % (index + at, line) for at, line in enumerate(frames, 1)
+        )
         index += len(frames)
 
 
@@ -108,24 +122,40 @@ def tasks(path: str) -> list[Task]:
     """What is compared on a file."""
     python = (sys.executable, "-c")
     compared = [Task(PARSING, [*python, PARSE, path], (0,))] if path.endswith(".jsonl") else []
-    return [*compared, Task("the reader alone", [*python, READ, path], (0,)), Task(CHECKING, [*CHECK, "--output", "concise", path])]
+    return [
+        *compared,
+        Task("the reader alone", [*python, READ, path], (0,)),
+        Task(CHECKING, [*CHECK, "--output", "concise", path]),
+    ]
 
 
 def table(sizes: Iterable[int], folder: str) -> list[str]:
     """The table of all sizes."""
-    out = ["| capture | what | MB | wall s | MB/s | of orjson's speed | peak MB | goal |", "|---|---|---:|---:|---:|---:|---:|---|"]
+    out = [
+        "| capture | what | MB | wall s | MB/s | of orjson's speed | peak MB | goal |",
+        "|---|---|---:|---:|---:|---:|---:|---|",
+    ]
     for size in sizes:
         for name in GOALS:
-            path = os.path.join(folder, "long.xml" if EXAMPLES.get(name, "").endswith(".xml") else "long.jsonl")
+            path = os.path.join(
+                folder, "long.xml" if EXAMPLES.get(name, "").endswith(".xml") else "long.jsonl"
+            )
             written = write(path, texts(name, size * 1_000_000)) / 1e6
             print(f"{name}: {written:.0f} MB", file=sys.stderr)
             found = measure(tasks(path), ROUNDS, folder)
             os.unlink(path)
-            least = {task: min(sample.wall for sample in samples) for task, samples in found.items()}
+            least = {
+                task: min(sample.wall for sample in samples) for task, samples in found.items()
+            }
             for task, samples in found.items():
                 share = least[PARSING] / least[task] if PARSING in least else None
-                numbers = f"{written:.0f} | {least[task]:.2f} | {written / least[task]:.0f} | {'' if share is None else f'{share:.2f}'}"
-                goals = goal(name, share or written / least[task], samples) if task == CHECKING else ""
+                numbers = (
+                    f"{written:.0f} | {least[task]:.2f} | {written / least[task]:.0f} | "
+                    f"{'' if share is None else f'{share:.2f}'}"
+                )
+                goals = (
+                    goal(name, share or written / least[task], samples) if task == CHECKING else ""
+                )
                 out.append(f"| {name} | {task} | {numbers} | {peak(samples):.0f} | {goals} |")
     return out
 
@@ -137,7 +167,10 @@ def peak(samples: list[Sample]) -> float:
 def goal(name: str, speed: float, samples: list[Sample]) -> str:
     """The speed and the memory against their goals."""
     least, memory = GOALS[name], peak(samples)
-    return f"{verdict(least / speed, 1.0, f'at least {least:g}')}; {verdict(memory, MAX_MEMORY, f'{MAX_MEMORY} MB')}"
+    return (
+        f"{verdict(least / speed, 1.0, f'at least {least:g}')}; "
+        f"{verdict(memory, MAX_MEMORY, f'{MAX_MEMORY} MB')}"
+    )
 
 
 def main() -> int:

@@ -1,7 +1,9 @@
-"""Measures `msaa-lint confirm` as whole processes on the default device: `python tests/benchmarks/confirm.py [ROUNDS]`.
+"""Measures `msaa-lint confirm` as whole processes on the default device: `python
+tests/benchmarks/confirm.py [ROUNDS]`.
 
-Prints a table in Markdown: one pass with the validation layer, the same without it, and what each further pass of a frame adds, by wall
-time. Runs of what is compared alternate. The goals (300 ms for one pass, 10 ms for a further one) are of an idle machine with two cores.
+Prints a table in Markdown: one pass with the validation layer, the same without it, and what each
+further pass of a frame adds, by wall time. Runs of what is compared alternate. The goals (300 ms
+for one pass, 10 ms for a further one) are of an idle machine with two cores.
 """
 
 from __future__ import annotations
@@ -14,7 +16,14 @@ import tempfile
 from inputs import ROOT
 from run import Failed, Task, measure, verdict
 
-CONFIRM = (sys.executable, "-c", "from msaa_lint.__main__ import main; main()", "confirm", "--isolated", "--no-time")
+CONFIRM = (
+    sys.executable,
+    "-c",
+    "from msaa_lint.__main__ import main; main()",
+    "confirm",
+    "--isolated",
+    "--no-time",
+)
 FURTHER = 20
 
 IMAGES = """\
@@ -57,10 +66,19 @@ def main() -> int:
     print("| | wall ms, least | median | CPU ms, median |\n|---|---:|---:|---:|")
     for name, samples in found.items():
         walls = [1000 * sample.wall for sample in samples]
-        print(f"| {name} | {min(walls):.0f} | {statistics.median(walls):.0f} | {1000 * statistics.median(s.cpu for s in samples):.0f} |")
+        print(
+            f"| {name} | {min(walls):.0f} | {statistics.median(walls):.0f} | "
+            f"{1000 * statistics.median(s.cpu for s in samples):.0f} |"
+        )
     one, *_, many = (1000 * min(sample.wall for sample in samples) for samples in found.values())
     print(f"\n{verdict(one, 300, f'one pass: {one:.0f} ms (at most 300)')}")
-    print(verdict((many - one) / FURTHER, 10, f"each further pass: {(many - one) / FURTHER:.1f} ms (at most 10)"))
+    print(
+        verdict(
+            (many - one) / FURTHER,
+            10,
+            f"each further pass: {(many - one) / FURTHER:.1f} ms (at most 10)",
+        )
+    )
     return 0
 
 

@@ -1,7 +1,8 @@
-"""Times and memory of the language server, with a description of 64 KB: `python tests/benchmarks/editor.py [--edits N]`.
+"""Times and memory of the language server, with a description of 64 KB: `python
+tests/benchmarks/editor.py [--edits N]`.
 
-For each request it prints the time until the answer arrives, p50 and p95, and the processor time of the server, which other programs change
-less.
+For each request it prints the time until the answer arrives, p50 and p95, and the processor time of
+the server, which other programs change less.
 """
 
 from __future__ import annotations
@@ -45,7 +46,9 @@ def frame(size: int) -> str:
     """A frame of passes that are alike, in about `size` characters."""
     count = size // (len(PASS.format(0)) + len(IMAGES.format(0)))
     images, passes = ("".join(map(text.format, range(count))) for text in (IMAGES, PASS))
-    return f"frame: {{width: 1920, height: 1080, fps: 60}}\nimages:\n{images}renderPasses:\n{passes}"
+    return (
+        f"frame: {{width: 1920, height: 1080, fps: 60}}\nimages:\n{images}renderPasses:\n{passes}"
+    )
 
 
 def processor_seconds(pid: int) -> float:
@@ -55,11 +58,15 @@ def processor_seconds(pid: int) -> float:
 
 def memory(pid: int) -> str:
     lines = Path(f"/proc/{pid}/status").read_text(encoding="utf-8").splitlines()
-    return ", ".join(line.replace("\t", " ") for line in lines if line.startswith(("VmRSS", "VmHWM")))
+    return ", ".join(
+        line.replace("\t", " ") for line in lines if line.startswith(("VmRSS", "VmHWM"))
+    )
 
 
 def note_arrivals(client: LanguageClient) -> list[float]:
-    """A list that gets the times at which a client reads structures of messages. It takes longer than an editor to read all of them."""
+    """A list that gets the times at which a client reads structures of messages. It takes longer
+    than an editor to read all of them.
+    """
     arrivals: list[float] = []
     structure = client.protocol.structure_message
 
@@ -71,7 +78,9 @@ def note_arrivals(client: LanguageClient) -> list[float]:
     return arrivals
 
 
-async def measure(name: str, pid: int, arrivals: list[float], count: int, ask: Callable[[int], Awaitable[object]]) -> None:
+async def measure(
+    name: str, pid: int, arrivals: list[float], count: int, ask: Callable[[int], Awaitable[object]]
+) -> None:
     """Prints the times of a request that is made several times."""
     times = []
     before = processor_seconds(pid)
@@ -82,31 +91,69 @@ async def measure(name: str, pid: int, arrivals: list[float], count: int, ask: C
         times.append((arrivals[0] - start) * 1e3)
     processor = (processor_seconds(pid) - before) / count * 1e3
     p95 = statistics.quantiles(times, n=20)[-1] if count > 1 else times[0]
-    print(f"{name:28} p50 {statistics.median(times):6.1f} ms   p95 {p95:6.1f} ms   processor {processor:6.1f} ms")
+    print(
+        f"{name:28} p50 {statistics.median(times):6.1f} ms   p95 {p95:6.1f} ms   processor "
+        f"{processor:6.1f} ms"
+    )
 
 
 async def benchmark(edits: int) -> None:
     text = frame(SIZE)
     lines = text.split("\n")
-    line = next(number for number, each in enumerate(lines) if "storeOp: STORE" in each and number > len(lines) // 2)
+    line = next(
+        number
+        for number, each in enumerate(lines)
+        if "storeOp: STORE" in each and number > len(lines) // 2
+    )
     column = lines[line].index("STORE")
     with tempfile.TemporaryDirectory() as folder:
         async with editor(Path(folder)) as opened:
             assert opened.client._server is not None
             client, pid = opened.client, opened.client._server.pid
             measured = partial(measure, pid=pid, arrivals=note_arrivals(client))
-            await measured("first diagnostics", count=1, ask=lambda _: opened.open("first.msaa.yaml", text))
-            await measured("diagnostics after opening", count=5, ask=lambda number: opened.open(f"{number}.msaa.yaml", text))
-            await measured("diagnostics after an edit", count=edits, ask=lambda number: edit(opened, line, column, number))
-            document, at = types.TextDocumentIdentifier(opened.uri("first.msaa.yaml")), types.Position(line, column + 1)
+            await measured(
+                "first diagnostics", count=1, ask=lambda _: opened.open("first.msaa.yaml", text)
+            )
+            await measured(
+                "diagnostics after opening",
+                count=5,
+                ask=lambda number: opened.open(f"{number}.msaa.yaml", text),
+            )
+            await measured(
+                "diagnostics after an edit",
+                count=edits,
+                ask=lambda number: edit(opened, line, column, number),
+            )
+            document, at = (
+                types.TextDocumentIdentifier(opened.uri("first.msaa.yaml")),
+                types.Position(line, column + 1),
+            )
             complete, hover = types.CompletionParams(document, at), types.HoverParams(document, at)
-            await measured("completion", count=edits, ask=lambda _: client.text_document_completion_async(complete))
-            await measured("hover", count=edits, ask=lambda _: client.text_document_hover_async(hover))
-            narrow = types.DocumentFormattingParams(document, types.FormattingOptions(tab_size=2, insert_spaces=True))
-            await measured("formatting, no change", count=edits, ask=lambda _: client.text_document_formatting_async(narrow))
+            await measured(
+                "completion",
+                count=edits,
+                ask=lambda _: client.text_document_completion_async(complete),
+            )
+            await measured(
+                "hover", count=edits, ask=lambda _: client.text_document_hover_async(hover)
+            )
+            narrow = types.DocumentFormattingParams(
+                document, types.FormattingOptions(tab_size=2, insert_spaces=True)
+            )
+            await measured(
+                "formatting, no change",
+                count=edits,
+                ask=lambda _: client.text_document_formatting_async(narrow),
+            )
             await opened.open("wide.msaa.yaml", text.replace("\n  ", "\n    "))
-            wide = types.DocumentFormattingParams(types.TextDocumentIdentifier(opened.uri("wide.msaa.yaml")), narrow.options)
-            await measured("formatting, all lines", count=edits, ask=lambda _: client.text_document_formatting_async(wide))
+            wide = types.DocumentFormattingParams(
+                types.TextDocumentIdentifier(opened.uri("wide.msaa.yaml")), narrow.options
+            )
+            await measured(
+                "formatting, all lines",
+                count=edits,
+                ask=lambda _: client.text_document_formatting_async(wide),
+            )
             print(memory(pid))
 
 

@@ -1,11 +1,14 @@
-"""Runs `check .` on the source trees of public packages: `python tests/benchmarks/folders.py [--cache FOLDER] [--doubling | NAME ...]`.
+"""Runs `check .` on the source trees of public packages: `python tests/benchmarks/folders.py
+[--cache FOLDER] [--doubling | NAME ...]`.
 
-The packages are full of YAML, JSON, and XML that other tools read, or are about Vulkan, WebGPU, or glTF; none of them contains a frame.
-Each is downloaded from its registry (by unearth, which does not build an sdist, or by npm), unpacked, and linted as a folder, together with
-its source code. Prints a table in Markdown. Exits with 1 if a data file is taken for an input, or if there is an error other than that the
-folder has no inputs.
+The packages are full of YAML, JSON, and XML that other tools read, or are about Vulkan, WebGPU, or
+glTF; none of them contains a frame. Each is downloaded from its registry (by unearth, which does
+not build an sdist, or by npm), unpacked, and linted as a folder, together with its source code.
+Prints a table in Markdown. Exits with 1 if a data file is taken for an input, or if there is an
+error other than that the folder has no inputs.
 
-`--doubling` measures instead how the time of a search grows with the number of files, under a .gitignore with 200 patterns.
+`--doubling` measures instead how the time of a search grows with the number of files, under a
+.gitignore with 200 patterns.
 """
 
 from __future__ import annotations
@@ -47,7 +50,9 @@ TIMEOUT = 600  # seconds, for a download or a run
 
 
 class Row(NamedTuple):
-    """What came of a package: its data files and source files, those of them that were taken for inputs, and the run of `check .`."""
+    """What came of a package: its data files and source files, those of them that were taken for
+    inputs, and the run of `check .`.
+    """
 
     name: str
     data: int
@@ -85,7 +90,17 @@ def lint(name: str, archive: str, folder: str) -> Row:
     try:
         found = discover(["."], lambda path: Settings(), sources=True)
         started = time.perf_counter()
-        command = [sys.executable, "-m", "msaa_lint", "check", ".", "--isolated", "--no-cache", "--output", "json"]
+        command = [
+            sys.executable,
+            "-m",
+            "msaa_lint",
+            "check",
+            ".",
+            "--isolated",
+            "--no-cache",
+            "--output",
+            "json",
+        ]
         done = subprocess.run(
             command,
             capture_output=True,
@@ -98,7 +113,11 @@ def lint(name: str, archive: str, folder: str) -> Row:
     finally:
         os.chdir(here)
     findings = json.loads(done.stdout)["findings"]
-    errors = [f"{each['file']}:{each['line']}: {each['message']}" for each in findings if each["severity"] == "error"]
+    errors = [
+        f"{each['file']}:{each['line']}: {each['message']}"
+        for each in findings
+        if each["severity"] == "error"
+    ]
     return Row(
         name,
         sum(entry.endswith(DATA) for entry in names),
@@ -114,7 +133,9 @@ def lint(name: str, archive: str, folder: str) -> Row:
 
 
 def doubling(folder: str) -> None:
-    """Prints the CPU time to search 12,500 to 100,000 JSON files, a tenth of which begin like a description."""
+    """Prints the CPU time to search 12,500 to 100,000 JSON files, a tenth of which begin like a
+    description.
+    """
     os.mkdir(os.path.join(folder, ".git"))
     with open(os.path.join(folder, ".gitignore"), "w", encoding="utf-8") as file:
         file.write("".join(f"/ignored{number}/*.json\n*.o{number}\n" for number in range(100)))
@@ -125,16 +146,24 @@ def doubling(folder: str) -> None:
             path = os.path.join(top, str(number // 1000), f"{number}.json")
             os.makedirs(os.path.dirname(path), exist_ok=True)
             with open(path, "w", encoding="utf-8") as file:
-                file.write('{"images": [{"idiom": "universal"}]}' if number % 10 == 0 else '{"name": "a", "version": 1}')
+                file.write(
+                    '{"images": [{"idiom": "universal"}]}'
+                    if number % 10 == 0
+                    else '{"name": "a", "version": 1}'
+                )
         started = time.process_time()
         discover([top], lambda path: Settings())
         print(f"| {count} | {time.process_time() - started:.1f} |", flush=True)
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("--cache", help="keep the downloads in this folder")
-    parser.add_argument("--doubling", action="store_true", help="measure how the time of a search grows instead")
+    parser.add_argument(
+        "--doubling", action="store_true", help="measure how the time of a search grows instead"
+    )
     parser.add_argument("names", nargs="*", help="packages of the list; all by default")
     arguments = parser.parse_args()
     temporary = tempfile.mkdtemp()
@@ -143,7 +172,10 @@ def main() -> int:
         if arguments.doubling:
             doubling(temporary)
             return 0
-        print("| package | data files | source files | data taken | sources taken | nearly | exit | errors | findings | s |")
+        print(
+            "| package | data files | source files | data taken | sources taken | nearly | exit | "
+            "errors | findings | s |"
+        )
         print("|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|")
         for name in arguments.names or [*PYPI.split(), *NPM.split()]:
             archive = download(name, arguments.cache or os.path.join(temporary, "cache"))
@@ -154,14 +186,24 @@ def main() -> int:
             row = lint(name, archive, folder)
             shutil.rmtree(folder)
             rows.append(row)
-            counts = (row.data, row.sources, len(row.taken_data), len(row.taken_sources), 1 if row.skipped else 0)
+            counts = (
+                row.data,
+                row.sources,
+                len(row.taken_data),
+                len(row.taken_sources),
+                1 if row.skipped else 0,
+            )
             print(
-                f"| {name} | {' | '.join(map(str, counts))} | {row.exit} | {len(row.errors)} | {row.findings} | {row.seconds:.1f} |",
+                f"| {name} | {' | '.join(map(str, counts))} | {row.exit} | {len(row.errors)} | "
+                f"{row.findings} | {row.seconds:.1f} |",
                 flush=True,
             )
     finally:
         shutil.rmtree(temporary)
-    print(f"\n{len(rows)} packages, {sum(row.data for row in rows)} data files, {sum(row.sources for row in rows)} source files")
+    print(
+        f"\n{len(rows)} packages, {sum(row.data for row in rows)} data files, "
+        f"{sum(row.sources for row in rows)} source files"
+    )
     for row in rows:
         for line in (*row.taken_data, *row.errors, *filter(None, [row.skipped])):
             print(f"{row.name}: {line}")

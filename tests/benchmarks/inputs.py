@@ -1,4 +1,6 @@
-"""What the benchmarks lint: descriptions of 1.3 KB, and pipeline JSON as the Vulkan SC tools write it."""
+"""What the benchmarks lint: descriptions of 1.3 KB, and pipeline JSON as the Vulkan SC tools write
+it.
+"""
 
 from __future__ import annotations
 
@@ -71,7 +73,9 @@ def descriptions(folder: str, count: int) -> str:
 
 
 def pipelines(folder: str) -> tuple[str, str]:
-    """The folder of Vulkan SC pipeline files, and where they are from: the samples, or made here in the same number and size."""
+    """The folder of Vulkan SC pipeline files, and where they are from: the samples, or made here in
+    the same number and size.
+    """
     samples = os.environ.get("MSAA_LINT_SAMPLES") or os.path.join(ROOT, "..", "shared", "samples")
     real = os.path.join(samples, "vulkan_sc")
     if os.path.isdir(real):
@@ -85,34 +89,49 @@ def pipelines(folder: str) -> tuple[str, str]:
 
 
 def pipeline(number: int) -> str:
-    """A pipeline with a render pass of one attachment, filled up with the vertex attributes that such files mostly consist of."""
+    """A pipeline with a render pass of one attachment, filled up with the vertex attributes that
+    such files mostly consist of.
+    """
     attachment = {
-        "flags": "0", "format": "VK_FORMAT_R8G8B8A8_UNORM", "samples": f"VK_SAMPLE_COUNT_{1 << number % 3}_BIT",
+        "flags": "0", "format": "VK_FORMAT_R8G8B8A8_UNORM",
+        "samples": f"VK_SAMPLE_COUNT_{1 << number % 3}_BIT",
         "loadOp": "VK_ATTACHMENT_LOAD_OP_CLEAR", "storeOp": "VK_ATTACHMENT_STORE_OP_STORE",
-        "stencilLoadOp": "VK_ATTACHMENT_LOAD_OP_DONT_CARE", "stencilStoreOp": "VK_ATTACHMENT_STORE_OP_DONT_CARE",
-        "initialLayout": "VK_IMAGE_LAYOUT_UNDEFINED", "finalLayout": "VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL",
+        "stencilLoadOp": "VK_ATTACHMENT_LOAD_OP_DONT_CARE",
+        "stencilStoreOp": "VK_ATTACHMENT_STORE_OP_DONT_CARE",
+        "initialLayout": "VK_IMAGE_LAYOUT_UNDEFINED",
+        "finalLayout": "VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL",
     }  # fmt: skip
     subpass = {
-        "flags": "0", "pipelineBindPoint": "VK_PIPELINE_BIND_POINT_GRAPHICS", "colorAttachmentCount": 1,
-        "pColorAttachments": [{"attachment": 0, "layout": "VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL"}], "pResolveAttachments": "NULL",
+        "flags": "0", "pipelineBindPoint": "VK_PIPELINE_BIND_POINT_GRAPHICS",
+        "colorAttachmentCount": 1,
+        "pColorAttachments": [{"attachment": 0,
+        "layout": "VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL"}], "pResolveAttachments": "NULL",
     }  # fmt: skip
     attributes: list[dict[str, object]] = []
     state = {
         "Renderpass": {
-            "sType": "VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO", "pNext": "NULL", "attachmentCount": 1, "pAttachments": [attachment],
-            "subpassCount": 1, "pSubpasses": [subpass], "dependencyCount": 0, "pDependencies": "NULL",
+            "sType": "VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO", "pNext": "NULL",
+            "attachmentCount": 1, "pAttachments": [attachment],
+            "subpassCount": 1, "pSubpasses": [subpass], "dependencyCount": 0,
+            "pDependencies": "NULL",
         },
         "GraphicsPipeline": {
             "sType": "VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO", "pNext": "NULL",
             "pVertexInputState": {"pVertexAttributeDescriptions": attributes},
             "pMultisampleState": {
-                "rasterizationSamples": attachment["samples"], "sampleShadingEnable": "VK_FALSE", "minSampleShading": 0.0,
+                "rasterizationSamples": attachment["samples"], "sampleShadingEnable": "VK_FALSE",
+                "minSampleShading": 0.0,
                 "alphaToCoverageEnable": "VK_FALSE", "alphaToOneEnable": "VK_FALSE",
             },
             "renderPass": 1, "subpass": 0,
         },
     }  # fmt: skip
     while len(text := json.dumps({"GraphicsPipelineState": state}, indent=4)) < PIPELINE_BYTES:
-        one = {"location": len(attributes), "binding": 0, "format": "VK_FORMAT_R32G32B32A32_SFLOAT", "offset": 16 * len(attributes)}
+        one = {
+            "location": len(attributes),
+            "binding": 0,
+            "format": "VK_FORMAT_R32G32B32A32_SFLOAT",
+            "offset": 16 * len(attributes),
+        }
         attributes += [one] * max((PIPELINE_BYTES - len(text)) // 200, 1)
     return text

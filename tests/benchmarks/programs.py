@@ -1,7 +1,9 @@
-"""Measures source code as input: `python tests/benchmarks/programs.py [--quick]`. Prints a table in Markdown.
+"""Measures source code as input: `python tests/benchmarks/programs.py [--quick]`. Prints a table in
+Markdown.
 
-`msaa-lint check` on 2,000 lines of C++ against the same on a description that says nothing, in turns; what the first takes longer is what
-grammar, reading and judging take. The reading alone is measured in a process of its own that has it imported: the least of its rounds.
+`msaa-lint check` on 2,000 lines of C++ against the same on a description that says nothing, in
+turns; what the first takes longer is what grammar, reading and judging take. The reading alone is
+measured in a process of its own that has it imported: the least of its rounds.
 """
 
 from __future__ import annotations
@@ -42,13 +44,19 @@ def table(folder: str, rounds: int) -> list[str]:
     from tests.input.code.generated import program
 
     text, _ = program(LINES)
-    for name, content in (("program.cpp", text), ("empty.cpp", "int main() {}\n"), ("empty.msaa.yaml", "frame: {fps: 60}\n")):
+    for name, content in (
+        ("program.cpp", text),
+        ("empty.cpp", "int main() {}\n"),
+        ("empty.msaa.yaml", "frame: {fps: 60}\n"),
+    ):
         with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
             file.write(content)
     lines = text.count("\n")
     nothing = Task("an empty description", [*CHECK, "empty.msaa.yaml"])
     trivial = Task("C++ of one line", [*CHECK, "empty.cpp"])
-    full = Task(f"{lines} lines of C++, {len(text.encode()) / 1000:.0f} KB", [*CHECK, "program.cpp"])
+    full = Task(
+        f"{lines} lines of C++, {len(text.encode()) / 1000:.0f} KB", [*CHECK, "program.cpp"]
+    )
     found = measure([nothing, trivial, full], rounds, folder)
     given = {**environment(folder), "PYTHONPATH": ROOT}
     command = [sys.executable, "-c", ALONE, str(LINES), str(rounds)]
@@ -56,12 +64,23 @@ def table(folder: str, rounds: int) -> list[str]:
     seconds, documents = alone.stdout.split()
     longer = min(s.wall for s in found[full.name]) - min(s.wall for s in found[nothing.name])
     share = longer * LINES / lines
-    goal = verdict(share, GOAL, f"{1000 * longer:.0f} ms more, {1000 * share:.0f} ms for {LINES} lines (at most {1000 * GOAL:.0f} ms)")
+    goal = verdict(
+        share,
+        GOAL,
+        f"{1000 * longer:.0f} ms more, {1000 * share:.0f} ms for {LINES} lines (at most "
+        f"{1000 * GOAL:.0f} ms)",
+    )
     out = [f"Python {sys.version.split()[0]}, {os.cpu_count()} cores, {rounds} runs.", ""]
     out.append("| what | wall ms, least | median | CPU ms, least | median | peak MB | goal |")
     out.append("|---|---:|---:|---:|---:|---:|---|")
-    out += [row(name, samples, goal if name == full.name else "") for name, samples in found.items()]
-    return [*out, "", f"The reading alone: {1000 * float(seconds):.0f} ms, {documents} descriptions."]
+    out += [
+        row(name, samples, goal if name == full.name else "") for name, samples in found.items()
+    ]
+    return [
+        *out,
+        "",
+        f"The reading alone: {1000 * float(seconds):.0f} ms, {documents} descriptions.",
+    ]
 
 
 if __name__ == "__main__":

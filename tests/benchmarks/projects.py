@@ -1,7 +1,9 @@
-"""Time and memory of `check` on a large source tree: `python tests/benchmarks/projects.py [MB] [--keep FOLDER]`.
+"""Time and memory of `check` on a large source tree: `python tests/benchmarks/projects.py [MB]
+[--keep FOLDER]`.
 
-The tree is an engine of 100 MB by default: libraries of several folders with headers, of which one in twenty uses Vulkan, and a program
-for each library. It is checked three times: without anything kept, again, and after a change of one file. Prints a table in Markdown.
+The tree is an engine of 100 MB by default: libraries of several folders with headers, of which one
+in twenty uses Vulkan, and a program for each library. It is checked three times: without anything
+kept, again, and after a change of one file. Prints a table in Markdown.
 """
 
 from __future__ import annotations
@@ -83,7 +85,10 @@ def write_tree(folder: Path, size: int) -> None:
     while written < size:
         library = folder / f"engine{number // 40}" / f"library{number}"
         library.mkdir(parents=True)
-        files = {"common.h": "#pragma once\n#include <vulkan/vulkan.h>\nconstexpr VkSampleCountFlagBits SAMPLES = VK_SAMPLE_COUNT_4_BIT;\n"}
+        files = {
+            "common.h": "#pragma once\n#include <vulkan/vulkan.h>\nconstexpr VkSampleCountFlagBits "
+            "SAMPLES = VK_SAMPLE_COUNT_4_BIT;\n"
+        }
         for position in range(FILES_PER_FOLDER):
             at = number * FILES_PER_FOLDER + position
             if at % VULKAN_SHARE == 0:
@@ -99,12 +104,16 @@ def write_tree(folder: Path, size: int) -> None:
 
 
 def measure(folder: Path, kept: Path) -> tuple[float, float, float, int]:
-    """The seconds that a run takes, its CPU seconds, the most memory of one process in MB, and the number of findings."""
+    """The seconds that a run takes, its CPU seconds, the most memory of one process in MB, and the
+    number of findings.
+    """
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     start = time.perf_counter()
     environment = {**os.environ, "PYTHONPATH": str(ROOT), "XDG_CACHE_HOME": str(kept)}
     command = [sys.executable, "-m", "msaa_lint", "check", ".", "--isolated", "--output", "json"]
-    done = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, check=False)
+    done = subprocess.run(
+        command, cwd=folder, env=environment, capture_output=True, text=True, check=False
+    )
     seconds = time.perf_counter() - start
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     cpu = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
@@ -115,7 +124,9 @@ def measure(folder: Path, kept: Path) -> tuple[float, float, float, int]:
 def main() -> int:
     parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
     parser.add_argument("megabytes", nargs="?", type=int, default=100)
-    parser.add_argument("--keep", metavar="FOLDER", help="write the tree to this folder, and leave it there")
+    parser.add_argument(
+        "--keep", metavar="FOLDER", help="write the tree to this folder, and leave it there"
+    )
     given = parser.parse_args()
     base = Path(tempfile.mkdtemp())
     folder = Path(given.keep) if given.keep else base / "tree"
@@ -127,7 +138,11 @@ def main() -> int:
         print("| second | {:.1f} | {:.1f} | {:.0f} | {} |".format(*measure(folder, base / "kept")))
         changed = next(iter(sorted(folder.rglob("renderer*.cpp"))))
         changed.write_text(changed.read_text(encoding="utf-8") + "\n", encoding="utf-8")
-        print("| one file changed | {:.1f} | {:.1f} | {:.0f} | {} |".format(*measure(folder, base / "kept")))
+        print(
+            "| one file changed | {:.1f} | {:.1f} | {:.0f} | {} |".format(
+                *measure(folder, base / "kept")
+            )
+        )
     finally:
         shutil.rmtree(base)
     return 0

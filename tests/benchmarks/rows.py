@@ -2,8 +2,8 @@
 
     python tests/benchmarks/rows.py [FINDINGS]
 
-The findings are those of descriptions that differ in their names and prices. The peak is that of Python's objects while they are
-written, beyond the findings themselves.
+The findings are those of descriptions that differ in their names and prices. The peak is that of
+Python's objects while they are written, beyond the findings themselves.
 """
 
 from __future__ import annotations
@@ -35,12 +35,29 @@ def corpus(count: int) -> tuple[Result, list[PassTraffic]]:
         price = Price(number % 997 / 3, number % 991 / 7, number % 89 / 11, number % 997 / 30)
         message = f"`color{number}` stores 4x samples that nothing reads; set storeOp to DONT_CARE"
         findings.append(
-            Finding(f"MSAA{rule:03}", RULES[rule], "warning", "high", message, file, None, f"{path}.attachments.color", fix=Fix("x", True))
+            Finding(f"MSAA{rule:03}", RULES[rule], "warning", "high", message, file, None,
+            f"{path}.attachments.color", fix=Fix("x", True))
             ._replace(price=price)
         )  # fmt: skip
-        passes.append(PassTraffic(file, 0, f"pass{number % PER_INPUT}", path, "renderPass", 1920, 1080, 1, 4, *price, ""))
+        passes.append(
+            PassTraffic(
+                file,
+                0,
+                f"pass{number % PER_INPUT}",
+                path,
+                "renderPass",
+                1920,
+                1080,
+                1,
+                4,
+                *price,
+                "",
+            )
+        )
         if number % PER_INPUT == 0:
-            inputs.append(InputSummary(file, "description", 2, PER_INPUT, device=f"GPU {number % 17}"))
+            inputs.append(
+                InputSummary(file, "description", 2, PER_INPUT, device=f"GPU {number % 17}")
+            )
     return Result(findings, [], [], [each.file for each in inputs], {}, [], inputs=inputs), passes
 
 
@@ -58,13 +75,21 @@ def main() -> None:
             write(path, rows(result, passes, "", options), "0")
             peak = tracemalloc.get_traced_memory()[1]
             tracemalloc.stop()
-            size = sum(each.stat().st_size for each in Path(folder).iterdir() if each.suffix == f".{name}")
-            print(f"{name}: {count} findings written in {taken:.2f} s of processor time, {size / 1e6:.1f} MB, peak {peak / 2**20:.0f} MiB")
+            size = sum(
+                each.stat().st_size for each in Path(folder).iterdir() if each.suffix == f".{name}"
+            )
+            print(
+                f"{name}: {count} findings written in {taken:.2f} s of processor time, "
+                f"{size / 1e6:.1f} MB, peak {peak / 2**20:.0f} MiB"
+            )
             start = time.process_time()
             files = corpus_files([path])
             with Database(files, files) as database:
                 summarize(database, "device", 20)
-            print(f"{name}: opened, summarized by device, and compared in {time.process_time() - start:.2f} s of processor time")
+            print(
+                f"{name}: opened, summarized by device, and compared in "
+                f"{time.process_time() - start:.2f} s of processor time"
+            )
 
 
 if __name__ == "__main__":

@@ -1,13 +1,16 @@
-"""Doubles inputs and prints how time grows: `python tests/benchmarks/scaling.py [--quick] [NAME...]`. A table in Markdown.
+"""Doubles inputs and prints how time grows: `python tests/benchmarks/scaling.py [--quick]
+[NAME...]`. A table in Markdown.
 
-Each shape is an input of one structure at any size, and a command that reads it. Its size starts where the command's work can be told from
-its start, and is doubled four times (twice with `--quick`, which takes one in twelve). The exponent is that of a power law through the
-last three sizes: 1 is linear, 2 quadratic. Times are CPU times of a process forked from one that has imported everything, so they hold no
-start; the time of the smallest input is taken off. A shape above the limit is measured again, and its least exponent counts: other work on
-the machine only adds to one.
+Each shape is an input of one structure at any size, and a command that reads it. Its size starts
+where the command's work can be told from its start, and is doubled four times (twice with
+`--quick`, which takes one in twelve). The exponent is that of a power law through the last three
+sizes: 1 is linear, 2 quadratic. Times are CPU times of a process forked from one that has imported
+everything, so they hold no start; the time of the smallest input is taken off. A shape above the
+limit is measured again, and its least exponent counts: other work on the machine only adds to one.
 
-`NAME` selects the shapes whose names contain it. Exits with 1 where an exponent is above the limit (not with `--quick`, whose times are too
-short to tell), and with 2 where a command failed: a signal ended it, or its code says something else than "linted".
+`NAME` selects the shapes whose names contain it. Exits with 1 where an exponent is above the limit
+(not with `--quick`, whose times are too short to tell), and with 2 where a command failed: a signal
+ended it, or its code says something else than "linted".
 """
 
 from __future__ import annotations
@@ -30,7 +33,9 @@ from shapes import SHAPES, Shape  # noqa: E402
 
 LIMIT = 1.3
 MOST_SECONDS = 60
-"""Of processor time, of one run; a run that takes longer is ended, and its shape counts as above the limit."""
+"""Of processor time, of one run; a run that takes longer is ended, and its shape counts as above
+the limit.
+"""
 START_SECONDS = 0.1
 """What the first size takes beyond the smallest input."""
 MOST_BYTES = 4 << 20
@@ -62,7 +67,9 @@ class Row(NamedTuple):
 
 
 def warm() -> None:
-    """Imports what the commands import, so that no run pays for it: each command reads a small input of each kind in this process."""
+    """Imports what the commands import, so that no run pays for it: each command reads a small
+    input of each kind in this process.
+    """
     known = set()
     with tempfile.TemporaryDirectory() as folder:
         for number, shape in enumerate(SHAPES):
@@ -81,7 +88,10 @@ def call(shape: Shape, folder: Path) -> int:
     from msaa_lint.__main__ import main
 
     here, streams, argv = os.getcwd(), (sys.stdin, sys.stdout, sys.stderr), sys.argv
-    with open(os.devnull, encoding="utf-8") as empty, open(os.devnull, "w", encoding="utf-8") as null:
+    with (
+        open(os.devnull, encoding="utf-8") as empty,
+        open(os.devnull, "w", encoding="utf-8") as null,
+    ):
         os.chdir(folder)
         sys.argv = ["msaa-lint", *shape.arguments]
         sys.stdin, sys.stdout, sys.stderr = empty, null, null
@@ -99,7 +109,9 @@ def call(shape: Shape, folder: Path) -> int:
 
 
 def run(shape: Shape, size: int, folder: Path) -> tuple[int, Run]:
-    """Writes the shape at that size and runs its command in a forked process; the input's bytes, and what the run took. Raises: Failed."""
+    """Writes the shape at that size and runs its command in a forked process; the input's bytes,
+    and what the run took. Raises: Failed.
+    """
     path = folder / "input"
     path.mkdir()
     try:
@@ -117,7 +129,10 @@ def run(shape: Shape, size: int, folder: Path) -> tuple[int, Run]:
         seconds = usage.ru_utime + usage.ru_stime
         code = os.waitstatus_to_exitcode(status)
         if code not in shape.codes and seconds < MOST_SECONDS:
-            raise Failed(f"{shape.name}, size {size}: ended with {code}: msaa-lint {' '.join(shape.arguments)}")
+            raise Failed(
+                f"{shape.name}, size {size}: ended with {code}: msaa-lint "
+                f"{' '.join(shape.arguments)}"
+            )
         return size_bytes, Run(seconds, usage.ru_maxrss * (1 if sys.platform == "darwin" else 1024))
     finally:
         shutil.rmtree(path)
@@ -125,9 +140,14 @@ def run(shape: Shape, size: int, folder: Path) -> tuple[int, Run]:
 
 def exponent(sizes: Sequence[int], runs: Sequence[Run], least: float) -> float:
     """The slope of log time over log size, of the last three sizes."""
-    points = [(math.log(size), math.log(max(each.seconds - least, 0.001))) for size, each in zip(sizes[-3:], runs[-3:], strict=True)]
+    points = [
+        (math.log(size), math.log(max(each.seconds - least, 0.001)))
+        for size, each in zip(sizes[-3:], runs[-3:], strict=True)
+    ]
     mean_x, mean_y = (sum(values) / len(points) for values in zip(*points, strict=True))
-    return sum((x - mean_x) * (y - mean_y) for x, y in points) / sum((x - mean_x) ** 2 for x, _ in points)
+    return sum((x - mean_x) * (y - mean_y) for x, y in points) / sum(
+        (x - mean_x) ** 2 for x, _ in points
+    )
 
 
 def measure(shape: Shape, folder: Path, quick: bool) -> Row:
@@ -155,7 +175,10 @@ def line(row: Row) -> str:
     times = " ".join(f"{each.seconds:.2f}" for each in row.runs)
     memory = max(each.memory for each in row.runs) / 1e6
     shown = f"over {MOST_SECONDS} s" if row.exponent == math.inf else f"{row.exponent:.2f}"
-    return f"| {row.name} | {row.sizes[0] / 1e3:.0f} to {row.sizes[-1] / 1e3:.0f} | {times} | {memory:.0f} | {shown} |"
+    return (
+        f"| {row.name} | {row.sizes[0] / 1e3:.0f} to {row.sizes[-1] / 1e3:.0f} | {times} | "
+        f"{memory:.0f} | {shown} |"
+    )
 
 
 def main() -> int:
@@ -168,7 +191,10 @@ def main() -> int:
         del os.environ[name]
     os.environ["NO_COLOR"] = "1"
     warm()
-    print("| shape | kB | CPU seconds | peak memory, MB | exponent |\n|---|---:|---:|---:|---:|", flush=True)
+    print(
+        "| shape | kB | CPU seconds | peak memory, MB | exponent |\n|---|---:|---:|---:|---:|",
+        flush=True,
+    )
     above, failures = [], []
     with tempfile.TemporaryDirectory() as folder:
         for shape in chosen:
@@ -177,14 +203,19 @@ def main() -> int:
                 for _ in range(0 if quick else 2):
                     if row.exponent <= LIMIT:
                         break
-                    row = min(row, measure(shape, Path(folder), quick), key=lambda each: each.exponent)
+                    row = min(
+                        row, measure(shape, Path(folder), quick), key=lambda each: each.exponent
+                    )
             except Failed as error:
                 failures.append(str(error))
                 continue
             print(line(row), flush=True)
             if row.exponent > LIMIT:
                 above.append(row.name)
-    print(f"\n{len(chosen)} shapes, {len(above)} above {LIMIT}{': ' + ', '.join(above) if above else ''}")
+    print(
+        f"\n{len(chosen)} shapes, {len(above)} above "
+        f"{LIMIT}{': ' + ', '.join(above) if above else ''}"
+    )
     for failure in failures:
         print(failure, file=sys.stderr)
     return 2 if failures else int(bool(above) and not quick)

@@ -1,7 +1,9 @@
-"""Measures the simulator: `python tests/benchmarks/study_effects.py [--quick]`. Prints tables in Markdown.
+"""Measures the simulator: `python tests/benchmarks/study_effects.py [--quick]`. Prints tables in
+Markdown.
 
-What each effect takes beside the same draw without it, what it takes where it is off, and how time and memory grow with pixels and samples.
-Runs of what is compared alternate; the least of them is shown, which other work on the machine spoils last.
+What each effect takes beside the same draw without it, what it takes where it is off, and how time
+and memory grow with pixels and samples. Runs of what is compared alternate; the least of them is
+shown, which other work on the machine spoils last.
 """
 
 from __future__ import annotations
@@ -47,7 +49,11 @@ EFFECTS: dict[str, tuple[tuple[str, ...], dict[str, object], Technique]] = {
     "blending": (("blending",), {}, FOUR),
     "hdr": (("hdr",), {}, FOUR),
     "srgb": (("srgb",), {"srgb": "linear-light"}, FOUR),
-    "depth-resolve (with the test)": (("depth-test", "depth-resolve"), {"depth-resolve": "MIN"}, FOUR),
+    "depth-resolve (with the test)": (
+        ("depth-test", "depth-resolve"),
+        {"depth-resolve": "MIN"},
+        FOUR,
+    ),
     "tone-mapping, after": (("tone-mapping",), {"tone-mapping": "after-resolve"}, FOUR),
     "tone-mapping, before": (("tone-mapping",), {"tone-mapping": "before-resolve"}, FOUR),
     "tone-mapping, weighted": (("tone-mapping",), {"tone-mapping": "weighted"}, FOUR),
@@ -75,7 +81,9 @@ def by_effect(rounds: int) -> None:
         tasks[name] = lambda scene=scene, technique=technique: simulate(scene, technique)  # type: ignore[misc]
     found = least(tasks, rounds)
     none = found.pop("none")
-    print(f"Two sheets at {SIZE[0]}x{SIZE[1]}, 4x, CPU milliseconds; {none:.0f} without an effect.\n")
+    print(
+        f"Two sheets at {SIZE[0]}x{SIZE[1]}, 4x, CPU milliseconds; {none:.0f} without an effect.\n"
+    )
     print("| effect | ms | more than without |\n|---|---:|---:|")
     for name, took in found.items():
         print(f"| {name} | {took:.0f} | {took - none:+.0f} |")
@@ -83,7 +91,9 @@ def by_effect(rounds: int) -> None:
 
 
 def off(rounds: int) -> None:
-    """What effects take that are off, all of them together: beside a table without any, which leaves nothing to look up or to leave out."""
+    """What effects take that are off, all of them together: beside a table without any, which
+    leaves nothing to look up or to leave out.
+    """
     plain, whole = picture(480, 270), effects.TABLE
 
     def without() -> None:
@@ -95,24 +105,35 @@ def off(rounds: int) -> None:
 
     found = least({"off": lambda: simulate(plain, FOUR), "not there": without}, rounds)
     more = 100 * (found["off"] / found["not there"] - 1)
-    print(f"All effects off: {found['off']:.2f} ms; none there to be off: {found['not there']:.2f} ms: {more:+.2f} % (at most 1).\n")
+    print(
+        f"All effects off: {found['off']:.2f} ms; none there to be off: {found['not there']:.2f} "
+        f"ms: {more:+.2f} % (at most 1).\n"
+    )
 
 
 def growth(rounds: int) -> None:
     """Time and the most memory at once, by pixels and by samples."""
-    print("| pixels | samples | CPU ms | ns a pixel and sample | peak MiB | bytes a pixel |\n|---|---:|---:|---:|---:|---:|")
+    print(
+        "| pixels | samples | CPU ms | ns a pixel and sample | peak MiB | bytes a pixel |\n"
+        "|---|---:|---:|---:|---:|---:|"
+    )
     cases = [(480, 270, 4), (960, 540, 4), (1920, 1080, 4), (3840, 2160, 4)]
     cases += [(1920, 1080, count) for count in (1, 2, 8, 16)]
     for width, height, count in cases:
         scene = picture(width, height)._replace(effects=("depth-test",))
         technique = Technique(MSAA, count)
-        took = least({"": lambda scene=scene, technique=technique: simulate(scene, technique)}, rounds)[""]  # type: ignore[misc]
+        took = least(
+            {"": lambda scene=scene, technique=technique: simulate(scene, technique)}, rounds
+        )[""]  # type: ignore[misc]
         tracemalloc.start()
         simulate(scene, technique)
         peak = tracemalloc.get_traced_memory()[1]
         tracemalloc.stop()
         pixels = width * height
-        print(f"| {width}x{height} | {count} | {took:.0f} | {1e6 * took / pixels / count:.0f} | {peak / 2**20:.0f} | {peak / pixels:.0f} |")
+        print(
+            f"| {width}x{height} | {count} | {took:.0f} | {1e6 * took / pixels / count:.0f} | "
+            f"{peak / 2**20:.0f} | {peak / pixels:.0f} |"
+        )
 
 
 if __name__ == "__main__":

@@ -1,7 +1,9 @@
-"""Measures the simulation beside lavapipe on the same scene: `python tests/benchmarks/study_lavapipe.py [ROUNDS]`.
+"""Measures the simulation beside lavapipe on the same scene: `python
+tests/benchmarks/study_lavapipe.py [ROUNDS]`.
 
-Prints a table in Markdown: one triangle over most of a picture of 1920x1080, and 20,000 triangles of about 16 pixels, at 1 and 4 samples.
-lavapipe's time is by its own clock, of a pass that clears, draws and resolves; the simulation's of coverage alone, least of the rounds.
+Prints a table in Markdown: one triangle over most of a picture of 1920x1080, and 20,000 triangles
+of about 16 pixels, at 1 and 4 samples. lavapipe's time is by its own clock, of a pass that clears,
+draws and resolves; the simulation's of coverage alone, least of the rounds.
 """
 
 from __future__ import annotations
@@ -45,9 +47,15 @@ def main() -> int:
             with SceneClock(clock, scene, CostModel()) as source:
                 costs = source.costs(techniques, [none], (WIDTH, HEIGHT))
             for technique in techniques:
-                own, device = simulate(triangles, technique.samples, rounds), costs[technique, none.name].time_ms
+                own, device = (
+                    simulate(triangles, technique.samples, rounds),
+                    costs[technique, none.name].time_ms,
+                )
                 assert device is not None, clock.name
-                print(f"| {name} | {technique.samples} | {own:.1f} | {device:.1f} | {own / device:.2f} |")
+                print(
+                    f"| {name} | {technique.samples} | {own:.1f} | {device:.1f} | "
+                    f"{own / device:.2f} |"
+                )
     return 0
 
 

@@ -20,7 +20,9 @@ FRAMES = f"""\
 """Two frames with the same mistake."""
 
 IGNORED = STORED.replace(
-    "storeOp: STORE, initialLayout", "storeOp: STORE, # msaa-lint: ignore[multisampled-attachment-stored] read back\n initialLayout", 1
+    "storeOp: STORE, initialLayout",
+    "storeOp: STORE, # msaa-lint: ignore[multisampled-attachment-stored] read back\n initialLayout",
+    1,
 )
 """A frame whose mistake a comment suppresses."""
 
@@ -28,7 +30,9 @@ Rows = list[tuple[Any, ...]]
 
 
 def write_inputs(folder: Path) -> None:
-    """Two frames, a capture, a frame without findings, one with a suppressed one, and one that cannot be read."""
+    """Two frames, a capture, a frame without findings, one with a suppressed one, and one that
+    cannot be read.
+    """
     folder.mkdir(exist_ok=True)
     (folder / "frames.msaa.yaml").write_text(FRAMES)
     (folder / "capture.jsonl").write_bytes((ROOT / "examples/capture/forward.jsonl").read_bytes())
@@ -40,7 +44,10 @@ def write_inputs(folder: Path) -> None:
 def sqlite_tables(path: Path) -> dict[str, Rows]:
     """The rows of each table of a database."""
     with closing(sqlite3.connect(path)) as connection:
-        return {table.name: connection.execute(f"SELECT * FROM {table.name}").fetchall() for table in TABLES}
+        return {
+            table.name: connection.execute(f"SELECT * FROM {table.name}").fetchall()
+            for table in TABLES
+        }
 
 
 def parquet_tables(path: Path) -> dict[str, Rows]:

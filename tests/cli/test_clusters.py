@@ -1,4 +1,6 @@
-"""Inputs that the workers of a cluster read: the same bytes as by one process, also when a worker is killed."""
+"""Inputs that the workers of a cluster read: the same bytes as by one process, also when a worker
+is killed.
+"""
 
 from __future__ import annotations
 
@@ -28,7 +30,9 @@ def corpus(tmp_path: Path) -> Path:
     folder = tmp_path / "corpus"
     folder.mkdir()
     for number in range(COUNT):
-        (folder / f"{number:03}.msaa.yaml").write_text((STORED, CLEAN, STORED)[number % 3].replace("color", f"color{number}"))
+        (folder / f"{number:03}.msaa.yaml").write_text(
+            (STORED, CLEAN, STORED)[number % 3].replace("color", f"color{number}")
+        )
     (folder / "broken.msaa.yaml").write_text("images: {color: {samples: 3}}\n")
     (folder / "msaa-lint.toml").write_text('ignore = ["MSAA403"]\n')
     return folder
@@ -42,7 +46,9 @@ def interrupted(process: subprocess.Popen[str], busy: Callable[[], list[int]]) -
 
 
 @pytest.mark.parametrize("backend", CLUSTERS)
-def test_a_cluster_says_what_one_process_says(corpus: Path, backend: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_cluster_says_what_one_process_says(
+    corpus: Path, backend: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
     options = ("check", ".", "--output", "json", "--no-cache")
     expected = run_process(corpus, *options, "--jobs", "1")
     costs = run_process(corpus, "cost", ".", "--each", "--output", "json", "--jobs", "1")
@@ -50,7 +56,9 @@ def test_a_cluster_says_what_one_process_says(corpus: Path, backend: str, monkey
     with CLUSTERS[backend]() as (address, busy):
         command = [sys.executable, "-m", "msaa_lint", *options, "--backend", backend]
         pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
-        with subprocess.Popen(command, cwd=corpus, env=environment_of(address), text=True, **pipes) as running:  # type: ignore[call-overload]
+        with subprocess.Popen(
+            command, cwd=corpus, env=environment_of(address), text=True, **pipes
+        ) as running:  # type: ignore[call-overload]
             killed: list[int] = []
             while not killed and running.poll() is None:
                 time.sleep(0.01)
@@ -61,23 +69,37 @@ def test_a_cluster_says_what_one_process_says(corpus: Path, backend: str, monkey
         assert killed, f"the run ended before a worker could be killed: {error}"
         assert (running.returncode, error) == (expected.returncode, expected.stderr)
         assert out == expected.stdout
-        with subprocess.Popen(command, cwd=corpus, env=environment_of(address), text=True, **pipes) as running:  # type: ignore[call-overload]
+        with subprocess.Popen(
+            command, cwd=corpus, env=environment_of(address), text=True, **pipes
+        ) as running:  # type: ignore[call-overload]
             interrupted(running, busy)
             out, error = running.communicate(timeout=60)
         assert (running.returncode, out) == (130, ""), error
         # The cluster goes on.
-        again = run_process(corpus, "cost", ".", "--each", "--output", "json", "--backend", backend, **address)
-    assert (again.returncode, again.stdout, again.stderr) == (costs.returncode, costs.stdout, costs.stderr)
+        again = run_process(
+            corpus, "cost", ".", "--each", "--output", "json", "--backend", backend, **address
+        )
+    assert (again.returncode, again.stdout, again.stderr) == (
+        costs.returncode,
+        costs.stdout,
+        costs.stderr,
+    )
 
 
 def test_an_address_needs_an_engine(corpus: Path) -> None:
     done = run_process(corpus, "check", ".", "--cluster", "127.0.0.1:8786")
     assert (done.returncode, done.stdout) == (2, "")
-    assert done.stderr == "msaa-lint: `--cluster` needs the engine of the cluster: `--backend dask` or `--backend ray`\n"
+    assert (
+        done.stderr
+        == "msaa-lint: `--cluster` needs the engine of the cluster: `--backend dask` or `--backend "
+        "ray`\n"
+    )
 
 
 def test_a_cluster_that_is_not_there_is_an_error_on_one_line(corpus: Path) -> None:
-    pytest.importorskip("distributed", reason="the group of test dependencies has it; not every Python has a wheel")
+    pytest.importorskip(
+        "distributed", reason="the group of test dependencies has it; not every Python has a wheel"
+    )
     done = run_process(corpus, "check", ".", "--backend", "dask", "--cluster", "127.0.0.1:1")
     assert (done.returncode, done.stdout) == (2, "")
     (line,) = done.stderr.splitlines()

@@ -37,13 +37,18 @@ def test_rule(tmp_path: Path) -> None:
     page = run(tmp_path, "rule", "MSAA201").stdout
     assert page.startswith("# multisampled-attachment-stored\n")
     assert "## Why" in page
-    assert json.loads(run(tmp_path, "rule", "MSAA201", "--output", "json").stdout)["name"] == "multisampled-attachment-stored"
+    assert (
+        json.loads(run(tmp_path, "rule", "MSAA201", "--output", "json").stdout)["name"]
+        == "multisampled-attachment-stored"
+    )
     every = json.loads(run(tmp_path, "rule", "--all", "--output", "json").stdout)
     assert len({rule["code"] for rule in every}) == len(every) >= 59
 
 
 def test_facts(tmp_path: Path) -> None:
-    (tmp_path / "a.yaml").write_text("images: {a: {format: R8_UNORM, samples: 4}}\n", encoding="utf-8")
+    (tmp_path / "a.yaml").write_text(
+        "images: {a: {format: R8_UNORM, samples: 4}}\n", encoding="utf-8"
+    )
     (row,) = json.loads(run(tmp_path, "facts", "a.yaml", "--output", "json").stdout)
     assert row["path"] == "images.a"
     assert row["facts"]["image.samples"] == {"value": 4, "line": 1}
@@ -60,7 +65,10 @@ def test_schema(tmp_path: Path) -> None:
 
 def test_the_formats_are_those_there_are() -> None:
     modules = {"html": "html/check.py"}
-    assert all((ROOT / "msaa_lint/cli/report" / modules.get(name, f"{name}.py")).exists() for name in OUTPUT_FORMATS)
+    assert all(
+        (ROOT / "msaa_lint/cli/report" / modules.get(name, f"{name}.py")).exists()
+        for name in OUTPUT_FORMATS
+    )
     assert tuple(readers.CAPTURES) == CAPTURE_FORMATS
     assert sorted(INPUT_FORMATS) == sorted([*readers.FORMATS, *readers.CAPTURES, *LANGUAGES])
 
@@ -83,10 +91,17 @@ def test_cost_reads_as_the_format_that_is_named(tmp_path: Path) -> None:
 def test_commands_end_alike_where_an_output_is_wrong(tmp_path: Path, command: str) -> None:
     (tmp_path / "a.yaml").write_text("images: {}\n", encoding="utf-8")
     done = run(tmp_path, command, "a.yaml", "--output", "jsn=\u202e")
-    assert (done.returncode, done.stdout, done.stderr) == (2, "", "msaa-lint: unknown output format `jsn`: did you mean `json`?\n")
+    assert (done.returncode, done.stdout, done.stderr) == (
+        2,
+        "",
+        "msaa-lint: unknown output format `jsn`: did you mean `json`?\n",
+    )
     done = run(tmp_path, command, "a.yaml", "--output", "json", "--output", "full=-")
     assert (done.returncode, done.stdout) == (2, "")
-    assert "msaa-lint: only one output can go to standard output; write the others to files, as in --output " in done.stderr
+    assert (
+        "msaa-lint: only one output can go to standard output; write the others to files, as in "
+        "--output " in done.stderr
+    )
     done = run(tmp_path, command, "a.yaml", "--output", "\u202e")
     assert (done.returncode, done.stdout) == (2, "")
     assert done.stderr.startswith("msaa-lint: unknown output format `\\u202e`: ")
@@ -106,11 +121,17 @@ def test_commands_end_alike_where_an_output_is_wrong(tmp_path: Path, command: st
         (["init"], "write_files"),
     ],
 )
-def test_internal_errors_are_one_line(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, words: list[str], function: str) -> None:
+def test_internal_errors_are_one_line(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, words: list[str], function: str
+) -> None:
     def fail(*values: object) -> int:
         raise ZeroDivisionError("division by zero")
 
     monkeypatch.setattr(import_module(f"msaa_lint.cli.{words[0]}"), function, fail)
     done = run(tmp_path, *words)
     assert (done.returncode, done.stdout) == (2, "")
-    assert done.stderr == "msaa-lint: internal error: ZeroDivisionError: division by zero (--traceback shows where)\n"
+    assert (
+        done.stderr
+        == "msaa-lint: internal error: ZeroDivisionError: division by zero (--traceback shows "
+        "where)\n"
+    )

@@ -42,7 +42,9 @@ def folder(tmp_path: Path) -> Path:
     return tmp_path
 
 
-def report(folder: Path, *arguments: str, code: int = 0, stdin: bytes | None = None) -> dict[str, Any]:
+def report(
+    folder: Path, *arguments: str, code: int = 0, stdin: bytes | None = None
+) -> dict[str, Any]:
     done = run(folder, "cost", *arguments, "--output", "json", stdin=stdin)
     assert done.returncode == code, done.stderr
     found: dict[str, Any] = json.loads(done.stdout)
@@ -79,7 +81,11 @@ def test_table_in_a_pipe(folder: Path) -> None:
     done = run(folder, "cost", "a.msaa.yaml")
     assert (done.returncode, done.stderr) == (0, "")
     lines = done.stdout.splitlines()
-    assert lines[0] == "a.msaa.yaml: 100 frames per second on no device (on a tile-based GPU), 100 mW per GB/s, budget 2500 mW"
+    assert (
+        lines[0]
+        == "a.msaa.yaml: 100 frames per second on no device (on a tile-based GPU), 100 mW per "
+        "GB/s, budget 2500 mW"
+    )
     total = next(line for line in lines if line.startswith("total"))
     assert total.split() == ["total", "0.00", "20.00", "0.19", "2.0", "0.1%"]
     assert "\x1b" not in done.stdout
@@ -88,31 +94,51 @@ def test_table_in_a_pipe(folder: Path) -> None:
 
 def test_several_inputs_are_listed_with_their_totals(folder: Path) -> None:
     found = report(folder, ".")
-    assert [each["file"] for each in found["frames"]] == ["a.msaa.yaml", "b.msaa.yaml", "unsized.msaa.yaml"]
+    assert [each["file"] for each in found["frames"]] == [
+        "a.msaa.yaml",
+        "b.msaa.yaml",
+        "unsized.msaa.yaml",
+    ]
     assert "device" not in found, "what belongs to one frame stands with it"
     assert traffic(found["total"]) == (0, 24)
-    assert [(each["file"], each["name"]) for each in found["passes"]] == [(each["file"], "main") for each in found["frames"]]
+    assert [(each["file"], each["name"]) for each in found["passes"]] == [
+        (each["file"], "main") for each in found["frames"]
+    ]
 
 
 def test_documents_of_one_file(folder: Path) -> None:
     (folder / "two.yaml").write_text(f"{SIZED}---\n{MENDED}", encoding="utf-8")
     found = report(folder, "two.yaml")
-    assert [(each["document"], traffic(each["total"])) for each in found["frames"]] == [(0, (0, 20)), (1, (0, 4))]
-    assert "two.yaml, document 2: 100 frames per second on no device" in run(folder, "cost", "two.yaml").stdout
+    assert [(each["document"], traffic(each["total"])) for each in found["frames"]] == [
+        (0, (0, 20)),
+        (1, (0, 4)),
+    ]
+    assert (
+        "two.yaml, document 2: 100 frames per second on no device"
+        in run(folder, "cost", "two.yaml").stdout
+    )
 
 
 def test_two_files_are_compared(folder: Path) -> None:
     found = report(folder, "b.msaa.yaml", "a.msaa.yaml")
     assert traffic(found["difference"]["total"]) == (0, 16)
     assert found["difference"]["total"]["percent"] == 400
-    assert [(each["name"], each["status"]) for each in found["difference"]["passes"]] == [("main", "changed")]
+    assert [(each["name"], each["status"]) for each in found["difference"]["passes"]] == [
+        ("main", "changed")
+    ]
     assert traffic(found["old"]["total"]) == (0, 4)
     done = run(folder, "cost", "b.msaa.yaml", "a.msaa.yaml")
-    assert "b.msaa.yaml -> a.msaa.yaml\nThis change: 0.00 MB/s read, +16.00 MB/s written, 0.00 MiB, +1.6 mW" in done.stdout
+    assert (
+        "b.msaa.yaml -> a.msaa.yaml\nThis change: 0.00 MB/s read, +16.00 MB/s written, 0.00 MiB, "
+        "+1.6 mW" in done.stdout
+    )
 
 
 def test_the_way_back_costs_the_opposite_and_the_same_file_nothing(folder: Path) -> None:
-    there, back = (report(folder, *paths)["difference"] for paths in (("a.msaa.yaml", "b.msaa.yaml"), ("b.msaa.yaml", "a.msaa.yaml")))
+    there, back = (
+        report(folder, *paths)["difference"]
+        for paths in (("a.msaa.yaml", "b.msaa.yaml"), ("b.msaa.yaml", "a.msaa.yaml"))
+    )
     assert traffic(there["total"]) == (0, -16)
     assert traffic(back["total"]) == (0, 16)
     same = report(folder, "a.msaa.yaml", "a.msaa.yaml")["difference"]
@@ -126,15 +152,22 @@ def test_each_lists_two_files(folder: Path) -> None:
 
 
 def test_standard_input_is_one_of_two(folder: Path) -> None:
-    found = report(folder, "-", "a.msaa.yaml", "--stdin-filename", "old.yaml", stdin=MENDED.encode())
+    found = report(
+        folder, "-", "a.msaa.yaml", "--stdin-filename", "old.yaml", stdin=MENDED.encode()
+    )
     assert found["old"]["file"] == "old.yaml"
     assert traffic(found["difference"]["total"]) == (0, 16)
 
 
 def test_markdown_for_a_comment(folder: Path) -> None:
     done = run(folder, "cost", "b.msaa.yaml", "a.msaa.yaml", "--output", "markdown")
-    assert done.stdout.startswith("<!-- msaa-lint cost -->\n### Cost of this change\n\nb.msaa.yaml → a.msaa.yaml\n")
-    assert "| main | changed | 4.00 | 20.00 | 0.00 | +16.00 | 0.00 | +1.6 | +400.0 % |\n" in done.stdout
+    assert done.stdout.startswith(
+        "<!-- msaa-lint cost -->\n### Cost of this change\n\nb.msaa.yaml → a.msaa.yaml\n"
+    )
+    assert (
+        "| main | changed | 4.00 | 20.00 | 0.00 | +16.00 | 0.00 | +1.6 | +400.0 % |\n"
+        in done.stdout
+    )
 
 
 @pytest.mark.parametrize(
@@ -145,17 +178,23 @@ def test_markdown_for_a_comment(folder: Path) -> None:
         (["--size", "100X200", "--fps", "120"], (0.0, 48.0)),
     ],
 )
-def test_what_the_input_does_not_state_is_stated_by_options(folder: Path, options: list[str], expected: tuple[float, float]) -> None:
+def test_what_the_input_does_not_state_is_stated_by_options(
+    folder: Path, options: list[str], expected: tuple[float, float]
+) -> None:
     assert traffic(report(folder, "unsized.msaa.yaml", *options)["total"]) == expected
 
 
-@pytest.mark.parametrize(("text", "milliwatts"), [("5000mW", 5000), ("2.5W", 2500), ("0.5 mW", 0.5)])
+@pytest.mark.parametrize(
+    ("text", "milliwatts"), [("5000mW", 5000), ("2.5W", 2500), ("0.5 mW", 0.5)]
+)
 def test_budget(folder: Path, text: str, milliwatts: float) -> None:
     assert report(folder, "a.msaa.yaml", "--budget", text)["budget_milliwatts"] == milliwatts
 
 
 def test_power(folder: Path) -> None:
-    assert report(folder, "a.msaa.yaml", "--milliwatts-per-gbps", "60")["total"]["milliwatts"] == pytest.approx(1.2)
+    assert report(folder, "a.msaa.yaml", "--milliwatts-per-gbps", "60")["total"][
+        "milliwatts"
+    ] == pytest.approx(1.2)
 
 
 def test_profile_corrects(folder: Path) -> None:
@@ -166,28 +205,56 @@ def test_profile_corrects(folder: Path) -> None:
 
 
 def test_samples(folder: Path) -> None:
-    counts = {each["samples"] for each in report(folder, "a.msaa.yaml", "--samples", "1, 4,16")["variants"]}
+    counts = {
+        each["samples"]
+        for each in report(folder, "a.msaa.yaml", "--samples", "1, 4,16")["variants"]
+    }
     assert counts == {1, 4, 16}
 
 
 @pytest.mark.parametrize(
     ("options", "said"),
     [
-        (["--size", "100"], "`--size` must be WIDTHxHEIGHT in pixels, as in 1920x1080; found `100`"),
+        (
+            ["--size", "100"],
+            "`--size` must be WIDTHxHEIGHT in pixels, as in 1920x1080; found `100`",
+        ),
         (["--size", "0x5"], "as in 1920x1080; found `0x5`"),
         (["--size", "9999999999x5"], "--size"),
         (["--size", "1x2x3"], "--size"),
         (["--fps", "0"], "`--fps` must be a number above 0, found `0`"),
         (["--fps", "nan"], "`--fps` must be a number above 0, found `nan`"),
-        (["--milliwatts-per-gbps", "inf"], "`--milliwatts-per-gbps` must be a number above 0, found `inf`"),
-        (["--budget", "2500"], "invalid power `2500` in `--budget`: a unit is missing; write 2500mW or 2.5W"),
-        (["--budget", "2.5w"], "invalid power `2.5w` in `--budget`: unknown unit `w`; did you mean `W`?"),
-        (["--budget", "50MB/s"], "invalid power `50MB/s` in `--budget`: unknown unit `MB/s`; expected one of mW, W"),
-        (["--budget", "0"], "invalid power `0` in `--budget`: expected a number above 0 with one of the units mW, W, as in 50mW"),
-        (["--samples", "3"], "`--samples` must be a comma-separated list of 1, 2, 4, 8, 16, 32, 64; found `3`"),
+        (
+            ["--milliwatts-per-gbps", "inf"],
+            "`--milliwatts-per-gbps` must be a number above 0, found `inf`",
+        ),
+        (
+            ["--budget", "2500"],
+            "invalid power `2500` in `--budget`: a unit is missing; write 2500mW or 2.5W",
+        ),
+        (
+            ["--budget", "2.5w"],
+            "invalid power `2.5w` in `--budget`: unknown unit `w`; did you mean `W`?",
+        ),
+        (
+            ["--budget", "50MB/s"],
+            "invalid power `50MB/s` in `--budget`: unknown unit `MB/s`; expected one of mW, W",
+        ),
+        (
+            ["--budget", "0"],
+            "invalid power `0` in `--budget`: expected a number above 0 with one of the units mW, "
+            "W, as in 50mW",
+        ),
+        (
+            ["--samples", "3"],
+            "`--samples` must be a comma-separated list of 1, 2, 4, 8, 16, 32, 64; found `3`",
+        ),
         (["--samples", ""], "--samples"),
         (["--samples", "\x1b[2J"], "`\\x1b[2J`"),
-        (["--output", "sarif"], "unknown output format `sarif`: expected one of full, json, markdown"),
+        (
+            ["--output", "sarif"],
+            "unknown output format `sarif`: expected one of full, json, markdown",
+        ),
         (["--output", "json", "--output", "markdown"], "only one output can go to standard output"),
         (["--output", "json=no/such/folder/x.json"], "cannot write no/such/folder/x.json"),
         (["--chart", "x.pdf"], "must be the name of an .svg, .png, or .json file"),
@@ -201,8 +268,12 @@ def test_options_that_cannot_be_used(folder: Path, options: list[str], said: str
     assert said in done.stderr
 
 
-@pytest.mark.parametrize("text", ["", "# nothing\n", "a: [", "images: {a: {smaples: 4}}", "[" * 5000, "images: null"])
-def test_an_input_that_cannot_be_used_is_said_as_check_says_it_and_the_others_are_shown(folder: Path, text: str) -> None:
+@pytest.mark.parametrize(
+    "text", ["", "# nothing\n", "a: [", "images: {a: {smaples: 4}}", "[" * 5000, "images: null"]
+)
+def test_an_input_that_cannot_be_used_is_said_as_check_says_it_and_the_others_are_shown(
+    folder: Path, text: str
+) -> None:
     (folder / "broken.msaa.yaml").write_text(text, encoding="utf-8")
     done = run(folder, "cost", "broken.msaa.yaml", "a.msaa.yaml", "b.msaa.yaml")
     assert done.returncode == 2
@@ -215,7 +286,9 @@ def test_an_input_that_cannot_be_used_is_said_as_check_says_it_and_the_others_ar
 
 
 def test_a_document_that_cannot_be_used_leaves_the_others(folder: Path) -> None:
-    (folder / "two.yaml").write_text(f"images: {{a: {{smaples: 4}}}}\n---\n{SIZED}", encoding="utf-8")
+    (folder / "two.yaml").write_text(
+        f"images: {{a: {{smaples: 4}}}}\n---\n{SIZED}", encoding="utf-8"
+    )
     found = report(folder, "two.yaml", code=2)
     assert [each["document"] for each in found["frames"]] == [1]
 
@@ -227,7 +300,17 @@ def test_no_input_that_can_be_used(folder: Path) -> None:
 
 
 def test_outputs_go_to_files(folder: Path) -> None:
-    done = run(folder, "cost", "a.msaa.yaml", "--output", "json=cost.json", "--output", "markdown=cost.md", "--output", "full")
+    done = run(
+        folder,
+        "cost",
+        "a.msaa.yaml",
+        "--output",
+        "json=cost.json",
+        "--output",
+        "markdown=cost.md",
+        "--output",
+        "full",
+    )
     assert "total" in done.stdout
     validator().validate(json.loads((folder / "cost.json").read_text(encoding="utf-8")))
     assert (folder / "cost.md").read_text(encoding="utf-8").startswith("<!-- msaa-lint cost -->\n")
@@ -236,9 +319,16 @@ def test_outputs_go_to_files(folder: Path) -> None:
 def test_names_are_shown_and_do_nothing(folder: Path) -> None:
     name = "\\e[2J\\u202e[red]::error::x|<script>"
     image = '"::stop-commands::x"'
-    text = SIZED.replace("main:", f'"{name}":').replace("ms:", f"{image}:").replace("image: ms", f"image: {image}")
+    text = (
+        SIZED.replace("main:", f'"{name}":')
+        .replace("ms:", f"{image}:")
+        .replace("image: ms", f"image: {image}")
+    )
     (folder / "hostile.yaml").write_text(text, encoding="utf-8")
-    text = run(folder, "cost", "hostile.yaml", "--output", "markdown=x.md").stdout + run(folder, "cost", "hostile.yaml").stdout
+    text = (
+        run(folder, "cost", "hostile.yaml", "--output", "markdown=x.md").stdout
+        + run(folder, "cost", "hostile.yaml").stdout
+    )
     for line in (text + (folder / "x.md").read_text(encoding="utf-8")).split("\n"):
         assert line.isprintable()
         assert not line.lstrip().startswith("::")
@@ -256,7 +346,9 @@ def test_a_reader_that_goes_away_is_no_failure_of_the_program(folder: Path) -> N
     import sys
 
     command = f"{sys.executable} -m msaa_lint cost {EXAMPLES.parent} | head -1"
-    done = subprocess.run(["sh", "-c", command], cwd=ROOT, capture_output=True, text=True, check=False)
+    done = subprocess.run(
+        ["sh", "-c", command], cwd=ROOT, capture_output=True, text=True, check=False
+    )
     assert "Traceback" not in done.stderr and "failed" not in done.stderr
 
 
@@ -272,13 +364,20 @@ def test_chart(folder: Path) -> None:
     done = run(folder, "cost", ".", "--chart", "y.svg")
     assert done.returncode == 2
     assert "--chart draws one frame, or two that are compared, not 3" in done.stderr
-    assert "cannot write no/such/x.svg" in run(folder, "cost", "a.msaa.yaml", "--chart", "no/such/x.svg").stderr
+    assert (
+        "cannot write no/such/x.svg"
+        in run(folder, "cost", "a.msaa.yaml", "--chart", "no/such/x.svg").stderr
+    )
 
 
 def test_chart_without_its_extra_says_how_to_install_it(folder: Path) -> None:
     (folder / "shadow" / "altair").mkdir(parents=True)
-    (folder / "shadow" / "altair" / "__init__.py").write_text("raise ModuleNotFoundError(name='altair')\n", encoding="utf-8")
-    done = run(folder, "cost", "a.msaa.yaml", "--chart", "x.svg", PYTHONPATH=f"{folder / 'shadow'}:{ROOT}")
+    (folder / "shadow" / "altair" / "__init__.py").write_text(
+        "raise ModuleNotFoundError(name='altair')\n", encoding="utf-8"
+    )
+    done = run(
+        folder, "cost", "a.msaa.yaml", "--chart", "x.svg", PYTHONPATH=f"{folder / 'shadow'}:{ROOT}"
+    )
     assert done.returncode == 2
     assert done.stderr == f"msaa-lint: {needs_extra('--chart', 'chart')}\n"
     assert "total" in done.stdout, "the table is shown all the same"
@@ -287,7 +386,18 @@ def test_chart_without_its_extra_says_how_to_install_it(folder: Path) -> None:
 
 def test_help_says_what_two_files_and_exit_codes_mean(tmp_path: Path) -> None:
     shown = " ".join(run(tmp_path, "cost", "--help", COLUMNS="200").stdout.split())
-    for option in ["each", "fps", "size", "profile", "milliwatts-per-gbps", "budget", "samples", "output", "chart", "color"]:
+    for option in [
+        "each",
+        "fps",
+        "size",
+        "profile",
+        "milliwatts-per-gbps",
+        "budget",
+        "samples",
+        "output",
+        "chart",
+        "color",
+    ]:
         assert f"--{option}" in shown
     assert "Exactly two files are compared" in shown
     assert "Exits with 0" in shown
@@ -307,9 +417,13 @@ renderPasses:
 """
 
 
-@pytest.mark.parametrize("paths", [("a.msaa.yaml", "unknown.msaa.yaml"), ("unknown.msaa.yaml", "a.msaa.yaml")])
+@pytest.mark.parametrize(
+    "paths", [("a.msaa.yaml", "unknown.msaa.yaml"), ("unknown.msaa.yaml", "a.msaa.yaml")]
+)
 @pytest.mark.parametrize("output", ["full", "json", "markdown"])
-def test_what_lacks_sizes_is_not_compared(folder: Path, paths: tuple[str, str], output: str) -> None:
+def test_what_lacks_sizes_is_not_compared(
+    folder: Path, paths: tuple[str, str], output: str
+) -> None:
     (folder / "unknown.msaa.yaml").write_text(UNKNOWN, encoding="utf-8")
     done = run(folder, "cost", *paths, "--output", output)
     assert (done.returncode, done.stdout) == (2, "")
@@ -319,8 +433,13 @@ def test_what_lacks_sizes_is_not_compared(folder: Path, paths: tuple[str, str], 
     )
     done = run(folder, "cost", *paths, "--output", output, "--size", "100x100")
     assert (done.returncode, done.stdout) == (2, "")
-    assert "the cost of `main` is unknown: `b (attachment 1)`: its format is not stated: write `format`\n" in done.stderr
-    (folder / "unknown.msaa.yaml").write_text(UNKNOWN.replace("b: {", "b: {format: R8_UNORM, "), encoding="utf-8")
+    assert (
+        "the cost of `main` is unknown: `b (attachment 1)`: its format is not stated: write "
+        "`format`\n" in done.stderr
+    )
+    (folder / "unknown.msaa.yaml").write_text(
+        UNKNOWN.replace("b: {", "b: {format: R8_UNORM, "), encoding="utf-8"
+    )
     assert run(folder, "cost", *paths, "--output", output, "--size", "100x100").returncode == 0
 
 
@@ -329,4 +448,7 @@ def test_what_lacks_sizes_is_shown_alone(folder: Path) -> None:
     for words in (["unknown.msaa.yaml"], ["a.msaa.yaml", "unknown.msaa.yaml", "--each"]):
         done = run(folder, "cost", *words)
         assert done.returncode == 0
-        assert "\nunknown: `main`: its size is not stated: write `frame: {width: ..., height: ...}`\n" in done.stdout
+        assert (
+            "\nunknown: `main`: its size is not stated: write `frame: {width: ..., height: ...}`\n"
+            in done.stdout
+        )

@@ -1,4 +1,6 @@
-"""`msaa-lint device`, and reports named by descriptions, `--profile` and the configuration, as processes."""
+"""`msaa-lint device`, and reports named by descriptions, `--profile` and the configuration, as
+processes.
+"""
 
 from __future__ import annotations
 
@@ -57,14 +59,29 @@ def test_text_of_a_report(folder: Path) -> None:
 
 def test_tiles_of_a_built_in_device(folder: Path) -> None:
     lines = run(folder, "device", "mali-g76").stdout.splitlines()
-    assert lines[1].split() == ["samples", "color", "depth", "stencil", "integer", "tile,", "RGBA8", "of", "devices", "of", "tilers"]
+    assert lines[1].split() == [
+        "samples",
+        "color",
+        "depth",
+        "stencil",
+        "integer",
+        "tile,",
+        "RGBA8",
+        "of",
+        "devices",
+        "of",
+        "tilers",
+    ]
     assert lines[4].split() == ["4x", "yes", "yes", "yes", "?", "256", "px", "99", "%", "100", "%"]
     assert lines[5].split() == ["8x", "yes", "yes", "yes", "?", "128", "px", "80", "%", "18", "%"]
 
 
 def test_a_minimum_is_worded_as_one(folder: Path) -> None:
     text = run(folder, "device", "class.json#VP_OWN_base").stdout
-    assert text.splitlines()[0] == "VP_OWN_base (Vulkan 1.1.106, a minimum that every such device guarantees)"
+    assert (
+        text.splitlines()[0]
+        == "VP_OWN_base (Vulkan 1.1.106, a minimum that every such device guarantees)"
+    )
     assert "- not guaranteed; ? unknown" in text
     assert "not supported" not in text
 
@@ -79,12 +96,17 @@ def test_json(folder: Path) -> None:
         False,
     )
     assert found["sample_counts"] == {
-        "color": [1, 4, 8], "depth": [1, 4], "stencil": [1, 4, 8, 16], "integer": [1, 4], "no_attachments": [1, 2, 4, 8],
-        "sampled_color": [1, 4, 8], "sampled_integer": [1], "sampled_depth": [1, 4], "sampled_stencil": [1, 4], "storage": [1],
+        "color": [1, 4, 8], "depth": [1, 4], "stencil": [1, 4, 8, 16], "integer": [1, 4],
+        "no_attachments": [1, 2, 4, 8],
+        "sampled_color": [1, 4, 8], "sampled_integer": [1], "sampled_depth": [1, 4],
+        "sampled_stencil": [1, 4], "storage": [1],
         "sample_locations": None,
     }  # fmt: skip
     assert found["lazily_allocated"] is True
-    assert found["heaps"] == [{"bytes": 3 << 30, "device_local": True}, {"bytes": 256 << 20, "device_local": False}]
+    assert found["heaps"] == [
+        {"bytes": 3 << 30, "device_local": True},
+        {"bytes": 256 << 20, "device_local": False},
+    ]
     assert (found["features_recorded"], found["extensions_recorded"]) == (None, None)
     assert found["shares"]["samples"]["8"] == {"all": 80, "tilers": 18}
     assert found["shares"]["lazily_allocated_of_vendor"] == 91
@@ -108,11 +130,15 @@ def test_json_of_several(folder: Path) -> None:
 
 
 def test_standard_input(folder: Path) -> None:
-    done = run(folder, "device", "-", "--output", "json", stdin=reported.DIALECTS["vkjson"].encode())
+    done = run(
+        folder, "device", "-", "--output", "json", stdin=reported.DIALECTS["vkjson"].encode()
+    )
     assert (done.returncode, [each["key"] for each in devices(done.stdout)]) == (0, [None])
     done = run(folder, "device", "-", stdin=b"hello")
     assert (done.returncode, done.stdout) == (2, "")
-    assert done.stderr.startswith("msaa-lint: standard input: it is not a device report; expected vulkaninfo")
+    assert done.stderr.startswith(
+        "msaa-lint: standard input: it is not a device report; expected vulkaninfo"
+    )
 
 
 def test_what_cannot_be_had(folder: Path) -> None:
@@ -127,13 +153,22 @@ def test_what_cannot_be_had(folder: Path) -> None:
 
 
 def test_hostile_names_are_escaped(folder: Path) -> None:
-    (folder / "own.json").write_text(reported.DIALECTS["gpuinfo"].replace("Mali-G999 MC3", "\\u001b[31m\\u202eevil[/bold]\\ud800"))
+    (folder / "own.json").write_text(
+        reported.DIALECTS["gpuinfo"].replace(
+            "Mali-G999 MC3", "\\u001b[31m\\u202eevil[/bold]\\ud800"
+        )
+    )
     done = run(folder, "device", "own.json")
     assert done.returncode == 0
-    assert done.stdout.splitlines()[0] == "\\x1b[31m\\u202eevil[/bold]\\ud800 (arm, tile-based, integrated GPU, Vulkan 1.3.77)"
+    assert (
+        done.stdout.splitlines()[0]
+        == "\\x1b[31m\\u202eevil[/bold]\\ud800 (arm, tile-based, integrated GPU, Vulkan 1.3.77)"
+    )
     for output in ("json", "description"):
         assert run(folder, "device", "own.json", "--output", output).returncode == 0
-    (folder / "own.json").write_text(reported.DIALECTS["gpuinfo"].replace("Mali-G999 MC3", "::error::x"))
+    (folder / "own.json").write_text(
+        reported.DIALECTS["gpuinfo"].replace("Mali-G999 MC3", "::error::x")
+    )
     assert run(folder, "device", "own.json").stdout.startswith("\\x3a:error::x (arm, ")
 
 
@@ -142,7 +177,11 @@ def test_list(folder: Path) -> None:
     assert "mali-g715" in text
     assert "vulkan.gpuinfo.org report 38609" in text
     rows = json.loads(run(folder, "device", "--list", "--output", "json").stdout)["profiles"]
-    assert {"key": "lavapipe", "name": "llvmpipe", "source": "vulkaninfo of llvmpipe, Mesa 22.3.6, LLVM 15.0.6"} in rows
+    assert {
+        "key": "lavapipe",
+        "name": "llvmpipe",
+        "source": "vulkaninfo of llvmpipe, Mesa 22.3.6, LLVM 15.0.6",
+    } in rows
 
 
 def codes(folder: Path, *arguments: str) -> list[str]:
@@ -157,25 +196,33 @@ def test_a_description_names_a_report(folder: Path) -> None:
         assert written.returncode == 0
         by_name = codes(folder, "a.msaa.yaml")
         assert not any(code.startswith("MSAA9") for code in by_name), by_name
-        (folder / "a.msaa.yaml").write_text(written.stdout + EIGHT.split("\n", 1)[1].replace("{{", "{").replace("}}", "}"))
+        (folder / "a.msaa.yaml").write_text(
+            written.stdout + EIGHT.split("\n", 1)[1].replace("{{", "{").replace("}}", "}")
+        )
         assert codes(folder, "a.msaa.yaml") == by_name
 
 
 def test_a_report_decides_what_is_found(folder: Path) -> None:
     (folder / "four.json").write_text(
-        reported.DIALECTS["gpuinfo"].replace('"framebufferColorSampleCounts": 13', '"framebufferColorSampleCounts": 5')
+        reported.DIALECTS["gpuinfo"].replace(
+            '"framebufferColorSampleCounts": 13', '"framebufferColorSampleCounts": 5'
+        )
     )
     (folder / "a.msaa.yaml").write_text(EIGHT.format("four.json"))
     four = codes(folder, "a.msaa.yaml")
     (folder / "a.msaa.yaml").write_text(EIGHT.format("phone.json"))
     assert set(four) - set(codes(folder, "a.msaa.yaml")), "8 samples are not supported by the one"
-    (folder / "a.msaa.yaml").write_text(EIGHT.split("\n", 1)[1].replace("{{", "{").replace("}}", "}"))
+    (folder / "a.msaa.yaml").write_text(
+        EIGHT.split("\n", 1)[1].replace("{{", "{").replace("}}", "}")
+    )
     assert codes(folder, "--profile", "four.json", "a.msaa.yaml") == four
     (folder / "msaa-lint.toml").write_text('profile = "four.json"\n')
     assert codes(folder, "a.msaa.yaml") == four
     (folder / "inner").mkdir()
     (folder / "a.msaa.yaml").rename(folder / "inner" / "a.msaa.yaml")
-    assert codes(folder / "inner", "a.msaa.yaml") == four, "the path counts from the configuration's folder"
+    assert codes(folder / "inner", "a.msaa.yaml") == four, (
+        "the path counts from the configuration's folder"
+    )
 
 
 def test_a_description_that_names_no_report(folder: Path) -> None:
@@ -202,7 +249,12 @@ def test_the_running_driver(folder: Path) -> None:
     done = run(folder, "device", "--output", "json", VK_DRIVER_FILES=icd)
     (found,) = devices(done.stdout)
     assert found["name"].startswith("llvmpipe")
-    assert (found["vendor"], found["tiler"], found["device_type"], found["key"]) == ("mesa", False, "CPU", None)
+    assert (found["vendor"], found["tiler"], found["device_type"], found["key"]) == (
+        "mesa",
+        False,
+        "CPU",
+        None,
+    )
     assert found["sample_counts"]["color"] == [1, 4]
     assert found["lazily_allocated"] is False
     assert "sampleRateShading" in found["features"]
@@ -219,17 +271,26 @@ def test_no_driver(folder: Path) -> None:
 
 def test_without_the_package(folder: Path) -> None:
     (folder / "broken").mkdir()
-    (folder / "broken" / "vulkan.py").write_text("raise ImportError(\"No module named 'vulkan'\", name='vulkan')\n")
+    (folder / "broken" / "vulkan.py").write_text(
+        "raise ImportError(\"No module named 'vulkan'\", name='vulkan')\n"
+    )
     done = run(folder, "device", PYTHONPATH=f"{folder / 'broken'}{os.pathsep}{ROOT}")
     assert done.returncode == 2
     assert needs_extra("calling a Vulkan driver", "confirm") in done.stderr
-    assert run(folder, "device", "mali-g76", PYTHONPATH=f"{folder / 'broken'}{os.pathsep}{ROOT}").returncode == 0
+    assert (
+        run(
+            folder, "device", "mali-g76", PYTHONPATH=f"{folder / 'broken'}{os.pathsep}{ROOT}"
+        ).returncode
+        == 0
+    )
 
 
 def test_a_driver_that_crashes_is_named_by_its_signal(folder: Path) -> None:
     """A package `vulkan` that dies as a driver does: the command lives."""
     (folder / "crash").mkdir()
-    (folder / "crash" / "vulkan.py").write_text("import os, signal\nos.kill(os.getpid(), signal.SIGSEGV)\n")
+    (folder / "crash" / "vulkan.py").write_text(
+        "import os, signal\nos.kill(os.getpid(), signal.SIGSEGV)\n"
+    )
     done = run(folder, "device", PYTHONPATH=f"{folder / 'crash'}{os.pathsep}{ROOT}")
     assert done.returncode == 2
     assert "SIGSEGV" in done.stderr

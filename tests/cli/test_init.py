@@ -29,13 +29,17 @@ def test_init_makes_a_project_that_lints(tmp_path: Path) -> None:
     jsonschema.validate(yaml.safe_load(frame), json.loads(schema.read_text(encoding="utf-8")))
     checked = run(tmp_path, *shlex.split(re.findall(r"  msaa-lint (check .*)", done.stdout)[0]))
     assert checked.returncode == 1
-    assert {line.split(":")[1] for line in checked.stdout.splitlines() if line.startswith("a b/")} == {"24"}
+    assert {
+        line.split(":")[1] for line in checked.stdout.splitlines() if line.startswith("a b/")
+    } == {"24"}
 
 
 def test_what_init_wrote_is_one_input(tmp_path: Path) -> None:
     run(tmp_path, "init")
     done = run(tmp_path, "check", "--output", "json", ".")
-    assert {finding["file"] for finding in json.loads(done.stdout)["findings"]} == {"frame.msaa.yaml"}
+    assert {finding["file"] for finding in json.loads(done.stdout)["findings"]} == {
+        "frame.msaa.yaml"
+    }
     assert run(tmp_path, "check", "--fix", ".").returncode == 0
 
 
@@ -51,7 +55,9 @@ def test_init_changes_no_file(tmp_path: Path) -> None:
 
 def test_init_keeps_a_configuration_in_pyproject(tmp_path: Path) -> None:
     """msaa-lint.toml would take its place."""
-    (tmp_path / "pyproject.toml").write_text("[tool.msaa-lint]\nfail-on = 'error'\n", encoding="utf-8")
+    (tmp_path / "pyproject.toml").write_text(
+        "[tool.msaa-lint]\nfail-on = 'error'\n", encoding="utf-8"
+    )
     done = run(tmp_path, "init")
     assert "pyproject.toml configures msaa-lint: wrote no msaa-lint.toml" in done.stderr
     assert not (tmp_path / "msaa-lint.toml").exists()
@@ -64,7 +70,9 @@ def test_init_keeps_a_configuration_in_pyproject(tmp_path: Path) -> None:
 
 def test_the_examples_of_help_run_in_a_new_project(tmp_path: Path) -> None:
     run(tmp_path, "init")
-    commands = re.findall(r"^ +msaa-lint (check .*)$", run(tmp_path, "check", "--help").stdout, re.MULTILINE)
+    commands = re.findall(
+        r"^ +msaa-lint (check .*)$", run(tmp_path, "check", "--help").stdout, re.MULTILINE
+    )
     assert [run(tmp_path, *command.split()).returncode for command in commands] == [1, 0]
 
 
@@ -75,14 +83,27 @@ def test_the_hook_that_init_prints_runs(tmp_path: Path) -> None:
     done = run(tmp_path, "init")
     (tmp_path / "bin").mkdir()
     program = tmp_path / "bin" / "msaa-lint"
-    program.write_text(f'#!/bin/sh\nPYTHONPATH={ROOT} exec {sys.executable} -m msaa_lint "$@"\n', encoding="utf-8")
+    program.write_text(
+        f'#!/bin/sh\nPYTHONPATH={ROOT} exec {sys.executable} -m msaa_lint "$@"\n', encoding="utf-8"
+    )
     program.chmod(0o755)
-    (tmp_path / ".pre-commit-config.yaml").write_text("repos:\n" + done.stdout[done.stdout.index("  - repo:") :], encoding="utf-8")
-    environment = {"PATH": f"{program.parent}:{os.environ['PATH']}", "HOME": str(tmp_path), "PRE_COMMIT_HOME": str(tmp_path / "cache")}
+    (tmp_path / ".pre-commit-config.yaml").write_text(
+        "repos:\n" + done.stdout[done.stdout.index("  - repo:") :], encoding="utf-8"
+    )
+    environment = {
+        "PATH": f"{program.parent}:{os.environ['PATH']}",
+        "HOME": str(tmp_path),
+        "PRE_COMMIT_HOME": str(tmp_path / "cache"),
+    }
     subprocess.run(["git", "init", "--quiet"], cwd=tmp_path, env=environment, check=True)
     subprocess.run(["git", "add", "."], cwd=tmp_path, env=environment, check=True)
     hook = subprocess.run(
-        [sys.executable, "-m", "pre_commit", "run"], cwd=tmp_path, env=environment, capture_output=True, text=True, check=False
+        [sys.executable, "-m", "pre_commit", "run"],
+        cwd=tmp_path,
+        env=environment,
+        capture_output=True,
+        text=True,
+        check=False,
     )
     assert hook.returncode == 1
     assert "frame.msaa.yaml:24:18: warning[multisampled-attachment-stored]" in hook.stdout

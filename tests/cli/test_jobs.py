@@ -1,4 +1,6 @@
-"""Many inputs: divided among processes, and kept between runs. The output is the same bytes as that of one process."""
+"""Many inputs: divided among processes, and kept between runs. The output is the same bytes as that
+of one process.
+"""
 
 from __future__ import annotations
 
@@ -20,7 +22,9 @@ from tests.command import environment_of, run, run_process
 from tests.descriptions import CLEAN, STORED
 from tests.paths import ROOT
 
-pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="processes are copied, and ended by signals")
+pytestmark = pytest.mark.skipif(
+    sys.platform == "win32", reason="processes are copied, and ended by signals"
+)
 
 FILLER = f"# {'filler ' * 60}\n"
 BROKEN = "images: {color: {samples: 3}}\n"
@@ -42,12 +46,17 @@ Samples cost memory.
 
 @pytest.fixture
 def corpus(tmp_path: Path) -> Path:
-    """Forty descriptions under two configurations, a program, a broken input, an input that cannot be read, and a custom rule."""
+    """Forty descriptions under two configurations, a program, a broken input, an input that cannot
+    be read, and a custom rule.
+    """
     folder = tmp_path / "corpus"
     for number in range(40):
         path = folder / ("team" if number % 2 else "other") / f"{number:02}.msaa.yaml"
         path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text((CLEAN, STORED, STORED + "# msaa-lint: ignore-file[MSAA201] here\n", BROKEN)[number % 4] + FILLER)
+        path.write_text(
+            (CLEAN, STORED, STORED + "# msaa-lint: ignore-file[MSAA201] here\n", BROKEN)[number % 4]
+            + FILLER
+        )
     (folder / "team" / "msaa-lint.toml").write_text('rules = ["pages"]\nignore = ["MSAA403"]\n')
     (folder / "team" / "pages").mkdir()
     (folder / "team" / "pages" / "team-rule.md").write_text(RULE)
@@ -73,7 +82,14 @@ def check(corpus: Path, *options: str, **environment: str) -> tuple[int, str, st
 
 
 @pytest.mark.parametrize(
-    "options", [(), ("--fail-on-cost", "1mW"), ("--baseline", "baseline.json"), ("--sort", "price"), ("--ignore", "MSAA2")]
+    "options",
+    [
+        (),
+        ("--fail-on-cost", "1mW"),
+        ("--baseline", "baseline.json"),
+        ("--sort", "price"),
+        ("--ignore", "MSAA2"),
+    ],
 )
 def test_processes_say_what_one_says(corpus: Path, options: tuple[str, ...]) -> None:
     run(corpus, "baseline", "other/01.msaa.yaml", "other/02.msaa.yaml", "--file", "baseline.json")
@@ -84,7 +100,10 @@ def test_processes_say_what_one_says(corpus: Path, options: tuple[str, ...]) -> 
 
 @pytest.mark.parametrize("output", ["concise", "sarif", "html"])
 def test_every_format_is_the_same(corpus: Path, output: str) -> None:
-    one, three = (run_process(corpus, "check", ".", "--output", output, "--jobs", jobs, "--no-cache").stdout for jobs in ("1", "3"))
+    one, three = (
+        run_process(corpus, "check", ".", "--output", output, "--jobs", jobs, "--no-cache").stdout
+        for jobs in ("1", "3")
+    )
     assert one == three and "MSAA201" in one
 
 
@@ -93,12 +112,34 @@ def test_json_is_the_same_with_another_output(corpus: Path) -> None:
     pytest.importorskip("tree_sitter_cpp")
     from tests.input.code.project.test_folders import PASS, settings, write
 
-    write(corpus / "code", {"a.cpp": PASS, "b.cpp": PASS, "settings.h": settings(4), "other.cpp": PASS.replace('"settings.h"', '"no.h"')})
-    (corpus / "msaa-lint.toml").write_text('select = ["MSAA2", "MSAA4", "MSAA999"]\nmin-severity = "warning"\n')
+    write(
+        corpus / "code",
+        {
+            "a.cpp": PASS,
+            "b.cpp": PASS,
+            "settings.h": settings(4),
+            "other.cpp": PASS.replace('"settings.h"', '"no.h"'),
+        },
+    )
+    (corpus / "msaa-lint.toml").write_text(
+        'select = ["MSAA2", "MSAA4", "MSAA999"]\nmin-severity = "warning"\n'
+    )
     alone = run(corpus, "check", ".", "missing.msaa.yaml", "--output", "json", "--no-cache")
-    run(corpus, "check", ".", "missing.msaa.yaml", "--output", "json=both.json", "--output", "concise", "--no-cache")
+    run(
+        corpus,
+        "check",
+        ".",
+        "missing.msaa.yaml",
+        "--output",
+        "json=both.json",
+        "--output",
+        "concise",
+        "--no-cache",
+    )
     assert json.loads(alone.stdout)["summary"]["files_with_findings"] > 20
-    assert {"code/a.cpp", "missing.msaa.yaml"} <= {finding["file"] for finding in json.loads(alone.stdout)["findings"]}
+    assert {"code/a.cpp", "missing.msaa.yaml"} <= {
+        finding["file"] for finding in json.loads(alone.stdout)["findings"]
+    }
     assert (corpus / "both.json").read_text() == alone.stdout
 
 
@@ -122,17 +163,30 @@ def test_one_input_that_ends_processes_is_a_finding_of_it(corpus: Path) -> None:
         sys.argv = ["msaa-lint", "check", ".", "--output", "json", "--jobs", "2", "--no-cache"]
         main()
     """
-    done = subprocess.run([sys.executable, "-c", code], cwd=corpus, capture_output=True, text=True, check=False, env=environment_of({}))
+    done = subprocess.run(
+        [sys.executable, "-c", code],
+        cwd=corpus,
+        capture_output=True,
+        text=True,
+        check=False,
+        env=environment_of({}),
+    )
     assert (done.returncode, done.stderr) == (2, "")
-    found, expected = json.loads(done.stdout)["findings"], json.loads(check(corpus, "--jobs", "1")[1])["findings"]
+    found, expected = (
+        json.loads(done.stdout)["findings"],
+        json.loads(check(corpus, "--jobs", "1")[1])["findings"],
+    )
     assert [each for each in found if each not in expected] == [
         {**next(each for each in found if each["file"] == "other/04.msaa.yaml"), "code": "MSAA941"}
     ]
     (lost,) = [each for each in found if each["file"] == "other/04.msaa.yaml"]
     assert lost["message"] == (
-        "not linted: it ended the process that read it (SIGKILL): memory probably ran out; use fewer `--jobs` or more memory"
+        "not linted: it ended the process that read it (SIGKILL): memory probably ran out; use "
+        "fewer `--jobs` or more memory"
     )
-    assert [each for each in found if each != lost] == [each for each in expected if each["file"] != "other/04.msaa.yaml"]
+    assert [each for each in found if each != lost] == [
+        each for each in expected if each["file"] != "other/04.msaa.yaml"
+    ]
 
 
 @pytest.mark.parametrize("jobs", ["1", "2"])
@@ -166,11 +220,23 @@ def linted(corpus: Path, kept: Path, monkeypatch: pytest.MonkeyPatch, *options: 
 
     with monkeypatch.context() as patch:
         patch.setattr(Engine, "lint", noted)
-        run(corpus, "check", ".", "--output", "json", "--jobs", "1", *options, XDG_CACHE_HOME=str(kept))
+        run(
+            corpus,
+            "check",
+            ".",
+            "--output",
+            "json",
+            "--jobs",
+            "1",
+            *options,
+            XDG_CACHE_HOME=str(kept),
+        )
     return list(dict.fromkeys(names))
 
 
-def test_a_second_run_reads_what_changed(corpus: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_second_run_reads_what_changed(
+    corpus: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     kept = tmp_path / "kept"
     first = linted(corpus, kept, monkeypatch)
     assert len(first) == 41
@@ -208,7 +274,18 @@ def test_a_shader_beside_an_input_is_seen(tmp_path: Path, monkeypatch: pytest.Mo
 def test_what_cannot_be_divided_is_linted_by_one_process(corpus: Path) -> None:
     """Standard input is read once, and fixes are made in order."""
     named = ("--stdin-filename", "in.msaa.yaml")
-    done = run_process(corpus, "check", "other", "-", *named, "--jobs", "3", "--output", "concise", stdin=STORED.encode())
+    done = run_process(
+        corpus,
+        "check",
+        "other",
+        "-",
+        *named,
+        "--jobs",
+        "3",
+        "--output",
+        "concise",
+        stdin=STORED.encode(),
+    )
     assert "in.msaa.yaml:7:59: warning[multisampled-attachment-stored]" in done.stdout
     fixed = run_process(corpus, "check", ".", "--fix", "--unsafe-fixes", "--jobs", "3")
     assert "MSAA201" not in run_process(corpus, "check", ".").stdout and fixed.returncode == 2
@@ -217,12 +294,26 @@ def test_what_cannot_be_divided_is_linted_by_one_process(corpus: Path) -> None:
 def test_processes_of_no_use_are_not_started(tmp_path: Path) -> None:
     (tmp_path / "one.msaa.yaml").write_text(STORED)
     command = [sys.executable, "-X", "importtime", "-m", "msaa_lint", "check", "one.msaa.yaml"]
-    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False, env=environment_of({"PYTHONPATH": str(ROOT)}))
+    done = subprocess.run(
+        command,
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        check=False,
+        env=environment_of({"PYTHONPATH": str(ROOT)}),
+    )
     assert "multiprocessing" not in done.stderr and "msaa_lint.linter.kept_parts" not in done.stderr
 
 
 @pytest.mark.parametrize("output", ["full", "json", "html"])
 def test_costs_are_those_of_one_process(corpus: Path, output: str) -> None:
-    one, three = (run_process(corpus, "cost", ".", "--each", "--output", output, "--jobs", jobs) for jobs in ("1", "3"))
-    assert (one.returncode, one.stdout, one.stderr) == (three.returncode, three.stdout, three.stderr)
+    one, three = (
+        run_process(corpus, "cost", ".", "--each", "--output", output, "--jobs", jobs)
+        for jobs in ("1", "3")
+    )
+    assert (one.returncode, one.stdout, one.stderr) == (
+        three.returncode,
+        three.stdout,
+        three.stderr,
+    )
     assert one.returncode == 2 and "forward" in one.stdout and "unreadable" in one.stderr

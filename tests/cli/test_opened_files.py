@@ -1,4 +1,6 @@
-"""Nothing outside the project is opened because content names it: neither to read it, nor to tell whether a kept result still holds."""
+"""Nothing outside the project is opened because content names it: neither to read it, nor to tell
+whether a kept result still holds.
+"""
 
 from __future__ import annotations
 
@@ -61,7 +63,16 @@ def project(tmp_path: Path) -> Path:
     outside.mkdir()
     (project / ".git").mkdir(parents=True)
     (project / "rules").mkdir()
-    for name in ("module.spv", "shader.frag", "header.h", "page.md", "base.toml", "base.json", "frame.msaa.yaml", "ignored"):
+    for name in (
+        "module.spv",
+        "shader.frag",
+        "header.h",
+        "page.md",
+        "base.toml",
+        "base.json",
+        "frame.msaa.yaml",
+        "ignored",
+    ):
         (outside / name).write_text("#define COUNT VK_SAMPLE_COUNT_4_BIT\n")
     (project / "up").symlink_to("../outside")
     (project / "link.spv").symlink_to("../outside/module.spv")
@@ -69,11 +80,19 @@ def project(tmp_path: Path) -> Path:
     (project / "linked.msaa.yaml").symlink_to("../outside/frame.msaa.yaml")
     (project / ".gitignore").symlink_to("../outside/ignored")
     (project / "compile_commands.json").symlink_to("../outside/base.json")
-    modules = ("../outside/module.spv", "up/shader.frag", "link.spv", f"{outside}/module.spv", "../project/../outside/gone.spv")
+    modules = (
+        "../outside/module.spv",
+        "up/shader.frag",
+        "link.spv",
+        f"{outside}/module.spv",
+        "../project/../outside/gone.spv",
+    )
     for number, module in enumerate(modules):
         (project / f"shaded{number}.msaa.yaml").write_text(SHADED.replace("MODULE", module))
         (project / f"shaded{number}.msaa.yaml.msaa-study.json").symlink_to("../outside/base.json")
-        (project / f"device{number}.msaa.yaml").write_text(SHADED.replace("MODULE", "none.spv") + f"device: {module}\n")
+        (project / f"device{number}.msaa.yaml").write_text(
+            SHADED.replace("MODULE", "none.spv") + f"device: {module}\n"
+        )
     (project / "code.cpp").write_text(CODE.replace("OUTSIDE", str(outside)))
     return project
 
@@ -97,7 +116,9 @@ def settled() -> None:
     time.sleep(0.05)
 
 
-@pytest.mark.parametrize("command", ["check", "check --jobs 2", "check --fix --diff", "cost", "convert"])
+@pytest.mark.parametrize(
+    "command", ["check", "check --jobs 2", "check --fix --diff", "cost", "convert"]
+)
 def test_inputs_that_name_what_is_outside(project: Path, command: str) -> None:
     """Cold, then with what the first run kept."""
     settled()
@@ -112,17 +133,31 @@ def test_inputs_that_name_what_is_outside(project: Path, command: str) -> None:
 @pytest.mark.parametrize("key", ["rules", "extends", "baseline", "profile"])
 @pytest.mark.parametrize("folder", ["../outside", "up"])
 def test_a_configuration_that_names_what_is_outside(project: Path, key: str, folder: str) -> None:
-    name = {"rules": "page.md", "extends": "base.toml", "baseline": "base.json", "profile": "base.json"}[key]
+    name = {
+        "rules": "page.md",
+        "extends": "base.toml",
+        "baseline": "base.json",
+        "profile": "base.json",
+    }[key]
     (project / "rules/own.md").symlink_to("../../outside/page.md")
-    (project / "msaa-lint.toml").write_text(f"{key} = " + (f'["{folder}/{name}", "rules"]' if key == "rules" else f'"{folder}/{name}"'))
+    (project / "msaa-lint.toml").write_text(
+        f"{key} = " + (f'["{folder}/{name}", "rules"]' if key == "rules" else f'"{folder}/{name}"')
+    )
     settled()
-    for command in ("check shaded0.msaa.yaml", "check --jobs 2 .", "cost shaded0.msaa.yaml", "baseline --file b.json shaded0.msaa.yaml"):
+    for command in (
+        "check shaded0.msaa.yaml",
+        "check --jobs 2 .",
+        "cost shaded0.msaa.yaml",
+        "baseline --file b.json shaded0.msaa.yaml",
+    ):
         assert run(project, *command.split())[1] == [], command
 
 
 @pytest.mark.parametrize("name", ["inner.spv", "folder/inner.spv"])
 def test_what_was_inside_when_it_was_kept(project: Path, name: str) -> None:
-    """A kept result is not compared with what a link leads to since then, and it does not outlast the refusal."""
+    """A kept result is not compared with what a link leads to since then, and it does not outlast
+    the refusal.
+    """
     (project / "folder").mkdir()
     (project / name).write_bytes(b"not SPIR-V")
     (project / "shaded0.msaa.yaml").write_text(SHADED.replace("MODULE", name))
@@ -132,7 +167,11 @@ def test_what_was_inside_when_it_was_kept(project: Path, name: str) -> None:
     def messages() -> list[str]:
         output, opened = run(project, *command)
         assert opened == []
-        return [finding["message"] for finding in json.loads(output)["findings"] if finding["code"] in ("MSAA903", "MSAA904")]
+        return [
+            finding["message"]
+            for finding in json.loads(output)["findings"]
+            if finding["code"] in ("MSAA903", "MSAA904")
+        ]
 
     assert messages() == [f"`{name}`: it is not SPIR-V"] or "outside" not in messages()[0]
     (project / name).unlink()

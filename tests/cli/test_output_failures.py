@@ -1,4 +1,6 @@
-"""Standard output that cannot be written ends every command in one line and with exit code 2, and a closed pipe in none."""
+"""Standard output that cannot be written ends every command in one line and with exit code 2, and a
+closed pipe in none.
+"""
 
 from __future__ import annotations
 
@@ -21,14 +23,19 @@ from tests.paths import ROOT
 
 COMMANDS = (
     "--version", "--help", "check --help", "--show-completion bash",
-    "check --isolated frame.msaa.yaml", "check --isolated --statistics frame.msaa.yaml", "check --isolated --diff frame.msaa.yaml",
+    "check --isolated frame.msaa.yaml", "check --isolated --statistics frame.msaa.yaml",
+    "check --isolated --diff frame.msaa.yaml",
     *(f"check --isolated --output {format} frame.msaa.yaml" for format in OUTPUT_FORMATS),
     "check --isolated --fix -",
-    *(f"cost --isolated --output {format} frame.msaa.yaml" for format in ("full", "json", "markdown")),
+    *(f"cost --isolated --output {format} frame.msaa.yaml" for format in ("full", "json",
+    "markdown")),
     "study --list-scenes",
-    "rule MSAA201", "rule MSAA901", "rule --all", "rule --all --output json", "rule --all --output markdown",
-    "facts", "facts --output json", "facts --output markdown", "facts frame.msaa.yaml", "facts frame.msaa.yaml --output json",
-    "device mali-g76", "device mali-g76 --output json", "device mali-g76 --output description", "device --list",
+    "rule MSAA201", "rule MSAA901", "rule --all", "rule --all --output json", "rule --all --output "
+        "markdown",
+    "facts", "facts --output json", "facts --output markdown", "facts frame.msaa.yaml",
+    "facts frame.msaa.yaml --output json",
+    "device mali-g76", "device mali-g76 --output json", "device mali-g76 --output description",
+    "device --list",
     "schema", "schema json-v1", "convert capture.jsonl", "init new",
 )  # fmt: skip
 
@@ -56,8 +63,12 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return path
 
 
-def run_broken(folder: Path, words: str, number: int, monkeypatch: pytest.MonkeyPatch) -> tuple[int, str]:
-    """The exit code of a command whose standard output fails, and its standard error; standard output is closed if `number` is 0."""
+def run_broken(
+    folder: Path, words: str, number: int, monkeypatch: pytest.MonkeyPatch
+) -> tuple[int, str]:
+    """The exit code of a command whose standard output fails, and its standard error; standard
+    output is closed if `number` is 0.
+    """
     broken = Broken(number)
     out = io.TextIOWrapper(io.BufferedWriter(broken)) if number else None
     errors = io.TextIOWrapper(io.BytesIO(), encoding="utf-8")
@@ -71,7 +82,10 @@ def run_broken(folder: Path, words: str, number: int, monkeypatch: pytest.Monkey
     monkeypatch.setattr(sys, "argv", ["msaa-lint", *words.split()])
     # typer asks which shell it was started from, which may be one that it has no completion for.
     monkeypatch.setattr("shellingham.detect_shell", lambda *_: ("bash", "/bin/bash"))
-    with mock.patch.dict(os.environ, environment_of({}), clear=True), pytest.raises(SystemExit) as end:
+    with (
+        mock.patch.dict(os.environ, environment_of({}), clear=True),
+        pytest.raises(SystemExit) as end,
+    ):
         try:
             main()
         finally:
@@ -89,19 +103,37 @@ def run_broken(folder: Path, words: str, number: int, monkeypatch: pytest.Monkey
     [(errno.ENOSPC, os.strerror(errno.ENOSPC)), (errno.EPIPE, ""), (0, "it is closed")],
     ids=["full", "pipe", "closed"],
 )
-def test_standard_output_fails(folder: Path, words: str, number: int, reason: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_standard_output_fails(
+    folder: Path, words: str, number: int, reason: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
     code, errors = run_broken(folder, words, number, monkeypatch)
-    lines = [line for line in errors.splitlines() if not line.startswith(("msaa-lint: wrote ", "msaa-lint: new", "msaa-lint: 3 "))]
-    assert (code, lines) == (2, [f"msaa-lint: cannot write to standard output: {reason}"] if reason else [])
+    lines = [
+        line
+        for line in errors.splitlines()
+        if not line.startswith(("msaa-lint: wrote ", "msaa-lint: new", "msaa-lint: 3 "))
+    ]
+    assert (code, lines) == (
+        2,
+        [f"msaa-lint: cannot write to standard output: {reason}"] if reason else [],
+    )
 
 
 @pytest.mark.skipif(not os.path.exists("/dev/full"), reason="the system has no /dev/full")
 @pytest.mark.parametrize("words", ["schema", "check --isolated frame.msaa.yaml"])
-@pytest.mark.parametrize("redirection", [">/dev/full", ">&-", "2>/dev/full", "2>&-", "<&-", ">/dev/full 2>&-"])
+@pytest.mark.parametrize(
+    "redirection", [">/dev/full", ">&-", "2>/dev/full", "2>&-", "<&-", ">/dev/full 2>&-"]
+)
 def test_real_streams_fail(folder: Path, words: str, redirection: str) -> None:
     """The interpreter has nothing to add when it closes its streams."""
     command = f"{sys.executable} -m msaa_lint {words} {redirection}"
-    done = subprocess.run(["sh", "-c", command], cwd=folder, env=environment_of({}), capture_output=True, text=True, check=False)
+    done = subprocess.run(
+        ["sh", "-c", command],
+        cwd=folder,
+        env=environment_of({}),
+        capture_output=True,
+        text=True,
+        check=False,
+    )
     fails = redirection.startswith(">")
     assert done.returncode == (2 if fails else 1 if words.startswith("check") else 0)
     assert done.stderr.count("\n") == (1 if fails and "2>" not in redirection else 0)
@@ -112,6 +144,13 @@ def test_real_streams_fail(folder: Path, words: str, redirection: str) -> None:
 
 def test_the_current_folder_is_gone(tmp_path: Path) -> None:
     command = f"mkdir gone; cd gone; rmdir ../gone; {sys.executable} -P -m msaa_lint check ."
-    done = subprocess.run(["sh", "-c", command], cwd=tmp_path, env=environment_of({}), capture_output=True, text=True, check=False)
+    done = subprocess.run(
+        ["sh", "-c", command],
+        cwd=tmp_path,
+        env=environment_of({}),
+        capture_output=True,
+        text=True,
+        check=False,
+    )
     assert (done.returncode, done.stderr.count("\n")) == (2, 1), done.stderr
     assert done.stderr.startswith("msaa-lint: the current folder cannot be used: ")

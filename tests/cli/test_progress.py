@@ -18,16 +18,35 @@ pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="terminals are P
 
 
 def shown(folder: Path, *arguments: str, **variables: str) -> bytes:
-    """What `check` writes to a terminal on standard error while a capture comes through a pipe that pauses."""
+    """What `check` writes to a terminal on standard error while a capture comes through a pipe that
+    pauses.
+    """
     import pty
 
     lines = forward(1).text().splitlines()
     master, terminal = pty.openpty()
-    environment = {name: value for name, value in os.environ.items() if name not in ("CI", "NO_COLOR")}
+    environment = {
+        name: value for name, value in os.environ.items() if name not in ("CI", "NO_COLOR")
+    }
     environment |= {"PYTHONPATH": str(ROOT), "TERM": "xterm", "COLUMNS": "120", **variables}
-    command = [sys.executable, "-m", "msaa_lint", "check", "-", "--isolated", "--output", "json", *arguments]
+    command = [
+        sys.executable,
+        "-m",
+        "msaa_lint",
+        "check",
+        "-",
+        "--isolated",
+        "--output",
+        "json",
+        *arguments,
+    ]
     with subprocess.Popen(
-        command, cwd=folder, env=environment, stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=terminal
+        command,
+        cwd=folder,
+        env=environment,
+        stdin=subprocess.PIPE,
+        stdout=subprocess.DEVNULL,
+        stderr=terminal,
     ) as running:
         os.close(terminal)
         assert running.stdin is not None
@@ -47,6 +66,10 @@ def test_a_capture_that_takes_a_while_has_a_bar_with_megabytes_and_frames(tmp_pa
     assert b" MB, " in written and b" frame" in written
 
 
-@pytest.mark.parametrize(("arguments", "variables"), [(["--quiet"], {}), ([], {"CI": "true"}), ([], {"TERM": "dumb"})])
-def test_nobody_who_does_not_watch_gets_a_bar(arguments: list[str], variables: dict[str, str], tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    ("arguments", "variables"), [(["--quiet"], {}), ([], {"CI": "true"}), ([], {"TERM": "dumb"})]
+)
+def test_nobody_who_does_not_watch_gets_a_bar(
+    arguments: list[str], variables: dict[str, str], tmp_path: Path
+) -> None:
     assert b"reading" not in shown(tmp_path, *arguments, **variables)

@@ -41,9 +41,14 @@ def test_a_custom_rule_is_found_by_the_configuration(project: Path, name: str) -
     for folder in (project, project / "src"):
         done = run(folder, "rule", name)
         assert (done.returncode, done.stderr) == (0, "")
-        assert done.stdout.startswith(f"# {NAME}\n\n**ACME001** {NAME}, error, confidence high, a custom rule in `")
+        assert done.stdout.startswith(
+            f"# {NAME}\n\n**ACME001** {NAME}, error, confidence high, a custom rule in `"
+        )
         assert "image.samples > 2" in done.stdout
-    assert json.loads(run(project, "rule", name, "--output", "json").stdout)["page_path"] == f"team/{NAME}.md"
+    assert (
+        json.loads(run(project, "rule", name, "--output", "json").stdout)["page_path"]
+        == f"team/{NAME}.md"
+    )
 
 
 def test_the_options_of_a_configuration_apply(project: Path) -> None:
@@ -55,10 +60,16 @@ def test_the_options_of_a_configuration_apply(project: Path) -> None:
     assert run(other, "rule", NAME).returncode == 2
     assert run(other, "rule", NAME, "--config", "../msaa-lint.toml").returncode == 0
     missing = run(other, "rule", NAME, "--config", "missing.toml")
-    assert (missing.returncode, "missing.toml: cannot read the configuration" in missing.stderr) == (2, True)
+    assert (
+        missing.returncode,
+        "missing.toml: cannot read the configuration" in missing.stderr,
+    ) == (2, True)
 
 
-@pytest.mark.parametrize("name", ["msaa201", "MSAA201", "multisampled-attachment-stored", "Multisampled-Attachment-Stored"])
+@pytest.mark.parametrize(
+    "name",
+    ["msaa201", "MSAA201", "multisampled-attachment-stored", "Multisampled-Attachment-Stored"],
+)
 def test_names_and_codes_in_any_case(tmp_path: Path, name: str) -> None:
     assert run(tmp_path, "rule", name).stdout.startswith("# multisampled-attachment-stored\n")
     assert run(tmp_path, "rule", "msaa901").stdout.startswith("# syntax\n")
@@ -66,9 +77,18 @@ def test_names_and_codes_in_any_case(tmp_path: Path, name: str) -> None:
 
 @pytest.mark.parametrize(
     ("name", "meant"),
-    [("NOPE", None), ("test", None), ("help", None), ("eye-bufer-samples", NAME), ("acme-01", "ACME001"), ("sample-count-above-for", None)],
+    [
+        ("NOPE", None),
+        ("test", None),
+        ("help", None),
+        ("eye-bufer-samples", NAME),
+        ("acme-01", "ACME001"),
+        ("sample-count-above-for", None),
+    ],
 )
-def test_an_unknown_rule_gets_a_suggestion_only_if_one_is_near(project: Path, name: str, meant: str | None) -> None:
+def test_an_unknown_rule_gets_a_suggestion_only_if_one_is_near(
+    project: Path, name: str, meant: str | None
+) -> None:
     done = run(project, "rule", name)
     assert (done.returncode, done.stdout) == (2, "")
     if name.endswith("above-for"):
@@ -79,13 +99,23 @@ def test_an_unknown_rule_gets_a_suggestion_only_if_one_is_near(project: Path, na
 
 
 def test_a_broken_page_comes_first(project: Path) -> None:
-    (project / "team" / f"{NAME}.md").write_text(PAGE.replace("severity", "severty"), encoding="utf-8")
-    (project / "msaa-lint.toml").write_text('rules = ["team"]\nextend-select = ["ACME001"]\n', encoding="utf-8")
-    problem = f"msaa-lint: team/{NAME}.md:3:1: rule page `{NAME}`: unknown key `severty`: did you mean `severity`?\n"
+    (project / "team" / f"{NAME}.md").write_text(
+        PAGE.replace("severity", "severty"), encoding="utf-8"
+    )
+    (project / "msaa-lint.toml").write_text(
+        'rules = ["team"]\nextend-select = ["ACME001"]\n', encoding="utf-8"
+    )
+    problem = (
+        f"msaa-lint: team/{NAME}.md:3:1: rule page `{NAME}`: unknown key `severty`: did you "
+        f"mean `severity`?\n"
+    )
     for name in (NAME, "acme001"):
         done = run(project, "rule", name)
         assert (done.returncode, done.stdout, done.stderr) == (2, "", problem)
-    assert run(project, "rule", "NOPE").stderr == f"{problem}msaa-lint: unknown rule `NOPE`: `msaa-lint rule --all` lists the rules\n"
+    assert (
+        run(project, "rule", "NOPE").stderr
+        == f"{problem}msaa-lint: unknown rule `NOPE`: `msaa-lint rule --all` lists the rules\n"
+    )
     listed = run(project, "rule", "--all")
     assert (listed.returncode, listed.stderr) == (2, problem)
     assert "multisampled-attachment-stored" in listed.stdout
@@ -96,16 +126,29 @@ def test_a_broken_page_comes_first(project: Path) -> None:
 def test_the_list_has_custom_rules(project: Path) -> None:
     lines = run(project, "rule", "--all").stdout.splitlines()
     (line,) = (line for line in lines if NAME in line)
-    assert line.split(maxsplit=3) == ["ACME001", NAME, "error", f"(team/{NAME}.md) The studio's limit for eye buffers."]
-    rows = {row["code"]: row for row in json.loads(run(project, "rule", "--all", "--output", "json").stdout)}
+    assert line.split(maxsplit=3) == [
+        "ACME001",
+        NAME,
+        "error",
+        f"(team/{NAME}.md) The studio's limit for eye buffers.",
+    ]
+    rows = {
+        row["code"]: row
+        for row in json.loads(run(project, "rule", "--all", "--output", "json").stdout)
+    }
     assert (rows["ACME001"]["page_path"], rows["MSAA201"]["page_path"]) == (f"team/{NAME}.md", None)
     page = run(project, "rule", "--all", "--output", "markdown").stdout
-    assert f"## Custom\n\n| code | rule | severity | summary |\n|---|---|---|---|\n| ACME001 | [{NAME}](team/{NAME}.md) | error |" in page
+    assert (
+        f"## Custom\n\n| code | rule | severity | summary |\n|---|---|---|---|\n| ACME001 | "
+        f"[{NAME}](team/{NAME}.md) | error |" in page
+    )
 
 
 @pytest.mark.parametrize("columns", ["", "80", "40"])
 def test_the_list_has_one_line_for_each_rule_in_a_pipe(tmp_path: Path, columns: str) -> None:
-    lines = run(tmp_path, "rule", "--all", **({"COLUMNS": columns} if columns else {})).stdout.splitlines()
+    lines = run(
+        tmp_path, "rule", "--all", **({"COLUMNS": columns} if columns else {})
+    ).stdout.splitlines()
     assert [line.split()[1] for line in lines][: len(NAMES)] == NAMES
     assert all(line.startswith("MSAA") for line in lines)
 
@@ -122,7 +165,9 @@ def test_the_list_fits_a_terminal_with_whole_names(tmp_path: Path, width: int) -
     ours, theirs = pty.openpty()
     fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", 24, width, 0, 0))
     command = [sys.executable, "-m", "msaa_lint", "rule", "--all"]
-    with subprocess.Popen(command, stdout=theirs, cwd=tmp_path, env=environment_of({}), close_fds=True) as process:
+    with subprocess.Popen(
+        command, stdout=theirs, cwd=tmp_path, env=environment_of({}), close_fds=True
+    ) as process:
         os.close(theirs)
         shown = b""
         while True:
@@ -146,6 +191,8 @@ def test_a_missing_folder_of_rules_is_said_where_it_is_named(project: Path) -> N
     stated = "msaa-lint: <command line>: no such file or folder `nope` in `--rules`\n"
     assert run(project, "rule", "x", "--rules", "nope").stderr == f"{stated}{unknown}"
     (project / "msaa-lint.toml").write_text('rules = ["tean"]\n', encoding="utf-8")
-    assert run(project, "rule", "x").stderr.startswith("msaa-lint: msaa-lint.toml:1:10: no such file or folder `tean`")
+    assert run(project, "rule", "x").stderr.startswith(
+        "msaa-lint: msaa-lint.toml:1:10: no such file or folder `tean`"
+    )
     (project / "msaa-lint.toml").write_text("", encoding="utf-8")
     assert run(project, "rule", "").stderr == unknown.replace("`x`", "``")

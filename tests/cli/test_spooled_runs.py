@@ -1,4 +1,6 @@
-"""Many inputs: what a run found leaves memory. The output is the same bytes as that of a run that has it in memory."""
+"""Many inputs: what a run found leaves memory. The output is the same bytes as that of a run that
+has it in memory.
+"""
 
 from __future__ import annotations
 
@@ -26,22 +28,30 @@ static inline void create(VkDevice device, VkImage* image) {
 
 @pytest.fixture
 def corpus(tmp_path: Path) -> Path:
-    """Descriptions under two configurations, one of which names a broken rule page that is also an input, programs with a common header,
-    broken inputs, and one that cannot be read."""
+    """Descriptions under two configurations, one of which names a broken rule page that is also an
+    input, programs with a common header, broken inputs, and one that cannot be read.
+    """
     folder = tmp_path / "corpus"
     for name in ("first", "second"):
         (folder / name).mkdir(parents=True)
         for number in range(10):
-            text = (CLEAN, STORED, "# msaa-lint: ignore-file[MSAA201] here\n" + STORED, BROKEN)[number % 4]
+            text = (CLEAN, STORED, "# msaa-lint: ignore-file[MSAA201] here\n" + STORED, BROKEN)[
+                number % 4
+            ]
             (folder / name / f"{number}.msaa.yaml").write_text(text)
     (folder / "image.h").write_text(HEADER)
     for name in ("first", "last"):
-        text = f'#include "image.h"\nvoid {name}(VkDevice device, VkImage* image) {{ create(device, image); }}\n'
+        text = (
+            f'#include "image.h"\nvoid {name}(VkDevice device, VkImage* image) {{ '
+            f"create(device, image); }}\n"
+        )
         (folder / f"{name}.c").write_text(text)
     (folder / "second" / "unreadable.msaa.yaml").write_bytes(b"images: \xff\n")
     (folder / "second" / "msaa-lint.toml").write_text('rules = ["pages"]\nignore = ["MSAA403"]\n')
     (folder / "second" / "pages").mkdir()
-    (folder / "second" / "pages" / "team.md").write_text(f"---\ncode: TEAM1\n---\n\n```c\n{HEADER}```\n")
+    (folder / "second" / "pages" / "team.md").write_text(
+        f"---\ncode: TEAM1\n---\n\n```c\n{HEADER}```\n"
+    )
     return folder
 
 
@@ -51,7 +61,11 @@ def spooled(monkeypatch: pytest.MonkeyPatch) -> Iterator[pytest.MonkeyPatch]:
     written = []
     create = spool.Spool.table
     with monkeypatch.context() as patch:
-        patch.setattr(spool.Spool, "table", lambda self, columns: written.append(columns) or create(self, columns))
+        patch.setattr(
+            spool.Spool,
+            "table",
+            lambda self, columns: written.append(columns) or create(self, columns),
+        )
         patch.setattr(spool, "MAX_VALUES", 2)
         patch.setattr(spool, "MAX_UNWRITTEN", 1)
         patch.setattr(spool, "MAX_READ", 1)
@@ -74,12 +88,18 @@ OPTIONS = {
 
 
 @pytest.mark.parametrize("options", OPTIONS.values(), ids=OPTIONS)
-def test_the_output_is_the_same(corpus: Path, options: tuple[str, ...], spooled: pytest.MonkeyPatch) -> None:
+def test_the_output_is_the_same(
+    corpus: Path, options: tuple[str, ...], spooled: pytest.MonkeyPatch
+) -> None:
     run(corpus, "baseline", "first/1.msaa.yaml", "first/2.msaa.yaml", "--file", "baseline.json")
     found = run(corpus, "check", *PATHS, "--no-cache", *options)
     spooled.undo()
     expected = run(corpus, "check", *PATHS, "--no-cache", *options)
-    assert (found.returncode, found.stdout, found.stderr) == (expected.returncode, expected.stdout, expected.stderr)
+    assert (found.returncode, found.stdout, found.stderr) == (
+        expected.returncode,
+        expected.stdout,
+        expected.stderr,
+    )
     assert len(expected.stdout) > 100
 
 
@@ -88,5 +108,9 @@ def test_costs_are_the_same(corpus: Path, output: str, spooled: pytest.MonkeyPat
     found = run(corpus, "cost", ".", "--output", output)
     spooled.undo()
     expected = run(corpus, "cost", ".", "--output", output)
-    assert (found.returncode, found.stdout, found.stderr) == (expected.returncode, expected.stdout, expected.stderr)
+    assert (found.returncode, found.stdout, found.stderr) == (
+        expected.returncode,
+        expected.stdout,
+        expected.stderr,
+    )
     assert len(expected.stdout) > 100

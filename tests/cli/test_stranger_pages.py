@@ -41,7 +41,15 @@ def folder(tmp_path: Path) -> Path:
 
 
 @pytest.mark.parametrize(
-    "words", ["ACME001", "ACME001 --output markdown", "ACME001 --output json", "--all", "--all --output markdown", "--all --output json"]
+    "words",
+    [
+        "ACME001",
+        "ACME001 --output markdown",
+        "ACME001 --output json",
+        "--all",
+        "--all --output markdown",
+        "--all --output json",
+    ],
 )
 def test_pages_and_lists_are_escaped(words: str, folder: Path) -> None:
     done = run(folder, "rule", *words.split(), "--isolated", "--rules", "acme-rule.md")
@@ -50,23 +58,45 @@ def test_pages_and_lists_are_escaped(words: str, folder: Path) -> None:
     assert "json" in words or not re.search(r"(?m)^\s*::|##\w*\[", done.stdout)
     if "json" in words:
         pages = json.loads(done.stdout)
-        page = pages if isinstance(pages, dict) else next(each for each in pages if each["code"] == "ACME001")
+        page = (
+            pages
+            if isinstance(pages, dict)
+            else next(each for each in pages if each["code"] == "ACME001")
+        )
         assert "\x1b[31mred" in page["summary"] and done.stdout.isascii()
     else:
         assert "x1b" in done.stdout and "u202etxet" in done.stdout
     if words == "--all --output markdown":
         (row,) = [line for line in done.stdout.splitlines() if "ACME001" in line]
-        assert row.count("|") == 5 and "<" not in row and "](javascript" not in row and "@octocat" not in row
+        assert (
+            row.count("|") == 5
+            and "<" not in row
+            and "](javascript" not in row
+            and "@octocat" not in row
+        )
 
 
 def test_a_terminal_shows_a_page_without_its_escapes_and_links(folder: Path) -> None:
-    """Character references, which rich resolves, are escaped too, and the address of a link is shown."""
+    """Character references, which rich resolves, are escaped too, and the address of a link is
+    shown.
+    """
     pty = pytest.importorskip("pty")
-    words = [sys.executable, "-m", "msaa_lint", "rule", "ACME001", "--isolated", "--rules", "acme-rule.md"]
+    words = [
+        sys.executable,
+        "-m",
+        "msaa_lint",
+        "rule",
+        "ACME001",
+        "--isolated",
+        "--rules",
+        "acme-rule.md",
+    ]
     child, terminal = pty.fork()
     if child == 0:  # pragma: no cover
         os.chdir(folder)
-        os.execve(words[0], words, {**environment_of({}), "TERM": "xterm-256color", "COLUMNS": "200"})
+        os.execve(
+            words[0], words, {**environment_of({}), "TERM": "xterm-256color", "COLUMNS": "200"}
+        )
     shown = b""
     while True:
         try:
@@ -85,17 +115,39 @@ def test_a_terminal_shows_a_page_without_its_escapes_and_links(folder: Path) -> 
 
 
 def test_help_in_sarif_is_escaped(folder: Path) -> None:
-    done = run(folder, "check", "--isolated", "--rules", "acme-rule.md", "--output", "sarif", "frame.msaa.yaml")
+    done = run(
+        folder,
+        "check",
+        "--isolated",
+        "--rules",
+        "acme-rule.md",
+        "--output",
+        "sarif",
+        "frame.msaa.yaml",
+    )
     rules = json.loads(done.stdout)["runs"][0]["tool"]["driver"]["rules"]
     (rule,) = [rule for rule in rules if rule["id"] == "ACME001"]
     for text in (rule["help"]["text"], rule["help"]["markdown"], rule["shortDescription"]["text"]):
         assert not HIDDEN.search(text), text
-    assert "\\x1b[31mred" in rule["help"]["markdown"] and "see \\x1b[31m \\u202e here" in rule["help"]["markdown"]
+    assert (
+        "\\x1b[31mred" in rule["help"]["markdown"]
+        and "see \\x1b[31m \\u202e here" in rule["help"]["markdown"]
+    )
 
 
 def test_a_page_with_hidden_characters_is_noted(folder: Path) -> None:
-    done = run(folder, "check", "--isolated", "--rules", "acme-rule.md", "--output", "concise", "frame.msaa.yaml")
+    done = run(
+        folder,
+        "check",
+        "--isolated",
+        "--rules",
+        "acme-rule.md",
+        "--output",
+        "concise",
+        "frame.msaa.yaml",
+    )
     (line,) = [line for line in done.stdout.splitlines() if "MSAA914" in line]
     assert line.startswith(
-        "acme-rule.md:9:22: note[hidden-character] the line contains U+202E RIGHT-TO-LEFT OVERRIDE and 2 more hidden characters"
+        "acme-rule.md:9:22: note[hidden-character] the line contains U+202E RIGHT-TO-LEFT OVERRIDE "
+        "and 2 more hidden characters"
     )

@@ -1,4 +1,6 @@
-"""`--quiet` and `--verbose`: what they leave out and add, and that standard output is the same with `--verbose`."""
+"""`--quiet` and `--verbose`: what they leave out and add, and that standard output is the same with
+`--verbose`.
+"""
 
 from __future__ import annotations
 
@@ -55,8 +57,28 @@ def test_quiet_check_prints_findings_only(folder: Path) -> None:
 
 
 def test_quiet_leaves_out_notes(folder: Path) -> None:
-    assert "is excluded" in run(folder, "check", "stored.msaa.yaml", "clean.msaa.yaml", "--config", str(excluding(folder))).stderr
-    code, _, errors = lines(run(folder, "check", "-q", "stored.msaa.yaml", "clean.msaa.yaml", "--config", str(excluding(folder))))
+    assert (
+        "is excluded"
+        in run(
+            folder,
+            "check",
+            "stored.msaa.yaml",
+            "clean.msaa.yaml",
+            "--config",
+            str(excluding(folder)),
+        ).stderr
+    )
+    code, _, errors = lines(
+        run(
+            folder,
+            "check",
+            "-q",
+            "stored.msaa.yaml",
+            "clean.msaa.yaml",
+            "--config",
+            str(excluding(folder)),
+        )
+    )
     assert (code, errors) == (1, [])
 
 
@@ -90,7 +112,9 @@ def test_quiet_commands_that_write(folder: Path) -> None:
 
 
 def test_quiet_cost_prints_tables_only(folder: Path) -> None:
-    plain, quiet = (run(folder, "cost", *words, "stored.msaa.yaml").stdout for words in ([], ["-q"]))
+    plain, quiet = (
+        run(folder, "cost", *words, "stored.msaa.yaml").stdout for words in ([], ["-q"])
+    )
     assert plain.startswith(quiet.rstrip("\n"))
     assert "shading: " in plain and "shading: " not in quiet
 
@@ -105,17 +129,31 @@ def test_verbose_leaves_standard_output_alone(folder: Path, output: str) -> None
 
 def test_verbose_names_configurations_and_inputs(folder: Path) -> None:
     (folder / "new").mkdir()
-    (folder / "new" / "msaa-lint.toml").write_text('profile = "mali-g76"\nselect = ["MSAA2"]\n', encoding="utf-8")
+    (folder / "new" / "msaa-lint.toml").write_text(
+        'profile = "mali-g76"\nselect = ["MSAA2"]\n', encoding="utf-8"
+    )
     (folder / "new" / "a.msaa.yaml").write_text(CLEAN, encoding="utf-8")
     for command in ("check", "cost"):
         errors = run(folder, command, "-v", "clean.msaa.yaml", "new").stderr
         text = re.sub(r"\d+ (?=rules)", "N ", errors)
         assert "msaa-lint: no configuration file: edition 2026.1, N rules enabled\n" in text
-        assert "msaa-lint: configuration new/msaa-lint.toml: edition 2026.1, N rules enabled, profile mali-g76\n" in text
+        assert (
+            "msaa-lint: configuration new/msaa-lint.toml: edition 2026.1, N rules enabled, profile "
+            "mali-g76\n" in text
+        )
         assert "msaa-lint: clean.msaa.yaml: read as description\n" in text
-        assert "msaa-lint: new/a.msaa.yaml: read as description, configuration new/msaa-lint.toml\n" in text
-    assert re.search(r"msaa-lint: checked 1 input in \d+\.\d\d s\n\Z", run(folder, "check", "-v", "clean.msaa.yaml").stderr)
-    assert "clean.msaa.yaml: read as description" in run(folder, "baseline", "-v", "clean.msaa.yaml").stderr
+        assert (
+            "msaa-lint: new/a.msaa.yaml: read as description, configuration new/msaa-lint.toml\n"
+            in text
+        )
+    assert re.search(
+        r"msaa-lint: checked 1 input in \d+\.\d\d s\n\Z",
+        run(folder, "check", "-v", "clean.msaa.yaml").stderr,
+    )
+    assert (
+        "clean.msaa.yaml: read as description"
+        in run(folder, "baseline", "-v", "clean.msaa.yaml").stderr
+    )
 
 
 def test_verbose_names_what_is_skipped(folder: Path) -> None:
@@ -147,11 +185,17 @@ def test_verbose_names_what_is_skipped(folder: Path) -> None:
 
 
 def test_verbose_names_formats(folder: Path) -> None:
-    (folder / "a.cpp").write_text("VkSampleCountFlagBits s = VK_SAMPLE_COUNT_4_BIT;\n", encoding="utf-8")
+    (folder / "a.cpp").write_text(
+        "VkSampleCountFlagBits s = VK_SAMPLE_COUNT_4_BIT;\n", encoding="utf-8"
+    )
     (folder / "b.yaml").write_text("{", encoding="utf-8")
     shutil.copy(ROOT / "examples" / "capture" / "forward.jsonl", folder / "c.jsonl")
     errors = run(folder, "check", "-v", "a.cpp", "b.yaml", "c.jsonl").stderr
-    assert "a.cpp: read as cpp\n" in errors and "b.yaml: read as nothing\n" in errors and "c.jsonl: read as gfxreconstruct\n" in errors
+    assert (
+        "a.cpp: read as cpp\n" in errors
+        and "b.yaml: read as nothing\n" in errors
+        and "c.jsonl: read as gfxreconstruct\n" in errors
+    )
 
 
 def test_statistics_of_a_clean_input_say_so(folder: Path) -> None:

@@ -57,7 +57,12 @@ class Watching:
 def watching(folder: Path, *arguments: str) -> Iterator[Watching]:
     command = [sys.executable, "-m", "msaa_lint", "check", "--watch", *arguments]
     with subprocess.Popen(
-        command, cwd=folder, env=environment_of({}), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, encoding="utf-8"
+        command,
+        cwd=folder,
+        env=environment_of({}),
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        encoding="utf-8",
     ) as process:
         timer = Timer(LIMIT, process.kill)
         timer.start()
@@ -84,7 +89,9 @@ def replace(file: Path, text: str) -> None:
 
 
 @pytest.mark.parametrize("named", ["scenes", "scenes/frame.msaa.yaml"])
-def test_each_change_of_an_input_is_checked_and_ctrl_c_ends_with_130(frame: Path, named: str) -> None:
+def test_each_change_of_an_input_is_checked_and_ctrl_c_ends_with_130(
+    frame: Path, named: str
+) -> None:
     with watching(frame.parent.parent, named) as process:
         first = process.screen()
         assert RULE in first and "Found 2 findings" in first
@@ -115,7 +122,10 @@ def test_configuration_and_rule_pages_outside_the_inputs(frame: Path) -> None:
     root = frame.parent.parent
     page = root / "pages" / "four-samples.md"
     page.parent.mkdir()
-    front = '---\ncode: ACME001\nseverity: warning\nsubject: image\nwhen: image.samples == 4\nmessage: "%s"\n---\nOurs.\n'
+    front = (
+        "---\ncode: ACME001\nseverity: warning\nsubject: image\nwhen: image.samples == 4\n"
+        'message: "%s"\n---\nOurs.\n'
+    )
     page.write_text(front % "four samples", encoding="utf-8")
     configuration = root / "msaa-lint.toml"
     configuration.write_text("rules = ['pages']\n", encoding="utf-8")
@@ -139,11 +149,15 @@ def test_a_configuration_that_appears_beside_a_named_file_or_above_it(frame: Pat
         assert "No findings" in process.screen()
         beside.unlink()
         assert RULE in process.screen()
-        (root / "pyproject.toml").write_text("[tool.msaa-lint]\nignore = ['ALL']\n", encoding="utf-8")
+        (root / "pyproject.toml").write_text(
+            "[tool.msaa-lint]\nignore = ['ALL']\n", encoding="utf-8"
+        )
         assert "No findings" in process.screen()
 
 
-def test_only_changes_of_what_is_read_concern_it(frame: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_only_changes_of_what_is_read_concern_it(
+    frame: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     root = frame.parent.parent
     monkeypatch.chdir(root)
     (root / "msaa-lint.toml").write_text("include = ['**/*.scene']\n", encoding="utf-8")
@@ -152,11 +166,31 @@ def test_only_changes_of_what_is_read_concern_it(frame: Path, monkeypatch: pytes
         (root / folder).mkdir()
     changed = Watched(Request(["."])).concerns
     assert [name for name in folders if changed(str(root / name))] == ["new"]
-    read = ["new/a.yaml", "a.cpp", "b.scene", "msaa-lint.toml", "new/.gitignore", "shaders/b.spv", "rules/a.md"]
-    others = [".git/a.yaml", "node_modules/a.cpp", ".hidden.yaml", "a.o", "new/a.yaml~", ".msaa.yaml.swp", ".git/.gitignore"]
+    read = [
+        "new/a.yaml",
+        "a.cpp",
+        "b.scene",
+        "msaa-lint.toml",
+        "new/.gitignore",
+        "shaders/b.spv",
+        "rules/a.md",
+    ]
+    others = [
+        ".git/a.yaml",
+        "node_modules/a.cpp",
+        ".hidden.yaml",
+        "a.o",
+        "new/a.yaml~",
+        ".msaa.yaml.swp",
+        ".git/.gitignore",
+    ]
     assert [name for name in read + others if changed(str(root / name))] == read
     alone = Watched(Request(["scenes/frame.msaa.yaml"])).concerns
-    assert [name for name in ("scenes/frame.msaa.yaml", "scenes/b.yaml", "msaa-lint.toml") if alone(str(root / name))] == [
+    assert [
+        name
+        for name in ("scenes/frame.msaa.yaml", "scenes/b.yaml", "msaa-lint.toml")
+        if alone(str(root / name))
+    ] == [
         "scenes/frame.msaa.yaml",
         "msaa-lint.toml",
     ]
@@ -168,7 +202,14 @@ def test_a_terminal_is_cleared_before_each_check(frame: Path) -> None:
     master, terminal = pty.openpty()
     command = [sys.executable, "-m", "msaa_lint", "check", "--watch", "scenes"]
     environment = environment_of({"TERM": "xterm-256color"})
-    with subprocess.Popen(command, cwd=frame.parent.parent, env=environment, stdin=terminal, stdout=terminal, stderr=terminal) as process:
+    with subprocess.Popen(
+        command,
+        cwd=frame.parent.parent,
+        env=environment,
+        stdin=terminal,
+        stdout=terminal,
+        stderr=terminal,
+    ) as process:
         os.close(terminal)
         timer = Timer(LIMIT, process.kill)
         timer.start()
@@ -190,24 +231,45 @@ def test_a_terminal_is_cleared_before_each_check(frame: Path) -> None:
     ("arguments", "message"),
     [
         (["-"], "`--watch` cannot watch standard input; name files or folders"),
-        (["--fix", "scenes"], "`--watch` changes no files; leave out `--fix`, or run it once without `--watch`"),
-        (["--diff", "scenes"], "`--watch` changes no files; leave out `--diff`, or run it once without `--watch`"),
-        (["--output", "json", "scenes"], "`--watch` shows full or concise output on the screen, not `json`; write it without `--watch`"),
+        (
+            ["--fix", "scenes"],
+            "`--watch` changes no files; leave out `--fix`, or run it once without `--watch`",
+        ),
+        (
+            ["--diff", "scenes"],
+            "`--watch` changes no files; leave out `--diff`, or run it once without `--watch`",
+        ),
+        (
+            ["--output", "json", "scenes"],
+            "`--watch` shows full or concise output on the screen, not `json`; write it without "
+            "`--watch`",
+        ),
         (["--output", "full=a.txt", "scenes"], "not `full=a.txt`; write it without `--watch`"),
-        (["--output", "full", "--output", "concise", "scenes"], "`--watch` shows one output; write `--output full` or `--output concise`"),
+        (
+            ["--output", "full", "--output", "concise", "scenes"],
+            "`--watch` shows one output; write `--output full` or `--output concise`",
+        ),
         (["none/frame.yaml"], "its folder does not exist"),
     ],
 )
-def test_what_does_not_go_with_it_is_an_error(frame: Path, arguments: list[str], message: str) -> None:
+def test_what_does_not_go_with_it_is_an_error(
+    frame: Path, arguments: list[str], message: str
+) -> None:
     done = run(frame.parent.parent, "check", "--watch", *arguments)
     assert (done.returncode, done.stdout) == (2, "")
-    assert done.stderr.startswith("msaa-lint: ") and message in done.stderr and len(done.stderr.splitlines()) == 1
+    assert (
+        done.stderr.startswith("msaa-lint: ")
+        and message in done.stderr
+        and len(done.stderr.splitlines()) == 1
+    )
 
 
 def test_without_the_extra_the_error_says_how_to_install_it(frame: Path, tmp_path: Path) -> None:
     absent = tmp_path / "absent"
     absent.mkdir()
-    (absent / "sitecustomize.py").write_text("import sys\nsys.modules['watchfiles'] = None\n", encoding="utf-8")
+    (absent / "sitecustomize.py").write_text(
+        "import sys\nsys.modules['watchfiles'] = None\n", encoding="utf-8"
+    )
     path = os.pathsep.join([str(absent), environment_of({})["PYTHONPATH"]])
     done = run_process(frame.parent.parent, "check", "--watch", "scenes", PYTHONPATH=path)
     assert done.returncode == 2

@@ -1,4 +1,6 @@
-"""Tables in 80 columns: no line is longer, and every number of the wide table is in the narrow one, whole."""
+"""Tables in 80 columns: no line is longer, and every number of the wide table is in the narrow one,
+whole.
+"""
 
 from __future__ import annotations
 
@@ -28,33 +30,47 @@ renderPasses:
 
 
 def tables(text: str) -> list[str]:
-    """The lines of the tables: those below a heading, to the next empty line. Prose is not broken."""
+    """The lines of the tables: those below a heading, to the next empty line. Prose is not
+    broken.
+    """
     found = []
     for part in text.split("\n\n"):
         lines = part.splitlines()
-        if any(re.search(r"\d\.\d", line) for line in lines) and not re.match(r"[a-z]+: ", lines[0]):
+        if any(re.search(r"\d\.\d", line) for line in lines) and not re.match(
+            r"[a-z]+: ", lines[0]
+        ):
             found += lines
     return found
 
 
 def numbers(text: str) -> list[str]:
-    return sorted(number for line in tables(text) for number in NUMBER.findall(line.replace("≥ ", "≥")))
+    return sorted(
+        number for line in tables(text) for number in NUMBER.findall(line.replace("≥ ", "≥"))
+    )
 
 
-@pytest.mark.parametrize("arguments", [["cost", str(path)] for path in EXAMPLES] + [["cost", *map(str, EXAMPLES[:2])]])
+@pytest.mark.parametrize(
+    "arguments", [["cost", str(path)] for path in EXAMPLES] + [["cost", *map(str, EXAMPLES[:2])]]
+)
 def test_tables_of_cost_fit(tmp_path: Path, arguments: list[str]) -> None:
     wide = run(tmp_path, *arguments, COLUMNS="400").stdout
     for environment in ({}, {"COLUMNS": "80"}):
         narrow = run(tmp_path, *arguments, **environment).stdout
         heads = (": 60 frames", " -> ", "This change", "frames per second")
-        assert [line for line in tables(narrow) if len(line) > 80 and not any(head in line for head in heads)] == []
+        assert [
+            line
+            for line in tables(narrow)
+            if len(line) > 80 and not any(head in line for head in heads)
+        ] == []
         assert numbers(narrow) == numbers(wide)
         assert "…" not in narrow
 
 
 @pytest.mark.parametrize("name", ["n" * 200, "a name " * 20, "Namespace::pass"])
 def test_large_figures_and_long_names_of_cost_fit(tmp_path: Path, name: str) -> None:
-    (tmp_path / "a.msaa.yaml").write_text(LONG.replace("NAME", f"'{name.strip()}'"), encoding="utf-8")
+    (tmp_path / "a.msaa.yaml").write_text(
+        LONG.replace("NAME", f"'{name.strip()}'"), encoding="utf-8"
+    )
     done = run(tmp_path, "cost", "a.msaa.yaml", "--profile", "mali-g76", COLUMNS="80")
     assert done.returncode == 0, done.stderr
     lines = [line for line in tables(done.stdout) if "frames per second" not in line]
@@ -68,7 +84,11 @@ def test_tables_of_study_fit(tmp_path: Path, scene: str) -> None:
     pytest.importorskip("numpy")
     words = ["study", scene, "--size", "32x32", "--profile", "mali-g76", "--jobs", "1"]
     wide, narrow = (run(tmp_path, *words, COLUMNS=columns).stdout for columns in ("400", "80"))
-    rows = [line for line in tables(narrow) if not line.startswith(("- ", "effect ", "no effects", "off, "))]
+    rows = [
+        line
+        for line in tables(narrow)
+        if not line.startswith(("- ", "effect ", "no effects", "off, "))
+    ]
     assert rows and max(map(len, rows)) <= 80
     wide_numbers, narrow_numbers = (set(re.findall(r"\d+\.\d+", text)) for text in (wide, narrow))
     assert "left out" not in wide and narrow_numbers < wide_numbers

@@ -1,4 +1,6 @@
-"""The files that commands write: never through a link, and an old file stays until the new one is whole."""
+"""The files that commands write: never through a link, and an old file stays until the new one is
+whole.
+"""
 
 from __future__ import annotations
 
@@ -39,14 +41,18 @@ def test_a_report_is_never_written_through_a_link(command: str, folder: Path) ->
     done = run(folder, *COMMANDS[command])
     assert done.returncode in (0, 1), done.stderr
     assert (folder.parent / "secret").read_text() == "keep"
-    assert not (folder / "report.json").is_symlink() and (folder / "report.json").read_text().startswith(("[", "{"))
+    assert not (folder / "report.json").is_symlink() and (
+        folder / "report.json"
+    ).read_text().startswith(("[", "{"))
 
 
 def test_an_old_report_keeps_its_mode_and_stays_if_the_new_one_fails(folder: Path) -> None:
     report = folder / "report.json"
     report.write_text("old")
     report.chmod(0o640)
-    with mock.patch("msaa_lint.cli.report.gitlab.render", side_effect=OSError(28, "No space left on device")):
+    with mock.patch(
+        "msaa_lint.cli.report.gitlab.render", side_effect=OSError(28, "No space left on device")
+    ):
         done = run(folder, *COMMANDS["check"])
     assert (done.returncode, report.read_text()) == (2, "old")
     assert done.stderr == "msaa-lint: cannot write report.json: No space left on device\n"
@@ -60,7 +66,9 @@ def test_a_stream_is_written_to(folder: Path) -> None:
     if not os.path.exists("/dev/stdout"):
         pytest.skip("the system has no /dev/stdout")
     link = os.readlink("/dev/stdout")
-    done = run_process(folder, "check", "--isolated", "--output", "json=/dev/stdout", "frame.msaa.yaml")
+    done = run_process(
+        folder, "check", "--isolated", "--output", "json=/dev/stdout", "frame.msaa.yaml"
+    )
     assert done.stdout.startswith("{")
     assert os.readlink("/dev/stdout") == link
 
@@ -73,7 +81,10 @@ def test_convert_replaces_a_link_and_not_what_it_leads_to(folder: Path) -> None:
     done = run(folder, "convert", capture, "-o", "out.yaml", "--force")
     assert done.returncode == 0, done.stderr
     assert (folder.parent / "secret").read_text() == "keep"
-    assert not (folder / "out.yaml").is_symlink() and "renderPasses:" in (folder / "out.yaml").read_text()
+    assert (
+        not (folder / "out.yaml").is_symlink()
+        and "renderPasses:" in (folder / "out.yaml").read_text()
+    )
 
 
 def outside_link(folder: Path, name: str) -> Path:
@@ -100,12 +111,17 @@ def test_a_folder_that_is_a_link_out_of_the_project_is_refused(words: str, folde
     (folder / "capture.jsonl").write_bytes((ROOT / "examples/capture/forward.jsonl").read_bytes())
     done = run(folder, *words.split())
     assert (done.returncode, os.listdir(outside)) == (2, [])
-    assert "`out` is a link that leads out of the project; name the place that it leads to" in done.stderr
+    assert (
+        "`out` is a link that leads out of the project; name the place that it leads to"
+        in done.stderr
+    )
 
 
 def test_the_place_that_a_link_leads_to_can_be_named(folder: Path) -> None:
     outside = outside_link(folder, "out")
-    done = run(folder, "check", "--isolated", "--output", f"json={outside}/report.json", "frame.msaa.yaml")
+    done = run(
+        folder, "check", "--isolated", "--output", f"json={outside}/report.json", "frame.msaa.yaml"
+    )
     assert (done.returncode, os.listdir(outside)) == (0, ["report.json"])
 
 
@@ -144,17 +160,35 @@ def test_a_link_to_a_device_or_a_pipe_is_replaced(folder: Path) -> None:
 
 
 def test_dev_null_is_written_to_by_several(folder: Path) -> None:
-    outputs = ("--output", "json=/dev/null", "--output", "sarif=/dev/null", "--output", "markdown=/dev/stdout")
+    outputs = (
+        "--output",
+        "json=/dev/null",
+        "--output",
+        "sarif=/dev/null",
+        "--output",
+        "markdown=/dev/stdout",
+    )
     done = run_process(folder, "check", "--isolated", *outputs, "frame.msaa.yaml")
     assert done.returncode == 0 and done.stdout.startswith("<!-- msaa-lint -->")
     assert stat.S_ISCHR(os.stat("/dev/null").st_mode)
 
 
-@pytest.mark.parametrize("other", ["report.json", "./report.json", "sub/../report.json", "link.json"])
+@pytest.mark.parametrize(
+    "other", ["report.json", "./report.json", "sub/../report.json", "link.json"]
+)
 def test_two_outputs_in_one_file_are_refused(other: str, folder: Path) -> None:
     (folder / "sub").mkdir()
     (folder / "link.json").symlink_to("report.json")
-    done = run(folder, "check", "--isolated", "--output", "json=report.json", "--output", f"sarif={other}", "frame.msaa.yaml")
+    done = run(
+        folder,
+        "check",
+        "--isolated",
+        "--output",
+        "json=report.json",
+        "--output",
+        f"sarif={other}",
+        "frame.msaa.yaml",
+    )
     assert (done.returncode, (folder / "report.json").exists()) == (2, False)
     assert done.stderr == f"msaa-lint: two outputs go to {other}; write each to a file of its own\n"
 
@@ -177,7 +211,10 @@ def test_an_input_is_never_an_output(words: str, folder: Path) -> None:
     os.link(folder / "frame.msaa.yaml", folder / "hard.yaml")
     done = run(folder, *words.split())
     assert (done.returncode, (folder / "frame.msaa.yaml").read_text()) == (2, FRAME)
-    assert done.stderr.count("\n") == 1 and "is an input, which the output would replace" in done.stderr
+    assert (
+        done.stderr.count("\n") == 1
+        and "is an input, which the output would replace" in done.stderr
+    )
 
 
 def test_the_default_baseline_replaces_only_a_baseline(folder: Path) -> None:
@@ -185,12 +222,21 @@ def test_the_default_baseline_replaces_only_a_baseline(folder: Path) -> None:
     path.write_text('{"mine": 1}')
     done = run(folder, "baseline", "--isolated", "frame.msaa.yaml")
     assert (done.returncode, path.read_text()) == (2, '{"mine": 1}')
-    assert done.stderr == "msaa-lint: cannot write msaa-lint-baseline.json: msaa-lint did not write the file that is there\n"
-    assert run(folder, "baseline", "--isolated", "frame.msaa.yaml", "--file", path.name).returncode == 0
+    assert (
+        done.stderr
+        == "msaa-lint: cannot write msaa-lint-baseline.json: msaa-lint did not write the file that "
+        "is there\n"
+    )
+    assert (
+        run(folder, "baseline", "--isolated", "frame.msaa.yaml", "--file", path.name).returncode
+        == 0
+    )
     assert run(folder, "baseline", "--isolated", "frame.msaa.yaml").returncode == 0
 
 
-@pytest.mark.parametrize("words", ["check --output json=report.json", "check --fix", "baseline --file report.json"])
+@pytest.mark.parametrize(
+    "words", ["check --output json=report.json", "check --fix", "baseline --file report.json"]
+)
 def test_a_read_only_file_stays(words: str, folder: Path) -> None:
     (folder / "frame.msaa.yaml").write_text(STORED)
     for name in ("report.json", "frame.msaa.yaml"):
@@ -198,7 +244,10 @@ def test_a_read_only_file_stays(words: str, folder: Path) -> None:
         (folder / name).chmod(0o444)
     done = run(folder, *words.split(), "--isolated", "frame.msaa.yaml")
     assert done.returncode == 2 and "the file is read-only" in done.stdout + done.stderr
-    assert ((folder / "report.json").read_text(), (folder / "frame.msaa.yaml").read_text()) == ("", STORED)
+    assert ((folder / "report.json").read_text(), (folder / "frame.msaa.yaml").read_text()) == (
+        "",
+        STORED,
+    )
 
 
 @pytest.mark.parametrize("named", ["frame.msaa.yaml", "sub/frame.msaa.yaml"])
@@ -213,7 +262,9 @@ def test_a_fix_is_not_written_through_a_link_out_of_the_project(named: str, fold
         (folder / "frame.msaa.yaml").symlink_to("../secret.yaml")
     done = run(folder, "check", "--isolated", "--fix", named)
     assert done.returncode == 2
-    assert (folder / named).read_text() == STORED and (folder.parent / "secret.yaml").read_text() == STORED
+    assert (folder / named).read_text() == STORED and (
+        folder.parent / "secret.yaml"
+    ).read_text() == STORED
 
 
 LIMITED = """\
@@ -245,12 +296,20 @@ def test_a_full_disk_leaves_the_old_file_and_nothing_else(words: str, folder: Pa
     before = sorted(os.listdir(folder))
     command = [sys.executable, "-c", LIMITED, *words.split()]
     done = subprocess.run(
-        command, cwd=folder, env=environment_of({"PYTHONDONTWRITEBYTECODE": "1"}), capture_output=True, text=True, check=False
+        command,
+        cwd=folder,
+        env=environment_of({"PYTHONDONTWRITEBYTECODE": "1"}),
+        capture_output=True,
+        text=True,
+        check=False,
     )
     assert done.returncode == 2 and "File too large" in done.stdout + done.stderr, done
     assert "Traceback" not in done.stderr and done.stderr.count("\n") <= 2
     assert (sorted(os.listdir(folder)), os.listdir(folder / "new")) == (before, [])
-    assert ((folder / "report.json").read_text(), (folder / "frame.msaa.yaml").read_text()) == ("old", STORED)
+    assert ((folder / "report.json").read_text(), (folder / "frame.msaa.yaml").read_text()) == (
+        "old",
+        STORED,
+    )
 
 
 @pytest.mark.parametrize("output", ["gone/report.json", "frame.msaa.yaml/report.json", "folder"])
@@ -258,7 +317,10 @@ def test_an_output_that_cannot_be_created_is_one_line(output: str, folder: Path)
     (folder / "folder").mkdir()
     done = run(folder, "check", "--isolated", "--output", f"json={output}", "frame.msaa.yaml")
     assert done.returncode == 2 and done.stderr.startswith(f"msaa-lint: cannot write {output}: ")
-    assert done.stderr.count("\n") == 1 and sorted(os.listdir(folder)) == ["folder", "frame.msaa.yaml"]
+    assert done.stderr.count("\n") == 1 and sorted(os.listdir(folder)) == [
+        "folder",
+        "frame.msaa.yaml",
+    ]
 
 
 @pytest.mark.parametrize(
@@ -273,7 +335,12 @@ def test_an_output_that_cannot_be_created_is_one_line(output: str, folder: Path)
     ],
 )
 def test_pictures_and_records_replace_nothing_of_others(words: str, folder: Path) -> None:
-    for package in ("altair", "vl_convert", "numpy", *(["vulkan"] if words.startswith("confirm") else [])):
+    for package in (
+        "altair",
+        "vl_convert",
+        "numpy",
+        *(["vulkan"] if words.startswith("confirm") else []),
+    ):
         pytest.importorskip(package)
     outside = outside_link(folder, "out")
     (folder / "frame.msaa.yaml").write_text(STORED)
@@ -282,6 +349,13 @@ def test_pictures_and_records_replace_nothing_of_others(words: str, folder: Path
     if "no Vulkan" in done.stderr or "libvulkan" in done.stderr:
         pytest.skip("no Vulkan device")
     assert done.returncode == 2, done.stderr
-    message = "msaa-lint did not write the file that is there" if "--record" in words else "`out` is a link that leads out of the project"
+    message = (
+        "msaa-lint did not write the file that is there"
+        if "--record" in words
+        else "`out` is a link that leads out of the project"
+    )
     assert done.stderr.count(message) == 1 and done.stderr.count("\n") == 1
-    assert os.listdir(outside) == [] and (folder / "frame.msaa.yaml.msaa-study.json").read_text() == '{"mine": 1}'
+    assert (
+        os.listdir(outside) == []
+        and (folder / "frame.msaa.yaml.msaa-study.json").read_text() == '{"mine": 1}'
+    )

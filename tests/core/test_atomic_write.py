@@ -19,11 +19,26 @@ from msaa_lint.core.atomic_write import NotWritten
 from tests.paths import ROOT
 
 OLD, NEW = b"old: 1\n" * 5000, b"new: 22\n" * 9000
-CALLS = ("open", "fstat", "access", "write", "fchown", "fchmod", "fsync", "close", "replace", "unlink", "urandom", "getpid")
+CALLS = (
+    "open",
+    "fstat",
+    "access",
+    "write",
+    "fchown",
+    "fchmod",
+    "fsync",
+    "close",
+    "replace",
+    "unlink",
+    "urandom",
+    "getpid",
+)
 
 
 class Faulty:
-    """The functions of `os` that the writer calls, of which the one with a number does something else."""
+    """The functions of `os` that the writer calls, of which the one with a number does something
+    else.
+    """
 
     def __init__(self, number: int, fault: Callable[[], None]) -> None:
         self.number = number
@@ -69,8 +84,12 @@ def test_it_writes(file: Path) -> None:
     assert [each.name for each in file.parent.iterdir()] == ["frame.yaml"]
 
 
-@pytest.mark.parametrize("error", [OSError(28, "No space left on device"), KeyboardInterrupt(), MemoryError()])
-def test_a_fault_at_any_call_leaves_it_old_or_new_and_nothing_beside_it(file: Path, error: BaseException) -> None:
+@pytest.mark.parametrize(
+    "error", [OSError(28, "No space left on device"), KeyboardInterrupt(), MemoryError()]
+)
+def test_a_fault_at_any_call_leaves_it_old_or_new_and_nothing_beside_it(
+    file: Path, error: BaseException
+) -> None:
     count = len(calls(file))
     assert count > 10
     for number in range(1, count + 1):
@@ -94,7 +113,9 @@ def test_a_fault_at_any_call_leaves_it_old_or_new_and_nothing_beside_it(file: Pa
         if isinstance(error, OSError):
             # What is said is true.
             assert failed == (after == OLD), faulty.made
-        assert [each.name for each in file.parent.iterdir()] == ["frame.yaml"], faulty.made[number - 1]
+        assert [each.name for each in file.parent.iterdir()] == ["frame.yaml"], faulty.made[
+            number - 1
+        ]
 
 
 def test_short_writes_are_gone_on_with(file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -120,7 +141,10 @@ def test_killed_at_any_call_it_is_old_or_new(file: Path) -> None:
     seen = set()
     for number in range(1, len(names) + 1):
         file.write_bytes(OLD)
-        done = subprocess.run([sys.executable, "-c", KILLED.format(root=str(ROOT)), str(file), str(number)], check=False)
+        done = subprocess.run(
+            [sys.executable, "-c", KILLED.format(root=str(ROOT)), str(file), str(number)],
+            check=False,
+        )
         assert done.returncode == -signal.SIGKILL
         seen.add(file.read_bytes())
         assert seen <= {OLD, NEW}, names[number - 1]
@@ -173,7 +197,9 @@ def test_what_is_no_file_is_left(tmp_path: Path) -> None:
     assert list(tmp_path.iterdir()) == []
 
 
-def test_the_owner_is_kept_where_that_is_permitted(file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_owner_is_kept_where_that_is_permitted(
+    file: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     asked: list[tuple[int, int]] = []
 
     def refused(descriptor: int, user: int, group: int) -> None:

@@ -51,11 +51,16 @@ def test_nothing_is_created_to_read(kept: Cache) -> None:
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="owners of files")
-def test_what_others_could_have_written_is_not_read(kept: Cache, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_others_could_have_written_is_not_read(
+    kept: Cache, monkeypatch: pytest.MonkeyPatch
+) -> None:
     kept.write("part", "a", b"1")
     found = again(kept)
     database = Path(kept.folder, FILE)
-    assert database.stat().st_mode & 0o777 == 0o600 and Path(kept.folder).stat().st_mode & 0o777 == 0o700
+    assert (
+        database.stat().st_mode & 0o777 == 0o600
+        and Path(kept.folder).stat().st_mode & 0o777 == 0o700
+    )
     database.chmod(0o666)
     assert found.read("part", "a") is None
     database.chmod(0o600)
@@ -95,12 +100,18 @@ def test_an_entry_under_another_name_is_not_used(kept: Cache) -> None:
     database = sqlite3.connect(os.path.join(kept.folder, FILE))
     (one, other) = (number for (number,) in database.execute("select number from entries"))
     with database:
-        database.execute("update entries set data = (select data from entries where number = ?) where number = ?", (other, one))
+        database.execute(
+            "update entries set data = (select data from entries where number = ?) where number = "
+            "?",
+            (other, one),
+        )
     database.close()
     assert sorted(again(kept).read_all("part", ["a", "b"]).values()) in ([b"1"], [b"2"])
 
 
-def test_a_database_that_is_locked_is_done_without(kept: Cache, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_database_that_is_locked_is_done_without(
+    kept: Cache, monkeypatch: pytest.MonkeyPatch
+) -> None:
     kept.write("part", "a", b"1")
     kept.close()
     monkeypatch.setattr(cache, "WAIT_SECONDS", 0.01)
@@ -115,7 +126,9 @@ def test_a_database_that_is_locked_is_done_without(kept: Cache, monkeypatch: pyt
     assert again(kept).read_all("part", ["a", "b"]) == {"a": b"1"}
 
 
-def test_entries_that_were_not_used_for_the_longest_time_are_removed(kept: Cache, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_entries_that_were_not_used_for_the_longest_time_are_removed(
+    kept: Cache, monkeypatch: pytest.MonkeyPatch
+) -> None:
     now = 0.0
     monkeypatch.setattr(cache.time, "time", lambda: now)
     for day in range(12):
@@ -145,7 +158,14 @@ def test_processes_write_at_the_same_time(kept: Cache) -> None:
         process.start()
     for process in processes:
         process.join()
-    assert len(kept.read_all("part", [f"{number} {index}" for number in range(4) for index in range(50)])) == 200
+    assert (
+        len(
+            kept.read_all(
+                "part", [f"{number} {index}" for number in range(4) for index in range(50)]
+            )
+        )
+        == 200
+    )
 
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="copies of processes")

@@ -93,7 +93,16 @@ def test_a_glob_that_can_match_nothing_is_refused(pattern: str, reason: str) -> 
         compiled(pattern)
 
 
-@pytest.mark.parametrize("pattern", ["a*" * 127 + "b", "*a" * 127 + "*b", "**/*a*/" * 30 + "b", "[!b]*" * 40 + "b", "**/a/" * 50 + "b"])
+@pytest.mark.parametrize(
+    "pattern",
+    [
+        "a*" * 127 + "b",
+        "*a" * 127 + "*b",
+        "**/*a*/" * 30 + "b",
+        "[!b]*" * 40 + "b",
+        "**/a/" * 50 + "b",
+    ],
+)
 def test_hostile_globs_do_not_backtrack(pattern: str) -> None:
     # A matcher that tries every split of this path would not come back.
     path = "/".join(["a" * 200] * 15)
@@ -111,9 +120,23 @@ def test_globs_agree_with_git(tmp_path_factory: pytest.TempPathFactory) -> None:
         patterns = []
         for _ in range(pick.randint(1, 3)):
             body = "/".join(pick.choice(names) for _ in range(pick.randint(1, 4)))
-            patterns.append(pick.choice(["", "", "", "!"]) + pick.choice(["", "", "/"]) + body + pick.choice(["", "", "/"]))
-        paths = ["/".join("".join(pick.choices("ab", k=pick.randint(1, 3))) for _ in range(pick.randint(1, 4))) for _ in range(40)]
+            patterns.append(
+                pick.choice(["", "", "", "!"])
+                + pick.choice(["", "", "/"])
+                + body
+                + pick.choice(["", "", "/"])
+            )
+        paths = [
+            "/".join(
+                "".join(pick.choices("ab", k=pick.randint(1, 3))) for _ in range(pick.randint(1, 4))
+            )
+            for _ in range(40)
+        ]
         (folder / ".gitignore").write_text("\n".join(patterns) + "\n")
         command = ["git", "-C", str(folder), "check-ignore", "--no-index", "--stdin"]
-        told = subprocess.run(command, input="\n".join(paths) + "\n", capture_output=True, text=True, check=False).stdout.split("\n")
-        assert {path for path in paths if excluded(path, *patterns)} == set(filter(None, told)), patterns
+        told = subprocess.run(
+            command, input="\n".join(paths) + "\n", capture_output=True, text=True, check=False
+        ).stdout.split("\n")
+        assert {path for path in paths if excluded(path, *patterns)} == set(filter(None, told)), (
+            patterns
+        )

@@ -51,7 +51,12 @@ except KeyboardInterrupt:
 
 @pytest.mark.skipif(sys.platform == "win32", reason="os.kill ends the process there")
 @pytest.mark.parametrize(
-    ("case", "printed"), [("during_import", "interrupted"), ("while_held", "held interrupted"), ("else_", "interrupted")]
+    ("case", "printed"),
+    [
+        ("during_import", "interrupted"),
+        ("while_held", "held interrupted"),
+        ("else_", "interrupted"),
+    ],
 )
 def test_an_interrupt_is_raised_where_it_is_not_lost(case: str, printed: str) -> None:
     done = subprocess.run(

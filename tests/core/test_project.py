@@ -14,9 +14,14 @@ NAMES = st.sampled_from(["a", "b", "c", "d", ".", "..", ""])
 PATHS = st.lists(NAMES, min_size=1, max_size=5).map("/".join)
 
 
-@given(links=st.dictionaries(st.sampled_from(["a/c", "b/d", "c", "d", "a/b/c"]), PATHS, max_size=4), path=PATHS)
+@given(
+    links=st.dictionaries(st.sampled_from(["a/c", "b/d", "c", "d", "a/b/c"]), PATHS, max_size=4),
+    path=PATHS,
+)
 @examples()
-def test_links_are_resolved_as_python_does(links: dict[str, str], path: str, tmp_path_factory: pytest.TempPathFactory) -> None:
+def test_links_are_resolved_as_python_does(
+    links: dict[str, str], path: str, tmp_path_factory: pytest.TempPathFactory
+) -> None:
     root = tmp_path_factory.mktemp("tree")
     (root / "a/b").mkdir(parents=True)
     (root / "b").mkdir()

@@ -32,7 +32,10 @@ def test_a_list(values: list[object]) -> None:
     assert (list(spooled), len(spooled), bool(spooled)) == (values, len(values), bool(values))
     assert [spooled[number] for number in range(-len(values), len(values))] == values * 2
     assert list(spooled[1:-1]) == values[1:-1] and list(spooled[::-2]) == values[::-2]
-    assert isinstance(spooled.finished(), list) == (len(values) < 3) and list(spooled.finished()) == values
+    assert (
+        isinstance(spooled.finished(), list) == (len(values) < 3)
+        and list(spooled.finished()) == values
+    )
     with pytest.raises(IndexError):
         spooled[len(values)]
 
@@ -75,7 +78,11 @@ def test_a_full_disk_is_one_error() -> None:
     assert spool.database is not None
     spool.database.execute("pragma max_page_count = 3")
     values: SpooledList[Any] = SpooledList(spool)
-    with pytest.raises(SpoolError, match=r"^cannot keep results in a temporary file: .*full; set TMPDIR to a folder with more room$"):
+    with pytest.raises(
+        SpoolError,
+        match=r"^cannot keep results in a temporary file: .*full; set TMPDIR to a folder with more "
+        r"room$",
+    ):
         values.extend(bytes(5000) for _ in range(10))
 
 

@@ -30,7 +30,11 @@ from msaa_lint.core.suggestions import (
         ("pAttachments", ["subpasses", "attachments"], "attachments"),
         ("Forward", ["backward", "forward"], "forward"),
         ("zzz", ["loadOp", "storeOp"], None),
-        ("multisampled-stored", ["multisampled-attachment-stored"], "multisampled-attachment-stored"),
+        (
+            "multisampled-stored",
+            ["multisampled-attachment-stored"],
+            "multisampled-attachment-stored",
+        ),
         ("RGBA16F", ["D16_UNORM", "R16G16B16A16_SFLOAT"], "R16G16B16A16_SFLOAT"),
         ("NOPE", ["sample-count-not-portable", "nonlinear-values-averaged-for-people"], None),
         ("test", ["rasterization-samples-mismatch"], None),
@@ -76,7 +80,9 @@ def test_few_candidates_are_compared_letter_by_letter(monkeypatch: pytest.Monkey
         return matches(word, candidates, n, cutoff)
 
     monkeypatch.setattr(difflib, "get_close_matches", counted)
-    words = ["".join(chars) for chars in itertools.product("abcdefghij", "klmnopqrst", "uvwxyz")] + ["samples"]
+    words = [
+        "".join(chars) for chars in itertools.product("abcdefghij", "klmnopqrst", "uvwxyz")
+    ] + ["samples"]
     assert nearest("smaples", words) == "samples"
     assert compared == ["SAMPLES"]
 

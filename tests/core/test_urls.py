@@ -11,7 +11,10 @@ from msaa_lint.core.project import Outside, project_root, shown
 from msaa_lint.core.text.files import open_file
 
 
-@pytest.mark.parametrize("path", ["-", "C:\\frames", "C://frames", "C:/frames", "frames/a.yaml", "https:/x", "://x", "s3:", ""])
+@pytest.mark.parametrize(
+    "path",
+    ["-", "C:\\frames", "C://frames", "C:/frames", "frames/a.yaml", "https:/x", "://x", "s3:", ""],
+)
 def test_paths_are_not_urls(path: str) -> None:
     assert not urls.is_url(path) and urls.name_of(path) == path and urls.problem(path) is None
 
@@ -31,7 +34,10 @@ def test_a_path_that_exists_is_not_a_url(tmp_path: Path, monkeypatch: pytest.Mon
         ("S3://bucket/a b.yaml", "s3://bucket/a b.yaml"),
         ("gs://bucket", "gs://bucket"),
         ("sftp://me@host/frames", "sftp://me@host/frames"),
-        ("abfs://container@account.dfs.core.windows.net/frames", "abfs://container@account.dfs.core.windows.net/frames"),
+        (
+            "abfs://container@account.dfs.core.windows.net/frames",
+            "abfs://container@account.dfs.core.windows.net/frames",
+        ),
         ("http://[::1]:8080/frames", "http://[::1]:8080/frames"),
         ("https://host:8080/a@b", "https://host:8080/a@b"),
     ],
@@ -100,7 +106,10 @@ def test_a_web_server_is_not_asked_for_what_it_may_decode() -> None:
 
 @pytest.mark.usefixtures("allowed")
 def test_an_input_states_no_url() -> None:
-    for path, project in (("s3://bucket/frames/s3://other/a.spv", "s3://bucket/frames"), ("s3://other/a", "s3://other")):
+    for path, project in (
+        ("s3://bucket/frames/s3://other/a.spv", "s3://bucket/frames"),
+        ("s3://other/a", "s3://other"),
+    ):
         with pytest.raises(OSError, match="it is a URL, not a path"):
             open_file(path, project)
     with pytest.raises(OSError, match="it is a URL, not a path"):

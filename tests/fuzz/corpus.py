@@ -80,7 +80,9 @@ def descriptions() -> Iterator[bytes]:
 
 
 def fences(path: Path, language: str) -> list[str]:
-    return re.findall(rf"^```{language}\n(.*?)^```$", path.read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL)
+    return re.findall(
+        rf"^```{language}\n(.*?)^```$", path.read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL
+    )
 
 
 def metal() -> Iterator[bytes]:
@@ -109,11 +111,18 @@ def unknown_reads() -> Program:
     """Draws with sets that templates write, and a pipeline whose layout is known."""
     program = Program()
     made = template(program, (0, SAMPLER_TYPE, 2))
-    layout = pipeline_layout(program, set_layout(program, (0, SAMPLER_TYPE, 1, FRAGMENT), (1, SAMPLER_TYPE, 4, COMPUTE)))
+    layout = pipeline_layout(
+        program, set_layout(program, (0, SAMPLER_TYPE, 1, FRAGMENT), (1, SAMPLER_TYPE, 4, COMPUTE))
+    )
 
     def bind(program: Program, buffer: int, view: int) -> None:
         unknown_set(program, buffer, view)
-        pushed = {"descriptorUpdateTemplate": made, "layout": layout, "set": 0, "pData": shape_of_data([READ_ONLY, SHADER])}
+        pushed = {
+            "descriptorUpdateTemplate": made,
+            "layout": layout,
+            "set": 0,
+            "pData": shape_of_data([READ_ONLY, SHADER]),
+        }
         program.call("vkCmdPushDescriptorSetWithTemplateKHR", commandBuffer=buffer, **pushed)
 
     return scene(bind, pipeline=pipeline(program, layout), program=program)
@@ -147,7 +156,12 @@ def shaders() -> list[bytes]:
 def shader_program() -> Program:
     program = Program()
     for number, code in enumerate(shaders()[:6]):
-        program.call("vkCreateShaderModule", device=1, pCreateInfo={"codeSize": len(code), "pCode": code}, pShaderModule=5000 + number)
+        program.call(
+            "vkCreateShaderModule",
+            device=1,
+            pCreateInfo={"codeSize": len(code), "pCode": code},
+            pShaderModule=5000 + number,
+        )
     return program
 
 
@@ -157,14 +171,26 @@ def zip() -> Iterator[bytes]:
 
 def fossilize_databases() -> Iterator[bytes]:
     yield from files("tests/data/wrong/captures/*.foz")
-    kinds = ("vkCreateInstance", "vkCreateShaderModule", "vkCreateRenderPass", "vkCreateRenderPass2", "vkCreateGraphicsPipelines")
+    kinds = (
+        "vkCreateInstance",
+        "vkCreateShaderModule",
+        "vkCreateRenderPass",
+        "vkCreateRenderPass2",
+        "vkCreateGraphicsPipelines",
+    )
     calls = [call for call in (*shader_program().calls, *CALLS) if call[0] in kinds]
     yield from (fossilize(calls, deflated) for deflated in (True, False))
     yield from samples("captures/*.foz")
 
 
 def reports() -> Iterator[bytes]:
-    for report in (reported.gpuinfo, reported.vulkaninfo_json, reported.devsim, reported.vkjson, reported.profiles):
+    for report in (
+        reported.gpuinfo,
+        reported.vulkaninfo_json,
+        reported.devsim,
+        reported.vkjson,
+        reported.profiles,
+    ):
         yield json.dumps(report(), indent=1).encode()
     yield reported.text().encode()
     yield from samples("devices/*")
@@ -194,16 +220,27 @@ def suppressed() -> Iterator[bytes]:
     """Descriptions with a comment for each form of a suppression."""
     comments = [
         f"# msaa-lint: {form}"
-        for form in ("ignore", "ignore[all]", "ignore[MSAA101, resolve-outside-pass] -- reason", "ignore-file[MSAA1]")
+        for form in (
+            "ignore",
+            "ignore[all]",
+            "ignore[MSAA101, resolve-outside-pass] -- reason",
+            "ignore-file[MSAA1]",
+        )
     ]
     for number, seed in enumerate(pages("yaml")):
         lines = seed.decode().splitlines()
-        yield "\n".join(f"{line}  {comments[(at + number) % 4]}" if at % 3 == 0 else line for at, line in enumerate(lines)).encode()
+        yield "\n".join(
+            f"{line}  {comments[(at + number) % 4]}" if at % 3 == 0 else line
+            for at, line in enumerate(lines)
+        ).encode()
 
 
 def baselines() -> Iterator[bytes]:
     yield from files("tests/data/wrong/baseline/*.json")
-    yield b'{"schema": "msaa-lint/baseline-v1", "entries": {"frame.msaa.yaml": {"MSAA101": 2, "MSAA201": 1}, "a/b.yaml": {"MSAA301": 1}}}'
+    yield (
+        b'{"schema": "msaa-lint/baseline-v1", "entries": {"frame.msaa.yaml": {"MSAA101": 2, '
+        b'"MSAA201": 1}, "a/b.yaml": {"MSAA301": 1}}}'
+    )
 
 
 def meshes() -> Iterator[bytes]:
@@ -212,11 +249,16 @@ def meshes() -> Iterator[bytes]:
         + b"".join(b"v %d %d %d\n" % (n & 1, n >> 1 & 1, n >> 2) for n in range(8))
         + b"f 1 2 4 3\nf 5 6 8 7\nf -1 -2 -4\nf 1/1 2/2/2 3//3\n"
     )
-    yield b"v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 1\nvt 0 0\nvn 0 0 1\nusemtl a\nmtllib a.mtl\nf 1/1/1 2/1/1 3/1/1\n"
+    yield (
+        b"v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 1\nvt 0 0\nvn 0 0 1\nusemtl a\nmtllib a.mtl\n"
+        b"f 1/1/1 2/1/1 3/1/1\n"
+    )
 
 
 def ply() -> Iterator[bytes]:
-    header = "ply\nformat %s 1.0\ncomment x\nelement vertex 3\n" + "".join(f"property float {axis}\n" for axis in "xyz")
+    header = "ply\nformat %s 1.0\ncomment x\nelement vertex 3\n" + "".join(
+        f"property float {axis}\n" for axis in "xyz"
+    )
     header += "".join(f"property uchar {color}\n" for color in ("red", "green", "blue"))
     header += "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
     yield (header % "ascii").encode() + b"0 0 0 1 2 3\n1 0 0 255 0 0\n0 1 0 0 255 0\n3 0 1 2\n"
@@ -271,7 +313,9 @@ pipelines:
 
 @functools.cache
 def records() -> dict[str, bytes]:
-    """What the command itself writes next to its inputs: a study's record, and the points that a study resumes from."""
+    """What the command itself writes next to its inputs: a study's record, and the points that a
+    study resumes from.
+    """
     import tempfile
 
     from tests.command import run_process

@@ -1,10 +1,11 @@
-"""Fuzzes the reader of Fossilize databases: calls, marks and one Broken at the end are all that may come of any bytes.
+"""Fuzzes the reader of Fossilize databases: calls, marks and one Broken at the end are all that may
+come of any bytes.
 
     pip install atheris
     python tests/fuzz/fossilize.py -max_total_time=300 -rss_limit_mb=1024 -timeout=10 [CORPUS]
 
-An input of the fuzzer is a database; every other one is made whole first, since no fuzzer guesses checksums: its entries get the names,
-lengths and sums that they need to be looked into.
+An input of the fuzzer is a database; every other one is made whole first, since no fuzzer guesses
+checksums: its entries get the names, lengths and sums that they need to be looked into.
 """
 
 from __future__ import annotations
@@ -23,7 +24,10 @@ with atheris.instrument_imports():
 
 from tests.input.readers.dialects_binary import MAGIC, entry, packed
 
-EVERYTHING = frozenset(f"vkCreate{kind}" for kind in ("Instance", "ShaderModule", "RenderPass", "RenderPass2", "GraphicsPipelines"))
+EVERYTHING = frozenset(
+    f"vkCreate{kind}"
+    for kind in ("Instance", "ShaderModule", "RenderPass", "RenderPass2", "GraphicsPipelines")
+)
 HEADS = (
     b'{"applicationInfo":{',
     b'{"shaderModules":{"01":{"varintOffset":0,"varintSize":2,"codeSize":4',
@@ -39,7 +43,11 @@ def whole(data: bytes) -> bytes:
     out = [MAGIC]
     while provider.remaining_bytes():
         kind = provider.PickValueInList([0, 4, 4, 5, 6, 6, 9])
-        deflated, checked, headed = provider.ConsumeBool(), provider.ConsumeBool(), provider.ConsumeBool()
+        deflated, checked, headed = (
+            provider.ConsumeBool(),
+            provider.ConsumeBool(),
+            provider.ConsumeBool(),
+        )
         payload = provider.ConsumeBytes(provider.ConsumeIntInRange(0, 400))
         if headed:
             payload = provider.PickValueInList(list(HEADS)) + payload

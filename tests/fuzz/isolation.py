@@ -1,4 +1,6 @@
-"""Runs the command in a forked child with limits of time and memory, and says what is wrong with how it ended."""
+"""Runs the command in a forked child with limits of time and memory, and says what is wrong with
+how it ended.
+"""
 
 from __future__ import annotations
 
@@ -29,8 +31,9 @@ _INTERNAL = re.compile(r"internal error: [^\n]*")
 
 
 class Outcome(NamedTuple):
-    """How a command ended: its exit code (negative: a signal), what it printed, processor time in seconds, and memory in bytes,
-    with what it shares with the fuzzer."""
+    """How a command ended: its exit code (negative: a signal), what it printed, processor time in
+    seconds, and memory in bytes, with what it shares with the fuzzer.
+    """
 
     code: int
     out: str
@@ -40,7 +43,9 @@ class Outcome(NamedTuple):
 
 
 def execute(folder: Path, arguments: Sequence[str], seconds: int = SECONDS) -> Outcome:
-    """Runs the command with these arguments in a folder. What the parent has imported the child need not import."""
+    """Runs the command with these arguments in a folder. What the parent has imported the child
+    need not import.
+    """
     out, errors = folder.with_name(folder.name + ".out"), folder.with_name(folder.name + ".err")
     child = os.fork()
     if child == 0:
@@ -52,7 +57,9 @@ def execute(folder: Path, arguments: Sequence[str], seconds: int = SECONDS) -> O
     finally:
         os.close(handle)
     _, status, usage = os.wait4(child, 0)
-    texts = [path.read_bytes()[: 64 << 20].decode("utf-8", "surrogateescape") for path in (out, errors)]
+    texts = [
+        path.read_bytes()[: 64 << 20].decode("utf-8", "surrogateescape") for path in (out, errors)
+    ]
     code = os.waitstatus_to_exitcode(status)
     return Outcome(code, texts[0], texts[1], usage.ru_utime + usage.ru_stime, usage.ru_maxrss << 10)
 
@@ -63,11 +70,17 @@ def _become(folder: Path, arguments: Sequence[str], out: Path, errors: Path, sec
     try:
         os.setsid()
         os.chdir(folder)
-        for number, path, flags in ((0, Path(os.devnull), os.O_RDONLY), (1, out, _NEW), (2, errors, _NEW)):
+        for number, path, flags in (
+            (0, Path(os.devnull), os.O_RDONLY),
+            (1, out, _NEW),
+            (2, errors, _NEW),
+        ):
             opened = os.open(path, flags, 0o600)
             os.dup2(opened, number)
             os.close(opened)
-        sys.stdin, sys.stdout, sys.stderr = (os.fdopen(number, mode, encoding="utf-8") for number, mode in enumerate("rww"))
+        sys.stdin, sys.stdout, sys.stderr = (
+            os.fdopen(number, mode, encoding="utf-8") for number, mode in enumerate("rww")
+        )
         faulthandler.enable(sys.stderr)
         faulthandler.register(signal.SIGXCPU, sys.stderr)
         used = int(Path("/proc/self/statm").read_text().split()[0]) * os.sysconf("SC_PAGE_SIZE")
@@ -100,7 +113,9 @@ _NEW = os.O_WRONLY | os.O_CREAT | os.O_TRUNC
 
 
 def problem(outcome: Outcome, arguments: Sequence[str], seconds: int = SECONDS) -> str:
-    """What is wrong with how a command ended; empty if nothing is. Two runs with the same bug have the same text."""
+    """What is wrong with how a command ended; empty if nothing is. Two runs with the same bug have
+    the same text.
+    """
     if outcome.seconds > seconds:
         return f"more than {seconds} s in {_where(outcome.errors)}"
     if outcome.memory > BYTES:
@@ -108,7 +123,10 @@ def problem(outcome: Outcome, arguments: Sequence[str], seconds: int = SECONDS) 
     if outcome.code < 0:
         return f"signal {-outcome.code} in {_where(outcome.errors)}"
     if "Traceback (most recent call last)" in outcome.errors:
-        return f"{outcome.errors.strip().splitlines()[-1].partition(':')[0]} in {_where(outcome.errors, -1)}"
+        return (
+            f"{outcome.errors.strip().splitlines()[-1].partition(':')[0]} in "
+            f"{_where(outcome.errors, -1)}"
+        )
     internal = _INTERNAL.search(outcome.errors) or _INTERNAL.search(outcome.out)
     if internal:
         return re.sub(r"`[^`]*`|\d+", "_", internal[0])[:120]

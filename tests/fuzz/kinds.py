@@ -14,7 +14,20 @@ from .corpus import FRAME, STUDIED, STUDY, files, pages, samples
 MAX_SEED = 120_000
 """Larger files are cut at a line: most of what a long file has is in its first part, too."""
 
-_OUTPUTS = ("json", "json", "sarif", "full", "concise", "gitlab", "junit", "github", "markdown", "azure", "teamcity", "rdjson")
+_OUTPUTS = (
+    "json",
+    "json",
+    "sarif",
+    "full",
+    "concise",
+    "gitlab",
+    "junit",
+    "github",
+    "markdown",
+    "azure",
+    "teamcity",
+    "rdjson",
+)
 CHECKS = tuple(("check", "--output", form) for form in _OUTPUTS)
 READS = (
     *CHECKS,
@@ -29,7 +42,12 @@ READS = (
 )
 CAPTURES = (*READS, ("convert",))
 
-PROJECTS = (("check", "--no-cache", "--output", "json"), ("check", "--no-cache", "--output", "full"), ("facts",), ("convert",))
+PROJECTS = (
+    ("check", "--no-cache", "--output", "json"),
+    ("check", "--no-cache", "--output", "full"),
+    ("facts",),
+    ("convert",),
+)
 COMMANDS = b"""[
  {"directory": ".", "file": "frame.cpp", "command": "c++ -DSAMPLES=4 -D 'A(x)=x' -c frame.cpp", "output": "CMakeFiles/app.dir/frame.cpp.o"},
  {"directory": "/", "file": "../frame.cpp", "arguments": ["c++", "-DB", "-c", "frame.cpp"]}
@@ -38,10 +56,11 @@ COMMANDS = b"""[
 
 
 class Kind(NamedTuple):
-    """A kind of input. `seeds` returns the contents of the file `name`, which is mutated; `files` lie beside it.
+    """A kind of input. `seeds` returns the contents of the file `name`, which is mutated; `files`
+    lie beside it.
 
-    `commands` are command lines without their last argument: `input`, or the file that is mutated. `languages` and `tree` are those of a
-    `Mutator`.
+    `commands` are command lines without their last argument: `input`, or the file that is mutated.
+    `languages` and `tree` are those of a `Mutator`.
     """
 
     name: str
@@ -55,7 +74,12 @@ class Kind(NamedTuple):
 
 def seeds(kind: Kind) -> list[bytes]:
     """The inputs of a kind, without duplicates, in a fixed order, none too large."""
-    cut = (seed if len(seed) <= MAX_SEED else seed[: seed.rfind(b"\n", 0, MAX_SEED) + 1] or seed[:MAX_SEED] for seed in kind.seeds())
+    cut = (
+        seed
+        if len(seed) <= MAX_SEED
+        else seed[: seed.rfind(b"\n", 0, MAX_SEED) + 1] or seed[:MAX_SEED]
+        for seed in kind.seeds()
+    )
     found = list(dict.fromkeys(cut))
     assert found, f"{kind.name}: no seeds"
     return found
@@ -66,19 +90,26 @@ def _source(name: str, language: str, *patterns: str) -> Kind:
 
 
 KINDS = {
-    "yaml": Kind("frame.msaa.yaml", corpus.descriptions, READS, ("yaml", "yaml", "comment"), "yaml"),
+    "yaml": Kind(
+        "frame.msaa.yaml", corpus.descriptions, READS, ("yaml", "yaml", "comment"), "yaml"
+    ),
     "json": Kind("frame.msaa.json", corpus.json_descriptions, READS, ("json",), "json"),
     "metal": Kind("frame.msaa.yaml", corpus.metal, READS, ("yaml",), "yaml"),
     "impeller": Kind(
         "frame.msaa.yaml",
-        lambda: files("examples/impeller/*.yaml", "tests/data/render_targets*", "tests/data/wrong/impeller/*"),
+        lambda: files(
+            "examples/impeller/*.yaml", "tests/data/render_targets*", "tests/data/wrong/impeller/*"
+        ),
         CAPTURES,
         ("yaml",),
         "yaml",
     ),
     "vulkan-sc": Kind(
         "pipeline.json",
-        lambda: [*files("tests/data/vulkan_sc*", "tests/data/wrong/vulkan-sc/*"), *samples("vulkan_sc/*/*.json")],
+        lambda: [
+            *files("tests/data/vulkan_sc*", "tests/data/wrong/vulkan-sc/*"),
+            *samples("vulkan_sc/*/*.json"),
+        ],
         CAPTURES,
         ("json",),
         "json",
@@ -103,7 +134,10 @@ KINDS = {
         lambda: files("tests/input/code/corpus/*/*.h", "tests/input/code/corpus/*/*.cpp"),
         PROJECTS,
         ("code", "comment"),
-        files={"frame.cpp": b'#include "frame.h"\n' + next(iter(files("tests/input/code/corpus/class_over_files/pass.cpp")))},
+        files={
+            "frame.cpp": b'#include "frame.h"\n'
+            + next(iter(files("tests/input/code/corpus/class_over_files/pass.cpp")))
+        },
         input=".",
     ),
     "compile-commands": Kind(
@@ -118,12 +152,26 @@ KINDS = {
     "objc": _source("frame.m", "objc", "tests/input/code/objc/*.m"),
     "objcpp": _source("frame.mm", "objcpp", "tests/input/code/objc/*.mm"),
     "rust": _source("frame.rs", "rust", "tests/input/code/corpus/*.rs"),
-    "glsl": _source("shader.frag", "glsl", "tests/frame/spirv/shaders/*.frag", "rules/shaders/*.frag", "examples/capture/*.frag"),
+    "glsl": _source(
+        "shader.frag",
+        "glsl",
+        "tests/frame/spirv/shaders/*.frag",
+        "rules/shaders/*.frag",
+        "examples/capture/*.frag",
+    ),
     "markdown": Kind(
-        "page.md", lambda: files("docs/*.md", "README.md", "examples/**/*.md", "rules/*.md"), CAPTURES, ("code", "page", "yaml")
+        "page.md",
+        lambda: files("docs/*.md", "README.md", "examples/**/*.md", "rules/*.md"),
+        CAPTURES,
+        ("code", "page", "yaml"),
     ),
     "spirv": Kind(
-        "input.spv", corpus.shaders, CHECKS, ("binary",), files={"frame.msaa.yaml": corpus.SHADER_FRAME.encode()}, input="frame.msaa.yaml"
+        "input.spv",
+        corpus.shaders,
+        CHECKS,
+        ("binary",),
+        files={"frame.msaa.yaml": corpus.SHADER_FRAME.encode()},
+        input="frame.msaa.yaml",
     ),
     "config": Kind(
         "msaa-lint.toml",
@@ -205,7 +253,12 @@ KINDS = {
     "obj": Kind("mesh.obj", corpus.meshes, (STUDY,), ("mesh",)),
     "ply": Kind("mesh.ply", corpus.ply, (STUDY,), ("mesh", "binary")),
     "gitignore": Kind(
-        ".gitignore", corpus.ignore_files, CHECKS, ("glob",), files={"frame.msaa.yaml": FRAME, "a/b/frame.msaa.yaml": FRAME}, input="."
+        ".gitignore",
+        corpus.ignore_files,
+        CHECKS,
+        ("glob",),
+        files={"frame.msaa.yaml": FRAME, "a/b/frame.msaa.yaml": FRAME},
+        input=".",
     ),
     "suppressions": Kind(
         "frame.msaa.yaml",

@@ -1,7 +1,9 @@
-"""Changes that make an input worse: of its bytes, tokens, brackets, lines and values, chosen by a random number generator.
+"""Changes that make an input worse: of its bytes, tokens, brackets, lines and values, chosen by a
+random number generator.
 
-`Mutator.mutated` is the only function that others need. It knows no format; what it inserts comes from `EXTREMES`, from `SNIPPETS` of the
-format's language, and from other inputs of the same kind: a value that a key has there, too, is often valid.
+`Mutator.mutated` is the only function that others need. It knows no format; what it inserts comes
+from `EXTREMES`, from `SNIPPETS` of the format's language, and from other inputs of the same kind: a
+value that a key has there, too, is often valid.
 """
 
 from __future__ import annotations
@@ -29,9 +31,17 @@ _GROUP = re.compile(r"[\[({]")
 
 
 class Mutator:
-    """Mutates inputs of one kind. `languages` are keys of `SNIPPETS`; `tree` is `json`, `jsonl`, or `yaml` if they are trees of values."""
+    """Mutates inputs of one kind. `languages` are keys of `SNIPPETS`; `tree` is `json`, `jsonl`, or
+    `yaml` if they are trees of values.
+    """
 
-    def __init__(self, generator: random.Random, languages: Sequence[str], tree: str = "", seeds: Sequence[bytes] = ()) -> None:
+    def __init__(
+        self,
+        generator: random.Random,
+        languages: Sequence[str],
+        tree: str = "",
+        seeds: Sequence[bytes] = (),
+    ) -> None:
         self.random = generator
         self.snippets = [text for language in languages for text in SNIPPETS[language]]
         self.tree = tree
@@ -43,13 +53,25 @@ class Mutator:
 
     def _learn(self, value: Any) -> None:
         """Collects the values of each key of a tree."""
-        for key, item in value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ():
-            if isinstance(key, str) and len(known := self.values.setdefault(key, [])) < 60 and item not in known:
+        for key, item in (
+            value.items()
+            if isinstance(value, dict)
+            else enumerate(value)
+            if isinstance(value, list)
+            else ()
+        ):
+            if (
+                isinstance(key, str)
+                and len(known := self.values.setdefault(key, [])) < 60
+                and item not in known
+            ):
                 known.append(item)
             self._learn(item)
 
     def mutated(self, data: bytes, other: bytes) -> bytes:
-        """The data after one to five changes; `other` is an input of the same kind to take parts of."""
+        """The data after one to five changes; `other` is an input of the same kind to take parts
+        of.
+        """
         changes = self.random.choices((1, 2, 3, 5), (8, 4, 2, 1))[0]
         if self.tree and self.random.random() < 0.45:
             data = self._tree(data, changes)
@@ -60,7 +82,9 @@ class Mutator:
                 continue
             text = data.decode("utf-8", "surrogateescape")
             change = self.random.choice(_CHANGES)
-            data = change(self, text, other.decode("utf-8", "surrogateescape")).encode("utf-8", "surrogatepass")[:MAX_BYTES]
+            data = change(self, text, other.decode("utf-8", "surrogateescape")).encode(
+                "utf-8", "surrogatepass"
+            )[:MAX_BYTES]
         if self.random.random() < 0.06:
             data = self._encoded(data)
         return data
@@ -79,13 +103,17 @@ class Mutator:
 
     def _replace(self, pattern: re.Pattern[str], text: str, words: Callable[[str], str]) -> str:
         match = self._match(pattern, text)
-        return text if match is None else text[: match.start()] + words(match[0]) + text[match.end() :]
+        return (
+            text if match is None else text[: match.start()] + words(match[0]) + text[match.end() :]
+        )
 
     def _number(self, text: str, other: str) -> str:
         return self._replace(_NUMBER, text, lambda _: self.random.choice(NUMBERS))
 
     def _string(self, text: str, other: str) -> str:
-        return self._replace(_STRING, text, lambda old: old[0] + self.random.choice(WORDS) + old[-1])
+        return self._replace(
+            _STRING, text, lambda old: old[0] + self.random.choice(WORDS) + old[-1]
+        )
 
     def _written_value(self, text: str, other: str) -> str:
         return self._replace(_VALUE, text, lambda _: self.value())
@@ -93,7 +121,11 @@ class Mutator:
     def _key(self, text: str, other: str) -> str:
         keys = _KEY.findall(other[:20_000]) or [""]
         return self._replace(
-            _KEY, text, lambda old: self.random.choice([*keys[:200], self.random.choice(WORDS), old[:-1], old.upper(), old + "s"])
+            _KEY,
+            text,
+            lambda old: self.random.choice(
+                [*keys[:200], self.random.choice(WORDS), old[:-1], old.upper(), old + "s"]
+            ),
         )
 
     def _token(self, text: str, other: str) -> str:
@@ -123,8 +155,12 @@ class Mutator:
             text[start] + text[end : end + 1],
             text[start : end + 1] * 2,
             text[start] + ",".join(parts[:index] + parts[index + 1 :]) + text[end : end + 1],
-            text[start] + ",".join([*parts[:index], parts[index], *parts[index:]]) + text[end : end + 1],
-            text[start] + ",".join([*parts[:index], self.value(), *parts[index + 1 :]]) + text[end : end + 1],
+            text[start]
+            + ",".join([*parts[:index], parts[index], *parts[index:]])
+            + text[end : end + 1],
+            text[start]
+            + ",".join([*parts[:index], self.value(), *parts[index + 1 :]])
+            + text[end : end + 1],
             text[start] + ",".join(reversed(parts)) + text[end : end + 1],
             self.value(),
             text[start] + text[start : end + 1] + text[end : end + 1],
@@ -152,7 +188,9 @@ class Mutator:
             at = self.random.randrange(len(theirs))
             lines[start:end] = theirs[at : at + self.random.choice((1, 2, 5, 50))]
         elif kind == 5:
-            lines[start:end] = [self.random.choice((" ", "  ", "    ", "\t")) + line for line in block]
+            lines[start:end] = [
+                self.random.choice((" ", "  ", "    ", "\t")) + line for line in block
+            ]
         else:
             lines[start:end] = [line.lstrip() for line in block]
         return "".join(lines)
@@ -162,7 +200,10 @@ class Mutator:
         return text[:at] + self.value() + text[at:]
 
     def _splice(self, text: str, other: str) -> str:
-        return text[: self.random.randrange(len(text) + 1)] + other[self.random.randrange(len(other) + 1) :]
+        return (
+            text[: self.random.randrange(len(text) + 1)]
+            + other[self.random.randrange(len(other) + 1) :]
+        )
 
     def _cut(self, text: str, other: str) -> str:
         return text[: self.random.randrange(len(text) + 1)]
@@ -171,7 +212,13 @@ class Mutator:
         first, second = self._match(_TOKEN, text), self._match(_TOKEN, text)
         if first is None or second is None or first.end() > second.start():
             return text
-        return text[: first.start()] + second[0] + text[first.end() : second.start()] + first[0] + text[second.end() :]
+        return (
+            text[: first.start()]
+            + second[0]
+            + text[first.end() : second.start()]
+            + first[0]
+            + text[second.end() :]
+        )
 
     def _bytes(self, data: bytes, other: bytes) -> bytes:
         """Changes bits, bytes, and 32-bit words; deletes, repeats and splices parts."""
@@ -184,7 +231,19 @@ class Mutator:
         elif kind == 1:
             at &= ~3
             word = self.random.choice(
-                (0, 1, 2, 3, 0xFF, 0xFFFF, 0x7FFFFFFF, 0x80000000, 0xFFFFFFFF, self.random.randrange(64), self.random.randrange(2**16))
+                (
+                    0,
+                    1,
+                    2,
+                    3,
+                    0xFF,
+                    0xFFFF,
+                    0x7FFFFFFF,
+                    0x80000000,
+                    0xFFFFFFFF,
+                    self.random.randrange(64),
+                    self.random.randrange(2**16),
+                )
             )
             changed[at : at + 4] = word.to_bytes(4, "little")
         elif kind == 2:
@@ -207,17 +266,27 @@ class Mutator:
         """The data in another encoding, or in none."""
         kind = self.random.randrange(8)
         if kind == 0:
-            return data.replace(b"\n", self.random.choice((b"\r\n", b"\r", b"\n\r", b"\xc2\x85", b"\xe2\x80\xa8")))
+            return data.replace(
+                b"\n", self.random.choice((b"\r\n", b"\r", b"\n\r", b"\xc2\x85", b"\xe2\x80\xa8"))
+            )
         if kind == 1:
             return b"\xef\xbb\xbf" + data
         if kind < 5:
             encoding = ("utf-16", "utf-16-be", "utf-32")[kind - 2]
             return data.decode("utf-8", "replace").encode(encoding, "replace")
         at = self.random.randrange(len(data) + 1)
-        return data[:at] + self.random.choice((b"\xff", b"\xc3", b"\xed\xa0\x80", b"\xf4\x90\x80\x80", b"\0", b"\xc0\x80")) + data[at:]
+        return (
+            data[:at]
+            + self.random.choice(
+                (b"\xff", b"\xc3", b"\xed\xa0\x80", b"\xf4\x90\x80\x80", b"\0", b"\xc0\x80")
+            )
+            + data[at:]
+        )
 
     def _tree(self, data: bytes, changes: int) -> bytes:
-        """The data with values of its tree replaced, moved, or repeated; the data itself if it is not a tree."""
+        """The data with values of its tree replaced, moved, or repeated; the data itself if it is
+        not a tree.
+        """
         if self.tree == "jsonl":
             lines = data.splitlines()
             if not lines:
@@ -232,12 +301,16 @@ class Mutator:
             return data
         if self.random.random() < 0.3:
             return "\n---\n".join(json.dumps(root, default=str) for root in roots).encode()
-        return yaml.dump_all(roots, Dumper=yaml.CSafeDumper, sort_keys=False).encode("utf-8", "surrogatepass")
+        return yaml.dump_all(roots, Dumper=yaml.CSafeDumper, sort_keys=False).encode(
+            "utf-8", "surrogatepass"
+        )
 
     def _json(self, data: bytes, changes: int) -> bytes:
         ascii_only = self.random.random() < 0.5
         for root in _roots(data, "json"):
-            return json.dumps(self._changed(root, changes), ensure_ascii=ascii_only).encode("utf-8", "surrogatepass")
+            return json.dumps(self._changed(root, changes), ensure_ascii=ascii_only).encode(
+                "utf-8", "surrogatepass"
+            )
         return data
 
     def _changed(self, root: Any, changes: int) -> Any:
@@ -255,7 +328,11 @@ class Mutator:
                 container[key] = [value]
             elif kind == 4 and isinstance(container, dict):
                 del container[key]
-                container[self.random.choice((*map(str, WORDS[:8]), str(theirs), str(key).upper(), f"{key}s"))] = value
+                container[
+                    self.random.choice(
+                        (*map(str, WORDS[:8]), str(theirs), str(key).upper(), f"{key}s")
+                    )
+                ] = value
             elif kind == 5 and container is not holder:
                 del container[key]
             elif kind == 6 and isinstance(value, list):
@@ -267,14 +344,23 @@ class Mutator:
         return holder[0]
 
     def _place(self, holder: list[Any]) -> tuple[Any, Any]:
-        """A random place in a tree: a container, and a key or index. Deeper places are as likely as those at the top."""
+        """A random place in a tree: a container, and a key or index. Deeper places are as likely as
+        those at the top.
+        """
         container: Any = holder
         key: Any = 0
         while True:
             value = container[key]
-            if not isinstance(value, dict | list) or not value or self.random.random() < 0.15 * (container is not holder):
+            if (
+                not isinstance(value, dict | list)
+                or not value
+                or self.random.random() < 0.15 * (container is not holder)
+            ):
                 return container, key
-            container, key = value, self.random.choice(list(value) if isinstance(value, dict) else range(len(value)))
+            container, key = (
+                value,
+                self.random.choice(list(value) if isinstance(value, dict) else range(len(value))),
+            )
 
 
 def _roots(data: bytes, tree: str) -> list[Any]:

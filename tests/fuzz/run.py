@@ -1,12 +1,14 @@
-"""Fuzzes what the command reads: every format of inputs, the configuration, rule pages, baselines, records, reports, and meshes.
+"""Fuzzes what the command reads: every format of inputs, the configuration, rule pages, baselines,
+records, reports, and meshes.
 
     python tests/fuzz/run.py --seconds 3600
     python tests/fuzz/run.py --seconds 300 --kind yaml --kind json --seed 7
 
-Each input is an input of the tests after a few changes (`mutations`), read by the real command in a forked child (`isolation`). An input
-whose output shows something new is changed further. Wrong are a traceback, an internal error, a signal, an exit code other than 0, 1, or 2,
-output that no parser of its format reads, more than 10 s of processor time, and more than 1 GB. What is wrong is shortened and saved to
-`--output`, once for each cause. Exits with 1 if anything is wrong.
+Each input is an input of the tests after a few changes (`mutations`), read by the real command in a
+forked child (`isolation`). An input whose output shows something new is changed further. Wrong are
+a traceback, an internal error, a signal, an exit code other than 0, 1, or 2, output that no parser
+of its format reads, more than 10 s of processor time, and more than 1 GB. What is wrong is
+shortened and saved to `--output`, once for each cause. Exits with 1 if anything is wrong.
 """
 
 from __future__ import annotations
@@ -57,7 +59,9 @@ class Campaign:
 
     def step(self) -> None:
         """Mutates one input, and runs one or two commands on it."""
-        data = self.random.choice(self.accepted if self.accepted and self.random.random() < 0.6 else self.pool)
+        data = self.random.choice(
+            self.accepted if self.accepted and self.random.random() < 0.6 else self.pool
+        )
         if self.random.random() < 0.98:
             data = self.mutator.mutated(data, self.random.choice(self.pool))
         self.inputs += 1
@@ -65,12 +69,17 @@ class Campaign:
             self.examine(data, self.random.choice(self.kind.commands))
 
     def examine(self, data: bytes, command: tuple[str, ...]) -> None:
-        """Runs a command on an input. Saves an input that shows a problem; keeps one whose output has new features."""
+        """Runs a command on an input. Saves an input that shows a problem; keeps one whose output
+        has new features.
+        """
         outcome, wrong = self.run(data, command)
         self.runs += 1
         self.codes[outcome.code] += 1
         self.seconds += outcome.seconds
-        self.slowest, self.largest = max(self.slowest, outcome.seconds), max(self.largest, outcome.memory)
+        self.slowest, self.largest = (
+            max(self.slowest, outcome.seconds),
+            max(self.largest, outcome.memory),
+        )
         if wrong and wrong not in self.problems:
             self.problems.add(wrong)
             self.save(self.shortened(data, command, wrong), command, wrong)
@@ -117,7 +126,9 @@ class Campaign:
         folder.mkdir(parents=True)
         place(folder, self.kind, data)
         line = shlex.join(["msaa-lint", *arguments_of(self.kind, command)])
-        folder.with_name(folder.name + ".txt").write_text(f"{wrong}\n{line}\n", encoding="utf-8", errors="surrogateescape")
+        folder.with_name(folder.name + ".txt").write_text(
+            f"{wrong}\n{line}\n", encoding="utf-8", errors="surrogateescape"
+        )
         print(f"{self.name}: {wrong}: {line} in {folder}", flush=True)
 
     def summary(self) -> str:
@@ -125,7 +136,8 @@ class Campaign:
         mean = 1000 * self.seconds / max(1, self.runs)
         codes = ", ".join(f"{code}: {count}" for code, count in sorted(self.codes.items()))
         return (
-            f"| {self.name} | {self.inputs} | {self.runs} | {self.seconds:.0f} | {mean:.0f} | {self.slowest:.2f} "
+            f"| {self.name} | {self.inputs} | {self.runs} | {self.seconds:.0f} | {mean:.0f} | "
+            f"{self.slowest:.2f} "
             f"| {self.largest / 1e6:.0f} | {codes} | {len(self.problems)} |"
         )
 
@@ -140,7 +152,10 @@ def place(folder: Path, kind: Kind, data: bytes) -> None:
     """Writes an input, and what lies beside it, to an empty folder."""
     shutil.rmtree(folder, ignore_errors=True)
     names = points() if kind.name == "points/*" else ()
-    for name, content in {**kind.files, **({f"points/{name}": data for name in names} or {kind.name: data})}.items():
+    for name, content in {
+        **kind.files,
+        **({f"points/{name}": data for name in names} or {kind.name: data}),
+    }.items():
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
         (folder / name).write_bytes(content)
 
@@ -151,12 +166,16 @@ def arguments_of(kind: Kind, command: tuple[str, ...]) -> tuple[str, ...]:
 
 
 def load(kind: Kind, folder: Path) -> None:
-    """Imports what the commands of a kind need, and reads the packaged rules, so that children need not."""
+    """Imports what the commands of a kind need, and reads the packaged rules, so that children need
+    not.
+    """
     from msaa_lint.linter import workspace
     from tests.command import run
 
     packaged = functools.cache(lambda: engine.load_rules([]))
-    workspace.load_rules = lambda paths, *more: engine.load_rules(paths, *more) if paths else packaged()  # type: ignore[attr-defined]
+    workspace.load_rules = lambda paths, *more: (
+        engine.load_rules(paths, *more) if paths else packaged()
+    )  # type: ignore[attr-defined]
     place(folder, kind, next(iter(kind.seeds())))
     for command in kind.commands[:1] + tuple(set(kind.commands) - _loaded):
         run(folder, *arguments_of(kind, command))
@@ -169,7 +188,9 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
     parser.add_argument("--seconds", type=float, help="processor time of all commands together")
     parser.add_argument("--inputs", type=int, help="inputs of each kind, instead of a time")
-    parser.add_argument("--kind", choices=list(KINDS), action="append", help="kinds of input; all by default")
+    parser.add_argument(
+        "--kind", choices=list(KINDS), action="append", help="kinds of input; all by default"
+    )
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--output", type=Path, default=Path("fuzz-failures"))
     options = parser.parse_args()
@@ -189,13 +210,20 @@ def main() -> int:
             while sum(campaign.seconds for campaign in campaigns) < seconds:
                 min(campaigns, key=lambda campaign: campaign.seconds).step()
     print(
-        "| input | inputs | runs | s | ms a run | slowest s | largest MB | exit codes | problems |\n|---|---|---|---|---|---|---|---|---|"
+        "| input | inputs | runs | s | ms a run | slowest s | largest MB | exit codes | problems "
+        "|\n|---|---|---|---|---|---|---|---|---|"
     )
     for campaign in campaigns:
         print(campaign.summary())
-    total = sum(campaign.inputs for campaign in campaigns), sum(campaign.seconds for campaign in campaigns)
+    total = (
+        sum(campaign.inputs for campaign in campaigns),
+        sum(campaign.seconds for campaign in campaigns),
+    )
     problems = sum(len(campaign.problems) for campaign in campaigns)
-    print(f"{total[0]} inputs, {total[1]:.0f} s of processor time, {time.monotonic() - begin:.0f} s in all, {problems} problems")
+    print(
+        f"{total[0]} inputs, {total[1]:.0f} s of processor time, {time.monotonic() - begin:.0f} s "
+        f"in all, {problems} problems"
+    )
     return int(problems > 0)
 
 

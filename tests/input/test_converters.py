@@ -1,4 +1,5 @@
-"""Binary captures through converters: programs that behave like the tools, in versions that are not installed and in states that are rare.
+"""Binary captures through converters: programs that behave like the tools, in versions that are not
+installed and in states that are rare.
 
 tests/integration/test_capture_example.py runs the tools themselves.
 """
@@ -82,12 +83,26 @@ def bin(tmp_path: Path) -> Path:
 
 
 def check(folder: Path, bin: Path, name: str, *arguments: str) -> Done:
-    return run(folder, "check", "--isolated", "--output", "concise", *arguments, name, PATH=str(bin), TMPDIR=str(folder.parent))
+    return run(
+        folder,
+        "check",
+        "--isolated",
+        "--output",
+        "concise",
+        *arguments,
+        name,
+        PATH=str(bin),
+        TMPDIR=str(folder.parent),
+    )
 
 
 def rules(done: Done) -> list[str]:
     """The messages of the findings, without places."""
-    return sorted(line.partition(": ")[2].partition("warning[")[2] for line in done.stdout.splitlines() if "warning[" in line)
+    return sorted(
+        line.partition(": ")[2].partition("warning[")[2]
+        for line in done.stdout.splitlines()
+        if "warning[" in line
+    )
 
 
 @pytest.fixture
@@ -98,13 +113,19 @@ def plain(folder: Path, bin: Path) -> list[str]:
 
 @pytest.mark.parametrize("program", [OLD, NEW])
 @pytest.mark.parametrize("name", ["game.gfxr", "./-o a game.gfxr", "deep/game.gfxr"])
-def test_either_version_of_gfxreconstruct_converts(folder: Path, bin: Path, plain: list[str], program: str, name: str) -> None:
+def test_either_version_of_gfxreconstruct_converts(
+    folder: Path, bin: Path, plain: list[str], program: str, name: str
+) -> None:
     install(bin, gfxrecon_convert=program)
     done = check(folder, bin, name)
     assert rules(done) == plain and len(plain) > 3
     assert "MSAA9" not in done.stdout and done.returncode == 1
     shown = name.removeprefix("./")
-    assert done.stderr == (f"msaa-lint: {shown}: gfxrecon-convert: a line beside the 200th call\n" if program == NEW else "")
+    assert done.stderr == (
+        f"msaa-lint: {shown}: gfxrecon-convert: a line beside the 200th call\n"
+        if program == NEW
+        else ""
+    )
 
 
 def test_the_places_are_calls(folder: Path, bin: Path) -> None:
@@ -121,13 +142,19 @@ def test_renderdoc_converts(folder: Path, bin: Path) -> None:
 
 
 @pytest.mark.parametrize(("program", "words"), [
-    (f"head -c 170000 '{FORWARD}'; echo 'no space left' >&2; exit 3", "gfxrecon-convert failed with exit code 3: no space left"),
+    (f"head -c 170000 '{FORWARD}'; echo 'no space left' >&2; exit 3", "gfxrecon-convert failed "
+        "with exit code 3: no space left"),
     (f"head -c 170000 '{FORWARD}'; kill -SEGV $$", "gfxrecon-convert was ended by SIGSEGV"),
-    (f"head -n 550 '{FORWARD}'; echo '[gfxrecon] WARNING - Incomplete block'", "gfxrecon-convert: Incomplete block"),
-    (f"head -n 550 '{FORWARD}'; echo '[gfxrecon] ERROR - Failed to read block' >&2", "gfxrecon-convert: Failed to read block"),
-    (f"head -n 550 '{FORWARD}'; yes 'a message' | head -c 9000000 >&2; exit 1", "gfxrecon-convert failed with exit code 1: a message"),
+    (f"head -n 550 '{FORWARD}'; echo '[gfxrecon] WARNING - Incomplete block'", "gfxrecon-convert: "
+        "Incomplete block"),
+    (f"head -n 550 '{FORWARD}'; echo '[gfxrecon] ERROR - Failed to read block' >&2",
+    "gfxrecon-convert: Failed to read block"),
+    (f"head -n 550 '{FORWARD}'; yes 'a message' | head -c 9000000 >&2; exit 1", "gfxrecon-convert "
+        "failed with exit code 1: a message"),
 ])  # fmt: skip
-def test_a_converter_that_fails_ends_the_capture(folder: Path, bin: Path, plain: list[str], program: str, words: str) -> None:
+def test_a_converter_that_fails_ends_the_capture(
+    folder: Path, bin: Path, plain: list[str], program: str, words: str
+) -> None:
     install(bin, gfxrecon_convert=f'test "$1" = --help && exit\n{program}')
     done = check(folder, bin, "game.gfxr")
     assert done.returncode == 2 and done.stderr == ""
@@ -140,22 +167,35 @@ def test_a_converter_that_fails_ends_the_capture(folder: Path, bin: Path, plain:
 def test_a_converter_that_writes_nothing_says_why(folder: Path, bin: Path) -> None:
     install(bin, renderdoccmd="echo \"Couldn't load '$5'\" >&2; exit 1")
     done = check(folder, bin, "frame.rdc")
-    assert f"the capture ends here: renderdoccmd failed with exit code 1: Couldn't load '{folder}/frame.rdc' (MSAA901)" in done.stdout
+    assert (
+        f"the capture ends here: renderdoccmd failed with exit code 1: Couldn't load "
+        f"'{folder}/frame.rdc' (MSAA901)" in done.stdout
+    )
     assert done.returncode == 2
 
 
-def test_a_converter_that_hangs_is_stopped(folder: Path, bin: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_converter_that_hangs_is_stopped(
+    folder: Path, bin: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr(converters, "PATIENCE", 1.0)
-    install(bin, gfxrecon_convert=f"test \"$1\" = --help && exit\nhead -n 500 '{FORWARD}'; sleep 100")
+    install(
+        bin, gfxrecon_convert=f"test \"$1\" = --help && exit\nhead -n 500 '{FORWARD}'; sleep 100"
+    )
     started = time.monotonic()
     done = check(folder, bin, "game.gfxr")
-    assert "the capture ends here: gfxrecon-convert wrote nothing for 1 s and was stopped" in done.stdout
+    assert (
+        "the capture ends here: gfxrecon-convert wrote nothing for 1 s and was stopped"
+        in done.stdout
+    )
     assert time.monotonic() - started < 20
 
 
 def test_at_a_limit_the_converter_is_stopped(folder: Path, bin: Path) -> None:
     """A call of more than 64 MiB: nothing after it is read."""
-    install(bin, gfxrecon_convert=f"test \"$1\" = --help && exit\nhead -n 1 '{FORWARD}'; yes | tr -d '\\n'")
+    install(
+        bin,
+        gfxrecon_convert=f"test \"$1\" = --help && exit\nhead -n 1 '{FORWARD}'; yes | tr -d '\\n'",
+    )
     done = check(folder, bin, "game.gfxr")
     assert "exceeds 64 MiB" in done.stdout and done.returncode == 2
 
@@ -163,16 +203,26 @@ def test_at_a_limit_the_converter_is_stopped(folder: Path, bin: Path) -> None:
 def test_extracted_shaders_are_read(folder: Path, bin: Path) -> None:
     """gfxrecon-extract names a file after the handle of a module; 0.9 writes no code otherwise."""
     shader = next((ROOT / "rules/shaders").glob("*.spv"))
-    install(bin, gfxrecon_convert=OLD, gfxrecon_extract=f'mkdir -p "$2"; for n in 56 57 58 59; do cp \'{shader}\' "$2/sh$n"; done')
+    install(
+        bin,
+        gfxrecon_convert=OLD,
+        gfxrecon_extract=f'mkdir -p "$2"; for n in 56 57 58 59; do cp \'{shader}\' "$2/sh$n"; done',
+    )
     converted = run(folder, "convert", "game.gfxr", PATH=str(bin)).stdout
     assert "shaders/" in converted
-    for name, beside in (("game.jsonl", "game.gfxr.shaders"), ("x.jsonl", "forward.gfxr.shaders"), ("g.gfxr.jsonl", "g.gfxr.shaders")):
+    for name, beside in (
+        ("game.jsonl", "game.gfxr.shaders"),
+        ("x.jsonl", "forward.gfxr.shaders"),
+        ("g.gfxr.jsonl", "g.gfxr.shaders"),
+    ):
         (folder / name).write_bytes(FORWARD.read_bytes())
         (folder / beside).mkdir()
         for number in (56, 57, 58, 59):
             (folder / beside / f"sh{number}").write_bytes(shader.read_bytes())
         assert run(folder, "convert", name).stdout == converted.replace("game.gfxr", name)
-    (folder / "other.jsonl").write_bytes(FORWARD.read_bytes().replace(b"forward.gfxr", b"../forward.gfxr"))
+    (folder / "other.jsonl").write_bytes(
+        FORWARD.read_bytes().replace(b"forward.gfxr", b"../forward.gfxr")
+    )
     assert "shaders/" in run(folder, "convert", "other.jsonl").stdout, "by the name alone"
 
 
@@ -189,8 +239,23 @@ def test_shaders_outside_the_folder_are_not_read(folder: Path) -> None:
 
 def test_without_the_converter_the_message_says_what_to_install(folder: Path, bin: Path) -> None:
     for name, words in (
-        ("game.gfxr", ("gfxrecon-convert, which reads it, is not installed", "package `gfxreconstruct`", "Vulkan SDK", "--format jsonl")),
-        ("frame.rdc", ("renderdoccmd, which reads it, is not installed", "package `renderdoc`", "renderdoccmd convert -f FILE.rdc")),
+        (
+            "game.gfxr",
+            (
+                "gfxrecon-convert, which reads it, is not installed",
+                "package `gfxreconstruct`",
+                "Vulkan SDK",
+                "--format jsonl",
+            ),
+        ),
+        (
+            "frame.rdc",
+            (
+                "renderdoccmd, which reads it, is not installed",
+                "package `renderdoc`",
+                "renderdoccmd convert -f FILE.rdc",
+            ),
+        ),
     ):
         done = check(folder, bin, name)
         (line, *_) = done.stdout.splitlines()
@@ -202,7 +267,12 @@ def test_without_the_converter_the_message_says_what_to_install(folder: Path, bi
 def test_nothing_in_the_project_is_run(folder: Path, bin: Path) -> None:
     marker = folder.parent / "ran"
     for place in (folder, folder / "tools"):
-        install(place, gfxrecon_convert=f"echo > '{marker}'", gfxrecon_extract=f"echo > '{marker}'", renderdoccmd=f"echo > '{marker}'")
+        install(
+            place,
+            gfxrecon_convert=f"echo > '{marker}'",
+            gfxrecon_extract=f"echo > '{marker}'",
+            renderdoccmd=f"echo > '{marker}'",
+        )
     for path in (f"{folder}/tools:{bin}", f".:{bin}", f":{bin}", f"tools:{bin}", f"{folder}:{bin}"):
         for name in ("game.gfxr", "frame.rdc"):
             done = run(folder, "check", "--isolated", name, PATH=path)
@@ -216,9 +286,15 @@ def test_a_capture_that_a_folder_holds_is_not_converted(folder: Path, bin: Path)
     install(bin, gfxrecon_convert=f"echo > '{marker}'", renderdoccmd=f"echo > '{marker}'")
     (folder / "frame.msaa.yaml").write_text("images: {}\n")
     done = check(folder, bin, ".")
-    assert "4 binary captures were skipped, the first one -o a game.gfxr: name them to convert and lint them" in done.stderr
+    assert (
+        "4 binary captures were skipped, the first one -o a game.gfxr: name them to convert and "
+        "lint them" in done.stderr
+    )
     done = check(folder, bin, "deep")
-    assert "deep/game.gfxr is a binary capture and was skipped: name it to convert and lint it" in done.stderr
+    assert (
+        "deep/game.gfxr is a binary capture and was skipped: name it to convert and lint it"
+        in done.stderr
+    )
     (folder / "msaa-lint.toml").write_text('include = ["*.gfxr"]\n')
     done = run(folder, "check", "--output", "concise", "deep", PATH=str(bin))
     assert "which is only converted if it is named" in done.stdout and done.returncode == 2
@@ -234,12 +310,18 @@ def test_a_pipe_is_not_converted(folder: Path, bin: Path) -> None:
 def test_an_interrupt_leaves_neither_a_process_nor_a_folder(folder: Path, bin: Path) -> None:
     noted = folder.parent / "pid"
     # More than a pipe holds, so the process is noted while it is read.
-    install(bin, gfxrecon_convert=f"test \"$1\" = --help && exit\nhead -n 500 '{FORWARD}'; echo $$ > '{noted}'; sleep 100")
+    install(
+        bin,
+        gfxrecon_convert=f"test \"$1\" = --help && exit\nhead -n 500 '{FORWARD}'; echo $$ > "
+        f"'{noted}'; sleep 100",
+    )
     scratch = folder.parent / "scratch"
     scratch.mkdir()
     environment = environment_of({"PATH": str(bin), "TMPDIR": str(scratch)})
     command = [sys.executable, "-m", "msaa_lint", "check", "game.gfxr"]
-    process = subprocess.Popen(command, cwd=folder, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    process = subprocess.Popen(
+        command, cwd=folder, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE
+    )
     until = time.monotonic() + 30
     while not (noted.exists() and noted.read_text()) and time.monotonic() < until:
         time.sleep(0.05)

@@ -40,12 +40,23 @@ def clean(*paths: str) -> list[str]:
 
 def test_a_named_file_is_linted_whatever_its_name() -> None:
     write("frame.txt", ".hidden.yaml", "node_modules/x.dat", text="")
-    assert clean("frame.txt", "./.hidden.yaml", "node_modules/x.dat") == [".hidden.yaml", "frame.txt", "node_modules/x.dat"]
+    assert clean("frame.txt", "./.hidden.yaml", "node_modules/x.dat") == [
+        ".hidden.yaml",
+        "frame.txt",
+        "node_modules/x.dat",
+    ]
 
 
 def test_each_file_once_and_in_order(project: Path) -> None:
     write("b/a.msaa.yaml", "b-c.msaa.yaml", "a.msaa.yaml")
-    assert clean("b", str(project / "b/a.msaa.yaml"), "b-c.msaa.yaml", "./a.msaa.yaml", ".", "b/../a.msaa.yaml") == [
+    assert clean(
+        "b",
+        str(project / "b/a.msaa.yaml"),
+        "b-c.msaa.yaml",
+        "./a.msaa.yaml",
+        ".",
+        "b/../a.msaa.yaml",
+    ) == [
         "a.msaa.yaml",
         "b/a.msaa.yaml",
         "b-c.msaa.yaml",
@@ -56,7 +67,14 @@ def test_a_folder_gives_its_inputs_by_name_or_by_look() -> None:
     write("f/a.msaa.yaml", "f/b.msaa.yml", "f/c.MSAA.json", text="broken: [")
     write("f/deep/er/d.yaml", "f/e.yml", "f/g.json", "f/h.txt")
     write("f/no.yaml", "f/no.json", text="name: ci\n")
-    assert clean("f") == ["f/a.msaa.yaml", "f/b.msaa.yml", "f/c.MSAA.json", "f/deep/er/d.yaml", "f/e.yml", "f/g.json"]
+    assert clean("f") == [
+        "f/a.msaa.yaml",
+        "f/b.msaa.yml",
+        "f/c.MSAA.json",
+        "f/deep/er/d.yaml",
+        "f/e.yml",
+        "f/g.json",
+    ]
 
 
 def test_a_frame_begins_in_the_head_of_a_file_in_any_encoding() -> None:
@@ -70,7 +88,15 @@ def test_a_frame_begins_in_the_head_of_a_file_in_any_encoding() -> None:
 
 
 def test_folders_of_tools_are_passed_over() -> None:
-    for folder in (".git", ".hidden", "node_modules/x", "venv", "__pycache__", "deep/site-packages", "env"):
+    for folder in (
+        ".git",
+        ".hidden",
+        "node_modules/x",
+        "venv",
+        "__pycache__",
+        "deep/site-packages",
+        "env",
+    ):
         write(f"{folder}/a.msaa.yaml")
     write("env/pyvenv.cfg", text="")
     write("a.msaa.yaml", ".b.msaa.yaml")
@@ -108,9 +134,19 @@ def test_what_is_not_there_is_an_error_and_the_rest_is_linted() -> None:
     Path("gone.yaml").symlink_to("nowhere")
     result = found("no.yaml", "a.yaml", "gone.yaml", "a\0b")
     assert result.files == ["a.yaml"]
-    assert [(each.code, each.fatal, each.file, each.span, each.message, each.help) for each in result.findings] == [
+    assert [
+        (each.code, each.fatal, each.file, each.span, each.message, each.help)
+        for each in result.findings
+    ] == [
         ("MSAA921", True, "no.yaml", None, "no such file or folder `no.yaml`", ""),
-        ("MSAA921", True, "gone.yaml", None, "no such file or folder `gone.yaml`: it is a broken link", ""),
+        (
+            "MSAA921",
+            True,
+            "gone.yaml",
+            None,
+            "no such file or folder `gone.yaml`: it is a broken link",
+            "",
+        ),
         ("MSAA921", True, "a\0b", None, "no such file or folder `a\0b`", ""),
     ]
 
@@ -122,7 +158,11 @@ def test_a_folder_without_inputs_is_an_error() -> None:
     (problem,) = result.findings
     assert (problem.code, problem.fatal, problem.file) == ("MSAA921", True, "f")
     names = "*.msaa.yaml, *.msaa.yml, *.msaa.json"
-    assert problem.message == f"nothing to lint in `f`: inputs are called {names} or contain a Vulkan or Metal frame; name other files"
+    assert (
+        problem.message
+        == f"nothing to lint in `f`: inputs are called {names} or contain a Vulkan or Metal frame; "
+        f"name other files"
+    )
 
 
 def test_exclude_wins_over_a_named_file_and_says_so() -> None:
@@ -130,7 +170,11 @@ def test_exclude_wins_over_a_named_file_and_says_so() -> None:
     write("gen/a.msaa.yaml", "b.old.yaml", "c.yaml")
     result = found("gen/a.msaa.yaml", "b.old.yaml", "c.yaml", "gen")
     assert (result.files, result.findings) == (["c.yaml"], [])
-    assert result.notes == ["gen/a.msaa.yaml is excluded by `gen/`", "b.old.yaml is excluded by `*.old.yaml`", "gen is excluded by `gen/`"]
+    assert result.notes == [
+        "gen/a.msaa.yaml is excluded by `gen/`",
+        "b.old.yaml is excluded by `*.old.yaml`",
+        "gen is excluded by `gen/`",
+    ]
     everything = found(".")
     assert (everything.files, everything.findings, everything.notes) == (["c.yaml"], [], [])
 
@@ -164,7 +208,9 @@ def test_a_walk_has_a_floor() -> None:
     write("/".join(["f", *"d" * 64, "a.msaa.yaml"]), "/".join(["f", *"d" * 65, "b.msaa.yaml"]))
     result = found("f")
     assert result.files == ["/".join(["f", *"d" * 64, "a.msaa.yaml"])]
-    assert result.notes == ["/".join(["f", *"d" * 65]) + " is more than 64 folders deep: name it to lint it"]
+    assert result.notes == [
+        "/".join(["f", *"d" * 65]) + " is more than 64 folders deep: name it to lint it"
+    ]
 
 
 def test_what_is_no_regular_file_in_a_folder_is_a_note() -> None:
@@ -173,7 +219,10 @@ def test_what_is_no_regular_file_in_a_folder_is_a_note() -> None:
     os.mkfifo("f/c.yaml")
     Path("f/d.msaa.yaml").mkdir()
     result = found("f")
-    assert (result.files, result.notes) == (["f/a.msaa.yaml"], ["f/b.msaa.yaml is not a regular file: not linted"])
+    assert (result.files, result.notes) == (
+        ["f/a.msaa.yaml"],
+        ["f/b.msaa.yaml is not a regular file: not linted"],
+    )
 
 
 def test_a_folder_that_cannot_be_read_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -197,5 +246,7 @@ def test_headers_of_vulkan_are_inputs_only_if_named() -> None:
     text = "VkImageCreateInfo info; info.samples = sampleCount;\n"
     write("libs/vulkan/vulkan_hash.hpp", "libs/vk_mem_alloc.h", "renderer/targets.h", text=text)
     settings = Configurations()
-    assert discover(["."], lambda path: settings.load(path).settings, sources=True).files == ["renderer/targets.h"]
+    assert discover(["."], lambda path: settings.load(path).settings, sources=True).files == [
+        "renderer/targets.h"
+    ]
     assert clean("libs/vk_mem_alloc.h") == ["libs/vk_mem_alloc.h"]

@@ -54,7 +54,15 @@ def files(*paths: str, respect: bool = True) -> list[str]:
     ],
 )
 def test_patterns_are_gits(project: Path, lines: str, skipped: list[str]) -> None:
-    everything = ["!.yaml", "#.yaml", "a.yaml", "gen/a.yaml", "gen/b/a.yaml", "x.yaml", "x/gen/a.yaml"]
+    everything = [
+        "!.yaml",
+        "#.yaml",
+        "a.yaml",
+        "gen/a.yaml",
+        "gen/b/a.yaml",
+        "x.yaml",
+        "x/gen/a.yaml",
+    ]
     write(*everything)
     Path(".gitignore").write_bytes(lines.encode())
     assert sorted(set(everything) - set(files())) == skipped
@@ -79,7 +87,9 @@ def test_a_named_file_is_judged_and_a_named_folder_is_searched(project: Path) ->
     assert files("gen") == ["gen/a.yaml"]
 
 
-def test_a_repository_in_another_begins_anew_and_a_folder_without_one_reads_dot_ignore_alone(project: Path) -> None:
+def test_a_repository_in_another_begins_anew_and_a_folder_without_one_reads_dot_ignore_alone(
+    project: Path,
+) -> None:
     write(".gitignore", ".git/info/exclude", text="*.yaml\n")
     write("a.yaml", "sub/b.yaml", "sub/c.yaml")
     assert files() == []
@@ -108,7 +118,9 @@ def test_dot_ignore_takes_precedence(project: Path) -> None:
     assert files() == ["sub/x.yaml", "x.yaml"]
 
 
-def test_what_is_ignored_is_not_opened_and_hostile_ignore_files_do_no_harm(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_is_ignored_is_not_opened_and_hostile_ignore_files_do_no_harm(
+    project: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     write("gen/a.yaml", "b.yaml", "c.yaml")
     write(".gitignore", text="gen/\nb.yaml\n")
     opened: list[str] = []
@@ -130,16 +142,27 @@ def test_what_is_ignored_is_not_opened_and_hostile_ignore_files_do_no_harm(proje
 
 def test_settings_and_options_turn_it_off(project: Path) -> None:
     write(".gitignore", text="gen/\n")
-    write("gen/a.yaml", "b.yaml", text="images: {c: {samples: 3, format: R8_UNORM, usage: [SAMPLED]}}\n")
+    write(
+        "gen/a.yaml",
+        "b.yaml",
+        text="images: {c: {samples: 3, format: R8_UNORM, usage: [SAMPLED]}}\n",
+    )
     for command in ("check", "cost", "confirm", "baseline"):
         done = run(project, command, ".")
-        assert "b.yaml" in done.stdout + done.stderr and "gen/a.yaml" not in done.stdout + done.stderr, command
+        assert (
+            "b.yaml" in done.stdout + done.stderr and "gen/a.yaml" not in done.stdout + done.stderr
+        ), command
         done = run(project, command, ".", "--no-respect-gitignore")
-        assert "b.yaml" in done.stdout + done.stderr and "gen/a.yaml" in done.stdout + done.stderr, command
+        assert (
+            "b.yaml" in done.stdout + done.stderr and "gen/a.yaml" in done.stdout + done.stderr
+        ), command
     write("msaa-lint.toml", text="respect-gitignore = false\n")
     assert "gen/a.yaml" in run(project, "check", ".").stdout
     write("msaa-lint.toml", text='respect-gitignore = "no"\n')
-    assert "expected true or false, found a string in `respect-gitignore` of msaa-lint.toml" in run(project, "check", ".").stdout
+    assert (
+        "expected true or false, found a string in `respect-gitignore` of msaa-lint.toml"
+        in run(project, "check", ".").stdout
+    )
 
 
 def test_a_folder_of_which_all_is_ignored_says_so(project: Path) -> None:
@@ -154,7 +177,9 @@ NAMES = ["a", "b", "ab", "*", "?", "**", "[ab]", "[!a]", "a*", "*b", "a.*", "?.*
 
 
 def random_tree(root: Path, pick: random.Random, ignore_files: tuple[str, ...]) -> list[str]:
-    """Writes `a`, `b`, and `ab`, each as an input and as a Python file, to random folders with random ignore files; returns the folders."""
+    """Writes `a`, `b`, and `ab`, each as an input and as a Python file, to random folders with
+    random ignore files; returns the folders.
+    """
     folders = ["/".join(pick.choices(["a", "b", "ab"], k=pick.randint(0, 4))) for _ in range(10)]
     for folder in folders:
         (root / folder).mkdir(parents=True, exist_ok=True)
@@ -164,44 +189,74 @@ def random_tree(root: Path, pick: random.Random, ignore_files: tuple[str, ...]) 
     for name in ignore_files:
         for folder in pick.sample(folders, 2):
             globs = ["/".join(pick.choices(NAMES, k=pick.randint(1, 2))) for _ in range(4)]
-            lines = [pick.choice(["", "", "!"]) + pick.choice(["", "", "/"]) + glob + pick.choice(["", "/"]) for glob in globs]
+            lines = [
+                pick.choice(["", "", "!"])
+                + pick.choice(["", "", "/"])
+                + glob
+                + pick.choice(["", "/"])
+                for glob in globs
+            ]
             (root / folder / name).write_text("\n".join(lines) + "\n")
     return folders
 
 
 @pytest.mark.skipif(shutil.which("git") is None, reason="git is the reference, and is not here")
-def test_the_files_of_random_trees_are_those_that_git_lists(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_files_of_random_trees_are_those_that_git_lists(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     pick = random.Random(11)
     for number in range(25):
         root = tmp_path / str(number)
         random_tree(root, pick, (".gitignore", ".gitignore"))
         subprocess.run(["git", "init", "-q", str(root)], check=True)
         (root / ".git/info/exclude").write_text("ab.msaa.yaml\n")
-        command = ["git", "-C", str(root), "-c", "core.excludesFile=", "ls-files", "--others", "--exclude-standard"]
+        command = [
+            "git",
+            "-C",
+            str(root),
+            "-c",
+            "core.excludesFile=",
+            "ls-files",
+            "--others",
+            "--exclude-standard",
+        ]
         listed = subprocess.run(command, capture_output=True, text=True, check=True).stdout.split()
         monkeypatch.chdir(root)
         assert set(files()) == {name for name in listed if name.endswith(".msaa.yaml")}, root
 
 
 @pytest.mark.skipif(find_spec("ruff") is None, reason="ruff is the reference, and is not here")
-def test_the_files_of_random_trees_are_those_that_ruff_lints(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_files_of_random_trees_are_those_that_ruff_lints(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     pick = random.Random(5)
     for number in range(20):
         root = tmp_path / str(number)
         folders = random_tree(root, pick, (".gitignore", ".ignore"))
-        for repository in ([root] if number % 3 else []) + ([root / folders[2]] if number % 5 == 0 else []):
+        for repository in ([root] if number % 3 else []) + (
+            [root / folders[2]] if number % 5 == 0 else []
+        ):
             (repository / ".git/info").mkdir(parents=True, exist_ok=True)
             (repository / ".git/info/exclude").write_text("/a/ab.*\n")
         monkeypatch.chdir(root)
         for top in (".", folders[0] or "."):
             command = [sys.executable, "-m", "ruff", "check", "--isolated", "--show-files", top]
-            shown = subprocess.run(command, capture_output=True, text=True, check=True).stdout.splitlines()
-            linted = {os.path.relpath(line, root).removesuffix(".py") for line in shown if line.endswith(".py")}
+            shown = subprocess.run(
+                command, capture_output=True, text=True, check=True
+            ).stdout.splitlines()
+            linted = {
+                os.path.relpath(line, root).removesuffix(".py")
+                for line in shown
+                if line.endswith(".py")
+            }
             assert {name.removesuffix(".msaa.yaml") for name in files(top)} == linted, (root, top)
 
 
 def test_time_grows_with_the_number_of_files_and_not_its_square(project: Path) -> None:
-    write(".gitignore", text="".join(f"/ignored{number}/*.yaml\n*.o{number}\n" for number in range(100)))
+    write(
+        ".gitignore",
+        text="".join(f"/ignored{number}/*.yaml\n*.o{number}\n" for number in range(100)),
+    )
     times = []
     for number in range(3):
         for folder in range(20 << number):

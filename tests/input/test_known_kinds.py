@@ -42,7 +42,11 @@ def kinds(folder: Path, is_old: bool = True) -> tuple[dict[str, str], list[str]]
         opened.append(path)
         return Path(path).read_text()
 
-    found = {path: known.of(path, find) for name in ("one", "two") for path in sorted(map(str, (folder / name).iterdir()))}
+    found = {
+        path: known.of(path, find)
+        for name in ("one", "two")
+        for path in sorted(map(str, (folder / name).iterdir()))
+    }
     known.close()
     cache.close()
     assert found == {path: Path(path).read_text() for path in found}
@@ -103,7 +107,9 @@ def test_what_a_function_says_is_not_what_another_one_says(tmp_path: Path) -> No
     time.sleep(2 * FINE_CLOCK / 1e9)
     for find in (one, two, one):
         known = KnownKinds(lambda: cache)
-        assert {known.of(str(path), find) for path in sorted(tmp_path.glob("*.json"))} == {find.__name__}
+        assert {known.of(str(path), find) for path in sorted(tmp_path.glob("*.json"))} == {
+            find.__name__
+        }
         known.close()
 
 

@@ -1,4 +1,6 @@
-"""Numbers with more digits than Python converts (4300), or with digits that are not ASCII, are values like any other."""
+"""Numbers with more digits than Python converts (4300), or with digits that are not ASCII, are
+values like any other.
+"""
 
 from __future__ import annotations
 
@@ -18,10 +20,13 @@ renderPasses:
     subpasses: [{depthStencilAttachment: depth}]
 """
 INPUTS = {
-    "array.c": f"void f(void) {{ VkImageView views[{LONG}]; VkFramebufferCreateInfo info = {{0}}; info.pAttachments = views; }}\n",
-    "enumerant.cpp": f"void f() {{ vk::ImageCreateInfo i; i.samples = vk::SampleCountFlagBits::e{LONG}; device.createImage(i); }}\n",
+    "array.c": f"void f(void) {{ VkImageView views[{LONG}]; VkFramebufferCreateInfo info = {{0}}; "
+    f"info.pAttachments = views; }}\n",
+    "enumerant.cpp": f"void f() {{ vk::ImageCreateInfo i; i.samples = "
+    f"vk::SampleCountFlagBits::e{LONG}; device.createImage(i); }}\n",
     "literal.swift": f"let descriptor = MTLTextureDescriptor()\ndescriptor.sampleCount = {LONG}\n",
-    "constant.frag": f"#version 450\nlayout(constant_id = {LONG}) const int n = {LONG};\nvoid main() {{}}\n",
+    "constant.frag": f"#version 450\nlayout(constant_id = {LONG}) const int n = {LONG};\nvoid "
+    f"main() {{}}\n",
     "samples.msaa.yaml": f"images: {{a: {{samples: {LONG}}}}}\n",
     "version.msaa.yaml": f'enabled: {{apiVersion: "1.\u00b2", extensions: []}}\n{DEPTH}',
     "family.msaa.yaml": f"device: {{family: apple{LONG}}}\n{IMAGE}",
@@ -35,7 +40,9 @@ def test_in_inputs(tmp_path: Path, name: str) -> None:
     (tmp_path / name).write_text(INPUTS[name], encoding="utf-8")
     done = run(tmp_path, "check", "--output", "json", name)
     assert done.returncode in (0, 1, 2)
-    assert "MSAA941" not in {found["code"] for found in json.loads(done.stdout)["findings"]}, done.stdout
+    assert "MSAA941" not in {found["code"] for found in json.loads(done.stdout)["findings"]}, (
+        done.stdout
+    )
 
 
 def test_in_editions(tmp_path: Path) -> None:

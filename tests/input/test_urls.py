@@ -46,7 +46,9 @@ def forgotten(monkeypatch: pytest.MonkeyPatch) -> None:
 def put() -> Iterator[Put]:
     """Writes an object to fsspec's memory."""
     memory = fsspec.filesystem("memory")
-    yield lambda path, data: memory.pipe_file(path, data.encode() if isinstance(data, str) else data)
+    yield lambda path, data: memory.pipe_file(
+        path, data.encode() if isinstance(data, str) else data
+    )
     memory.store.clear()
     memory.pseudo_dirs[:] = [""]
 
@@ -129,12 +131,27 @@ def test_a_bucket_reads_as_a_folder(bucket: Any, server: dict[str, str], tmp_pat
         assert there.returncode == here.returncode == 1
         assert "MSAA201" in there.stdout
     assert linted(tmp_path, "s3://frames/corpus", **server) == [
-        f"s3://frames/corpus/{name}" for name in ("a.msaa.yaml", "b/look.yaml", "c d/forward.jsonl", "e/shader.msaa.yaml", "z/depth.cpp")
+        f"s3://frames/corpus/{name}"
+        for name in (
+            "a.msaa.yaml",
+            "b/look.yaml",
+            "c d/forward.jsonl",
+            "e/shader.msaa.yaml",
+            "z/depth.cpp",
+        )
     ]
 
 
-def test_processes_of_their_own_read_buckets(bucket: Any, server: dict[str, str], tmp_path: Path) -> None:
-    bucket.pipe({f"frames/many/{number}/{name}.msaa.yaml": STORED.encode() for number in range(2) for name in "abcde"})
+def test_processes_of_their_own_read_buckets(
+    bucket: Any, server: dict[str, str], tmp_path: Path
+) -> None:
+    bucket.pipe(
+        {
+            f"frames/many/{number}/{name}.msaa.yaml": STORED.encode()
+            for number in range(2)
+            for name in "abcde"
+        }
+    )
     bucket.pipe_file("frames/many/z/z.msaa.yaml", (PIPELINE % "../0/a.spv").encode())
     bucket.pipe_file("frames/many/0/a.spv", (SHADERS / "no_alpha.frag.spv").read_bytes())
     one, two = (check(tmp_path, "--jobs", jobs, "s3://frames/many", **server) for jobs in "12")
@@ -159,19 +176,31 @@ def test_many_objects_are_divided_without_being_asked(
     bucket.pipe({f"frames/many/{name}.msaa.yaml": STORED.encode() for name in "abcd"})
     done = check(tmp_path, "s3://frames/many", **server)
     assert started == [2] and not processes.can_copy() and done.stdout.count("MSAA201") == 4
-    assert check(tmp_path, "s3://frames/many/a.msaa.yaml", "s3://frames/many/b.msaa.yaml", **server).stdout.count("MSAA201") == 2
+    assert (
+        check(
+            tmp_path, "s3://frames/many/a.msaa.yaml", "s3://frames/many/b.msaa.yaml", **server
+        ).stdout.count("MSAA201")
+        == 2
+    )
     assert started == [2]
 
 
 @pytest.mark.parametrize("jobs", ["1", "2"])
-def test_study_reads_meshes_and_descriptions(bucket: Any, server: dict[str, str], tmp_path: Path, jobs: str) -> None:
+def test_study_reads_meshes_and_descriptions(
+    bucket: Any, server: dict[str, str], tmp_path: Path, jobs: str
+) -> None:
     pytest.importorskip("trimesh")
-    for name, text in {"a.obj": "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "b.msaa.yaml": STORED}.items():
+    for name, text in {
+        "a.obj": "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
+        "b.msaa.yaml": STORED,
+    }.items():
         (tmp_path / name).write_text(text)
         bucket.pipe_file(f"frames/{name}", text.encode())
     options = ("--size", "32x32", "--samples", "1,4", "--jobs", jobs, "--output", "json")
     here = run(tmp_path, "study", "a.obj", "b.msaa.yaml", *options)
-    there = run(tmp_path, "study", "s3://frames/a.obj", "s3://frames/b.msaa.yaml", *options, **server)
+    there = run(
+        tmp_path, "study", "s3://frames/a.obj", "s3://frames/b.msaa.yaml", *options, **server
+    )
     assert there.stdout.replace("s3://frames/", "") == here.stdout
     assert (there.returncode, there.stderr) == (here.returncode, here.stderr) == (0, "")
 
@@ -181,18 +210,27 @@ def test_study_says_what_is_wrong_with_a_url(put: Put, tmp_path: Path) -> None:
     for arguments, message in {
         ("memory://none.obj",): "memory://none.obj: no such file or folder",
         ("memory://none",): "memory://none: no such file or folder `memory://none`",
-        ("s3://key:secret@bucket/a.obj",): "s3://bucket/a.obj: a URL with credentials is not read because others can see it: ",
-        ("memory://frames", "--record"): "--record needs a description in a file, to write the record next to it",
+        (
+            "s3://key:secret@bucket/a.obj",
+        ): "s3://bucket/a.obj: a URL with credentials is not read because others can see it: ",
+        (
+            "memory://frames",
+            "--record",
+        ): "--record needs a description in a file, to write the record next to it",
     }.items():
         done = run(tmp_path, "study", *arguments, "--samples", "1", "--size", "32x32")
         assert done.returncode == 2 and done.stderr.startswith(f"msaa-lint: {message}"), done
         assert done.stderr.count("\n") == 1
 
 
-def test_pages_of_a_listing(bucket: Any, server: dict[str, str], monkeypatch: pytest.MonkeyPatch) -> None:
+def test_pages_of_a_listing(
+    bucket: Any, server: dict[str, str], monkeypatch: pytest.MonkeyPatch
+) -> None:
     """More entries than a page has, and in a fixed order."""
     names = [f"{number:03}.yaml" for number in range(25)]
-    bucket.pipe({f"frames/pages/{name}": b"" for name in reversed(names)} | {"frames/pages/a/x.yaml": b""})
+    bucket.pipe(
+        {f"frames/pages/{name}": b"" for name in reversed(names)} | {"frames/pages/a/x.yaml": b""}
+    )
     monkeypatch.setattr(urls, "PAGE", 10)
     assert [entry.name for entry in urls.entries("s3://frames/pages")] == [*names, "a"]
 
@@ -204,7 +242,9 @@ def test_a_named_object(bucket: Any, server: dict[str, str], tmp_path: Path) -> 
 
 
 @pytest.mark.parametrize("command", ["check", "cost", "convert"])
-def test_commands_read_captures_from_buckets(bucket: Any, server: dict[str, str], tmp_path: Path, command: str) -> None:
+def test_commands_read_captures_from_buckets(
+    bucket: Any, server: dict[str, str], tmp_path: Path, command: str
+) -> None:
     bucket.pipe_file("frames/c/forward.jsonl", CAPTURE.read_bytes())
     (tmp_path / "c").mkdir()
     (tmp_path / "c/forward.jsonl").write_bytes(CAPTURE.read_bytes())
@@ -215,7 +255,9 @@ def test_commands_read_captures_from_buckets(bucket: Any, server: dict[str, str]
     assert there.returncode == here.returncode and len(here.stdout) > 200
 
 
-def test_confirm_draws_with_shaders_of_a_bucket(bucket: Any, server: dict[str, str], tmp_path: Path) -> None:
+def test_confirm_draws_with_shaders_of_a_bucket(
+    bucket: Any, server: dict[str, str], tmp_path: Path
+) -> None:
     pytest.importorskip("vulkan")
     bucket.put(f"{ROOT}/examples/lit/", "frames/lit/", recursive=True)
     here, there = (
@@ -228,8 +270,12 @@ def test_confirm_draws_with_shaders_of_a_bucket(bucket: Any, server: dict[str, s
     assert "a built-in one is used" not in there.stdout and there.returncode == here.returncode == 0
 
 
-def test_results_are_kept_by_version(bucket: Any, server: dict[str, str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """An unchanged object is not read again. A changed input and a changed, a removed, and an added module are seen."""
+def test_results_are_kept_by_version(
+    bucket: Any, server: dict[str, str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """An unchanged object is not read again. A changed input and a changed, a removed, and an added
+    module are seen.
+    """
     (tmp_path / "cache").mkdir()
     folder = "frames/kept"
     names = [f"{number:02}.msaa.yaml" for number in range(5)]
@@ -249,7 +295,9 @@ def test_results_are_kept_by_version(bucket: Any, server: dict[str, str], tmp_pa
         done = check(tmp_path, f"s3://{folder}", XDG_CACHE_HOME=str(tmp_path / "cache"), **server)
         fresh = check(tmp_path, "--no-cache", f"s3://{folder}", **server) if read else done
         assert (done.stdout, done.stderr) == (fresh.stdout, fresh.stderr)
-        return done.stdout, sorted(dict.fromkeys(each for each in read[: len(read)] if each.endswith((".yaml", ".spv"))))
+        return done.stdout, sorted(
+            dict.fromkeys(each for each in read[: len(read)] if each.endswith((".yaml", ".spv")))
+        )
 
     first, _ = again()
     assert "not found" in first and first.count("MSAA201") == 5
@@ -282,7 +330,10 @@ def test_globs_count_from_the_named_folder(put: Put, tmp_path: Path) -> None:
     (tmp_path / "msaa-lint.toml").write_text('exclude = ["/old/", "skip.*"]\n')
     put("/studio/msaa-lint.toml", 'exclude = ["new/"]\n')
     put("/studio/.gitignore", "new/\n")
-    assert linted(tmp_path, "memory://studio") == ["memory://studio/new/b.msaa.yaml", "memory://studio/new/old/a.msaa.yaml"]
+    assert linted(tmp_path, "memory://studio") == [
+        "memory://studio/new/b.msaa.yaml",
+        "memory://studio/new/old/a.msaa.yaml",
+    ]
     (tmp_path / "msaa-lint.toml").write_text('include = ["*.txt"]\n')
     put("/studio/new/c.txt", CLEAN)
     assert linted(tmp_path, "memory://studio") == ["memory://studio/new/c.txt"]
@@ -291,7 +342,10 @@ def test_globs_count_from_the_named_folder(put: Put, tmp_path: Path) -> None:
 def test_nothing_to_lint(put: Put, tmp_path: Path) -> None:
     put("/empty/ci.yaml", "name: ci\n")
     done = check(tmp_path, "memory://empty")
-    assert done.stdout.startswith("memory://empty: error[configuration] nothing to lint in `memory://empty`: inputs are called *.msaa.yaml")
+    assert done.stdout.startswith(
+        "memory://empty: error[configuration] nothing to lint in `memory://empty`: inputs are "
+        "called *.msaa.yaml"
+    )
     assert done.returncode == 2
 
 
@@ -299,7 +353,12 @@ def test_modules_stay_in_the_named_folder(put: Put, tmp_path: Path) -> None:
     module = (SHADERS / "no_alpha.frag.spv").read_bytes()
     for path in ("/studio/a.spv", "/studio/frames/a.spv", "/secret.spv"):
         put(path, module)
-    for name, stated in {"up": "../a.spv", "out": "../../secret.spv", "url": "memory://secret.spv", "root": "/secret.spv"}.items():
+    for name, stated in {
+        "up": "../a.spv",
+        "out": "../../secret.spv",
+        "url": "memory://secret.spv",
+        "root": "/secret.spv",
+    }.items():
         put(f"/studio/frames/{name}.msaa.yaml", PIPELINE % f'"{stated}"')
     folder = check(tmp_path, "memory://studio").stdout
     assert "frames/up.msaa.yaml:2" in folder and "alpha" in folder
@@ -317,7 +376,10 @@ def test_a_device_report_is_read_from_the_named_folder(put: Put, tmp_path: Path)
     put("/studio/frame.msaa.yaml", "device: phone.json\n" + STORED)
     put("/studio/out.msaa.yaml", "device: ../phone.json\n" + STORED)
     missing = check(tmp_path, "memory://studio").stdout
-    assert "no file `phone.json`; built-in devices: " in missing and "`../phone.json` is outside the project" in missing
+    assert (
+        "no file `phone.json`; built-in devices: " in missing
+        and "`../phone.json` is outside the project" in missing
+    )
     put("/studio/phone.json", json.dumps(report))
     assert "error[wrong-value] `phone.json`" in check(tmp_path, "memory://studio").stdout
 
@@ -325,32 +387,51 @@ def test_a_device_report_is_read_from_the_named_folder(put: Put, tmp_path: Path)
 def test_a_local_input_states_no_url(put: Put, tmp_path: Path) -> None:
     put("/a.spv", (SHADERS / "no_alpha.frag.spv").read_bytes())
     (tmp_path / "frame.msaa.yaml").write_text(PIPELINE % '"memory://a.spv"')
-    assert "it is a URL, not a path" in check(tmp_path, "frame.msaa.yaml", "memory://nothing").stdout
+    assert (
+        "it is a URL, not a path" in check(tmp_path, "frame.msaa.yaml", "memory://nothing").stdout
+    )
     assert (
         "it is a URL, not a path"
-        in run(tmp_path, "check", "-", "--stdin-filename", "memory://x/y.yaml", stdin=(PIPELINE % "a.spv").encode()).stdout
+        in run(
+            tmp_path,
+            "check",
+            "-",
+            "--stdin-filename",
+            "memory://x/y.yaml",
+            stdin=(PIPELINE % "a.spv").encode(),
+        ).stdout
     )
 
 
 def test_fixes_are_shown_and_not_written(put: Put, tmp_path: Path) -> None:
     put("/frames/a.msaa.yaml", STORED)
     done = check(tmp_path, "--fix", "memory://frames")
-    assert "memory://frames/a.msaa.yaml is at a URL and is not fixed: `--diff` prints the changes" in done.stderr
+    assert (
+        "memory://frames/a.msaa.yaml is at a URL and is not fixed: `--diff` prints the changes"
+        in done.stderr
+    )
     assert "MSAA201" in done.stdout and done.returncode == 1
     assert fsspec.filesystem("memory").cat("/frames/a.msaa.yaml") == STORED.encode()
     assert (
-        "+      color_ms: {image: color_ms, loadOp: CLEAR, storeOp: DONT_CARE" in run(tmp_path, "check", "--diff", "memory://frames").stdout
+        "+      color_ms: {image: color_ms, loadOp: CLEAR, storeOp: DONT_CARE"
+        in run(tmp_path, "check", "--diff", "memory://frames").stdout
     )
 
 
-def test_captures_are_read_by_pieces(put: Put, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_captures_are_read_by_pieces(
+    put: Put, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """The most that is asked for at once is a block, and nothing is read twice."""
     monkeypatch.setattr(urls, "BLOCK", 1 << 17)
     put("/c/forward.jsonl", CAPTURE.read_bytes())
     asked: list[tuple[int, int]] = []
     memory = type(fsspec.filesystem("memory"))
     real = memory.cat_file
-    monkeypatch.setattr(memory, "cat_file", lambda self, path, start, end: asked.append((start, end)) or real(self, path, start, end))
+    monkeypatch.setattr(
+        memory,
+        "cat_file",
+        lambda self, path, start, end: asked.append((start, end)) or real(self, path, start, end),
+    )
     assert "MSAA" in check(tmp_path, "memory://c/forward.jsonl").stdout
     assert len(asked) > 1 and max(end - start for start, end in asked) <= 1 << 17
     assert sum(end - start for start, end in asked) == len(CAPTURE.read_bytes())
@@ -359,7 +440,10 @@ def test_captures_are_read_by_pieces(put: Put, tmp_path: Path, monkeypatch: pyte
 def test_limits_hold(put: Put, tmp_path: Path) -> None:
     put("/big.msaa.yaml", STORED + "# filler\n" * 100)
     (tmp_path / "msaa-lint.toml").write_text("[limits]\nbytes = 1000\n")
-    assert "larger than the limit of 1000 bytes (MSAA906)" in check(tmp_path, "memory://big.msaa.yaml").stdout
+    assert (
+        "larger than the limit of 1000 bytes (MSAA906)"
+        in check(tmp_path, "memory://big.msaa.yaml").stdout
+    )
 
 
 @pytest.mark.skipif(os.name != "posix", reason="the program is a shell script")
@@ -368,10 +452,20 @@ def test_a_program_gets_a_copy(put: Put, tmp_path: Path) -> None:
     program = tmp_path / "bin/gfxrecon-convert"
     program.parent.mkdir()
     size = 'test "$(wc -c < "$5")" = 104'
-    program.write_text(f'#!/bin/sh\ncase "$*" in --help) echo "  --format";; *) {size} && cat \'{CAPTURE}\';; esac\n')
+    program.write_text(
+        f'#!/bin/sh\ncase "$*" in --help) echo "  --format";; *) {size} && cat \'{CAPTURE}\';; '
+        f"esac\n"
+    )
     program.chmod(0o755)
     (tmp_path / "project").mkdir()
-    done = run(tmp_path / "project", "check", "--output", "concise", "memory://game.gfxr", PATH=f"{program.parent}:/usr/bin:/bin")
+    done = run(
+        tmp_path / "project",
+        "check",
+        "--output",
+        "concise",
+        "memory://game.gfxr",
+        PATH=f"{program.parent}:/usr/bin:/bin",
+    )
     assert done.stdout.count("memory://game.gfxr") > 10 and "MSAA9" not in done.stdout
 
 
@@ -379,7 +473,10 @@ def test_a_file_url_is_the_path(tmp_path: Path) -> None:
     (tmp_path / "a b.msaa.yaml").write_text(STORED)
     (tmp_path / ".git").mkdir()
     (tmp_path / ".gitignore").write_text("*.msaa.yaml\n")
-    assert check(tmp_path, (tmp_path / "a b.msaa.yaml").as_uri()).stdout == check(tmp_path, "a b.msaa.yaml").stdout
+    assert (
+        check(tmp_path, (tmp_path / "a b.msaa.yaml").as_uri()).stdout
+        == check(tmp_path, "a b.msaa.yaml").stdout
+    )
     assert "that .gitignore or .ignore lists" in check(tmp_path, tmp_path.as_uri()).stdout
 
 
@@ -388,7 +485,10 @@ def test_a_file_url_is_the_path(tmp_path: Path) -> None:
     [
         ("memory://nothing", "no such file or folder `memory://nothing`"),
         ("nope://frames", "unknown protocol `nope`: fsspec has no file system for it"),
-        ("memory://me:secret@frames/a.yaml", "set them in the environment, and write the URL without them"),
+        (
+            "memory://me:secret@frames/a.yaml",
+            "set them in the environment, and write the URL without them",
+        ),
         ("https://host/frame.json?signature=secret", "download the file, and name it"),
         ("file://elsewhere/frame.yaml", "a `file` URL of another machine cannot be read"),
     ],
@@ -399,7 +499,9 @@ def test_urls_that_cannot_be_read(tmp_path: Path, url: str, message: str) -> Non
     assert done.stdout.count("MSAA921") == 1 and done.returncode == 2
 
 
-def test_a_missing_package_is_named(put: Put, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_missing_package_is_named(
+    put: Put, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     def missing(scheme: str) -> None:
         raise ImportError("Install s3fs")
 
@@ -419,8 +521,14 @@ def test_errors_of_a_bucket(bucket: Any, server: dict[str, str], tmp_path: Path)
 
     assert "no such file or folder `s3://nothing`" in message("s3://nothing")
     assert "no such file or folder `s3://frames/a.yaml`" in message("s3://frames/a.yaml")
-    nobody = {"AWS_ACCESS_KEY_ID": "", "AWS_SECRET_ACCESS_KEY": "", "AWS_EC2_METADATA_DISABLED": "true"}
-    assert "no credentials: set those of the storage in the environment" in message("s3://frames/a", HOME=str(tmp_path), **nobody)
+    nobody = {
+        "AWS_ACCESS_KEY_ID": "",
+        "AWS_SECRET_ACCESS_KEY": "",
+        "AWS_EC2_METADATA_DISABLED": "true",
+    }
+    assert "no credentials: set those of the storage in the environment" in message(
+        "s3://frames/a", HOME=str(tmp_path), **nobody
+    )
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
         port = free.getsockname()[1]
@@ -434,7 +542,9 @@ def test_errors_of_a_bucket(bucket: Any, server: dict[str, str], tmp_path: Path)
         type(bucket).clear_instance_cache()
 
 
-def test_errors_while_an_input_is_read(put: Put, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_errors_while_an_input_is_read(
+    put: Put, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """One input cannot be read; the others are."""
     put("/frames/a.msaa.yaml", STORED)
     put("/frames/b.msaa.yaml", STORED)
@@ -448,7 +558,10 @@ def test_errors_while_an_input_is_read(put: Put, tmp_path: Path, monkeypatch: py
 
     monkeypatch.setattr(memory, "cat_file", denied)
     done = check(tmp_path, "memory://frames")
-    assert "frames/a.msaa.yaml: error[" in done.stdout and "access denied (Access Denied): check the credentials" in done.stdout
+    assert (
+        "frames/a.msaa.yaml: error[" in done.stdout
+        and "access denied (Access Denied): check the credentials" in done.stdout
+    )
     assert "frames/b.msaa.yaml:7" in done.stdout and done.returncode == 2
 
 

@@ -1,4 +1,6 @@
-"""The GitHub action: its form, and what its steps do, run by bash with stand-ins for the runner and for Python."""
+"""The GitHub action: its form, and what its steps do, run by bash with stand-ins for the runner and
+for Python.
+"""
 
 from __future__ import annotations
 
@@ -23,7 +25,9 @@ WORKFLOWS = sorted((ROOT / ".github" / "workflows").glob("*.yml"))
 DOCS = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 STEPS: list[dict[str, Any]] = ACTION["runs"]["steps"]
 
-needs_bash = pytest.mark.skipif(shutil.which("bash") is None or os.name == "nt", reason="bash is not installed")
+needs_bash = pytest.mark.skipif(
+    shutil.which("bash") is None or os.name == "nt", reason="bash is not installed"
+)
 
 
 def jobs(workflow: Path) -> list[dict[str, Any]]:
@@ -37,7 +41,17 @@ def test_inputs_and_outputs_are_described() -> None:
     assert ACTION["runs"]["using"] == "composite"
     for entry in (*ACTION["inputs"].values(), *ACTION["outputs"].values()):
         assert entry["description"].endswith(".")
-    names = {"paths", "config", "fail-on", "source", "args", "annotations", "upload-sarif", "category", "version"}
+    names = {
+        "paths",
+        "config",
+        "fail-on",
+        "source",
+        "args",
+        "annotations",
+        "upload-sarif",
+        "category",
+        "version",
+    }
     assert set(ACTION["inputs"]) == names
     assert all(isinstance(entry["default"], str) for entry in ACTION["inputs"].values())
     page = (ROOT / "docs" / "ci.md").read_text(encoding="utf-8")
@@ -48,16 +62,22 @@ def test_inputs_and_outputs_are_described() -> None:
         assert f"\n| `{name}` | {entry['description']} |\n" in page
 
 
-@pytest.mark.parametrize("steps", [STEPS, *map(jobs, WORKFLOWS)], ids=["action.yml", *(path.name for path in WORKFLOWS)])
+@pytest.mark.parametrize(
+    "steps", [STEPS, *map(jobs, WORKFLOWS)], ids=["action.yml", *(path.name for path in WORKFLOWS)]
+)
 def test_scripts_hold_no_expressions(steps: list[dict[str, Any]]) -> None:
-    """What `${{ }}` stands for is put into a script before the shell reads it: who chose it would run what they like."""
+    """What `${{ }}` stands for is put into a script before the shell reads it: who chose it would
+    run what they like.
+    """
     scripts = [step["run"] for step in steps if "run" in step]
     assert scripts
     assert [script for script in scripts if "${{" in script] == []
 
 
 def test_a_pinned_action_names_its_version_and_is_pinned_once() -> None:
-    text = "".join(path.read_text(encoding="utf-8") for path in (ROOT / "action.yml", *WORKFLOWS, *DOCS))
+    text = "".join(
+        path.read_text(encoding="utf-8") for path in (ROOT / "action.yml", *WORKFLOWS, *DOCS)
+    )
     uses = re.findall(r"(?m)^ *(?:- )?uses: (?!\.{1,2}/|\$/)(.*)$", text)
     pins = {re.fullmatch(r"(\S+)@([0-9a-f]{40}) # v\d+\.\d+\.\d+", use) for use in uses}
     assert None not in pins
@@ -69,14 +89,27 @@ ZIZMOR = shutil.which("zizmor", path=str(Path(sys.executable).parent))
 
 @pytest.mark.skipif(ZIZMOR is None, reason="zizmor is not installed")
 def test_zizmor_finds_nothing(tmp_path: Path) -> None:
-    """In the action, the workflows, and the workflows and pre-commit configurations that the documentation shows."""
+    """In the action, the workflows, and the workflows and pre-commit configurations that the
+    documentation shows.
+    """
     workflows = tmp_path / ".github" / "workflows"
     workflows.mkdir(parents=True)
-    for name in ("action.yml", ".pre-commit-hooks.yaml", ".github/dependabot.yml", *(path.relative_to(ROOT) for path in WORKFLOWS)):
+    for name in (
+        "action.yml",
+        ".pre-commit-hooks.yaml",
+        ".github/dependabot.yml",
+        *(path.relative_to(ROOT) for path in WORKFLOWS),
+    ):
         shutil.copy(ROOT / name, tmp_path / name)
-    shown = [block for page in DOCS for block in re.findall(r"```yaml\n(.*?)```", page.read_text(encoding="utf-8"), re.DOTALL)]
+    shown = [
+        block
+        for page in DOCS
+        for block in re.findall(r"```yaml\n(.*?)```", page.read_text(encoding="utf-8"), re.DOTALL)
+    ]
     audited = len(list(tmp_path.rglob("*.y*ml")))
-    for number, block in enumerate(block for block in shown if "uses: " in block or "hooks:" in block):
+    for number, block in enumerate(
+        block for block in shown if "uses: " in block or "hooks:" in block
+    ):
         audited += 1
         if "hooks:" in block:
             (tmp_path / str(number)).mkdir()
@@ -84,7 +117,15 @@ def test_zizmor_finds_nothing(tmp_path: Path) -> None:
         else:
             (workflows / f"{number}.yml").write_text(block)
     assert ZIZMOR is not None
-    command = [ZIZMOR, "--offline", "--persona=pedantic", "--strict-collection", "--no-progress", "--color=never", str(tmp_path)]
+    command = [
+        ZIZMOR,
+        "--offline",
+        "--persona=pedantic",
+        "--strict-collection",
+        "--no-progress",
+        "--color=never",
+        str(tmp_path),
+    ]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stdout + done.stderr
     assert "No findings to report" in done.stdout + done.stderr
@@ -118,7 +159,9 @@ elif sys.argv[1:4] == ["-I", "-m", "pip"]:
 else:
     os.execv(sys.executable, [sys.executable, *sys.argv[1:]])
 """
-"""Stands in for Python: makes a virtual environment of stand-ins, and writes down what pip is given."""
+"""Stands in for Python: makes a virtual environment of stand-ins, and writes down what pip is
+given.
+"""
 
 LINTER = """\
 import json, os, sys
@@ -139,7 +182,9 @@ runpy.run_module("msaa_lint", run_name="__main__")
 
 
 class Job:
-    """A job of a runner: its folders, and uses of the action in it. Results: the exit code, and what was written down and printed."""
+    """A job of a runner: its folders, and uses of the action in it. Results: the exit code, and
+    what was written down and printed.
+    """
 
     def __init__(self, folder: Path, linter: str = LINTER) -> None:
         self.workspace = folder / "work space"
@@ -151,12 +196,20 @@ class Job:
         for name, text in (("PYTHON", PYTHON), ("LINTER", linter)):
             self.tools[name].write_text(f"#!{sys.executable}\n{text}")
             self.tools[name].chmod(0o755)
-        self.environment = {"RECORD": str(self.record), "LINTER_CODE": "0", "SARIF_TEXT": "{}", "PIP_CODE": "0", "PROGRAMS": "bin"}
+        self.environment = {
+            "RECORD": str(self.record),
+            "LINTER_CODE": "0",
+            "SARIF_TEXT": "{}",
+            "PIP_CODE": "0",
+            "PROGRAMS": "bin",
+        }
         self.action = "/the action/at its ref"
         self.printed = ""
 
     def use(self, upload: str = "success", **inputs: str) -> Use:
-        """Runs the steps whose conditions hold, as a runner does. `upload` is the outcome of the upload."""
+        """Runs the steps whose conditions hold, as a runner does. `upload` is the outcome of the
+        upload.
+        """
         values = {key: entry["default"] for key, entry in ACTION["inputs"].items()} | {
             key.replace("_", "-"): v for key, v in inputs.items()
         }
@@ -169,30 +222,52 @@ class Job:
             use.steps.append(entry["name"])
             if "uses" in entry:
                 uploads = entry.get("id") == "upload"
-                use.upload = {key: fill(value, contexts) for key, value in entry["with"].items()} if uploads else use.upload
+                use.upload = (
+                    {key: fill(value, contexts) for key, value in entry["with"].items()}
+                    if uploads
+                    else use.upload
+                )
                 code, outputs = int(uploads and upload == "failure"), {}
             else:
                 code, outputs = self.run(entry, contexts)
-                use.arguments[entry["name"]] = json.loads(self.record.read_text()) if self.record.exists() else []
+                use.arguments[entry["name"]] = (
+                    json.loads(self.record.read_text()) if self.record.exists() else []
+                )
                 self.record.unlink(missing_ok=True)
-            contexts |= {f"steps.{entry.get('id')}.outputs.{key}": value for key, value in outputs.items()}
+            contexts |= {
+                f"steps.{entry.get('id')}.outputs.{key}": value for key, value in outputs.items()
+            }
             contexts[f"steps.{entry.get('id')}.outcome"] = "failure" if code else "success"
             use.failed |= bool(code) and not entry.get("continue-on-error")
-        use.outputs = {key: fill(entry["value"], contexts) for key, entry in ACTION["outputs"].items()}
+        use.outputs = {
+            key: fill(entry["value"], contexts) for key, entry in ACTION["outputs"].items()
+        }
         return use
 
     def run(self, entry: dict[str, Any], contexts: dict[str, str]) -> tuple[int, dict[str, str]]:
         output = self.temp / "output"
         output.write_text("")
-        kept = {name: value for name, value in os.environ.items() if name in ("PATH", "HOME") or name.startswith("PIP_")}
+        kept = {
+            name: value
+            for name, value in os.environ.items()
+            if name in ("PATH", "HOME") or name.startswith("PIP_")
+        }
         environment = {
-            **kept, **self.environment, **{key: fill(value, contexts) for key, value in entry.get("env", {}).items()},
-            "LINTER": str(self.tools["LINTER"]), "RUNNER_TEMP": str(self.temp), "GITHUB_OUTPUT": str(output),
+            **kept, **self.environment, **{key: fill(value, contexts) for key,
+            value in entry.get("env", {}).items()},
+            "LINTER": str(self.tools["LINTER"]), "RUNNER_TEMP": str(self.temp),
+            "GITHUB_OUTPUT": str(output),
             "GITHUB_ACTION_PATH": self.action, "GITHUB_WORKSPACE": str(self.workspace),
         }  # fmt: skip
         command = ["bash", "--noprofile", "--norc", "-eo", "pipefail", "-c", entry["run"]]
         done = subprocess.run(
-            command, cwd=self.workspace, env=environment, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False
+            command,
+            cwd=self.workspace,
+            env=environment,
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+            text=True,
+            check=False,
         )
         self.printed = done.stdout + done.stderr
         return done.returncode, dict(line.split("=", 1) for line in output.read_text().splitlines())
@@ -200,7 +275,9 @@ class Job:
 
 @dataclass
 class Use:
-    """What came of a use: the steps that ran, what pip and msaa-lint were given, what was uploaded, and how it ended."""
+    """What came of a use: the steps that ran, what pip and msaa-lint were given, what was uploaded,
+    and how it ended.
+    """
 
     arguments: dict[str, list[str]]
     steps: list[str] = field(default_factory=list)
@@ -217,7 +294,9 @@ def holds(condition: str, contexts: dict[str, str], failed: bool) -> bool:
     """Whether a condition of a step holds, in a job that is not cancelled."""
     if condition == "success()":
         return not failed
-    left, operator, right = condition.removeprefix("${{ !cancelled() && ").removesuffix(" }}").split(" ")
+    left, operator, right = (
+        condition.removeprefix("${{ !cancelled() && ").removesuffix(" }}").split(" ")
+    )
     return (contexts.get(left, "") == right.strip("'")) == {"==": True, "!=": False}[operator]
 
 
@@ -231,7 +310,15 @@ def test_lints_the_current_folder_by_default(job: Job) -> None:
     use = job.use()
     sarif = use.outputs["sarif"]
     assert Path(sarif).parent.parent == job.temp
-    assert use.arguments["Lint"] == ["check", "--output", "github", "--output", f"sarif={sarif}", "--", "."]
+    assert use.arguments["Lint"] == [
+        "check",
+        "--output",
+        "github",
+        "--output",
+        f"sarif={sarif}",
+        "--",
+        ".",
+    ]
     assert use.outputs == {"exit-code": "0", "sarif": sarif}
     assert use.upload == {"sarif_file": sarif, "category": "msaa-lint"}
     assert use.steps == ["Set up Python", "Install msaa-lint", "Lint", "Upload to code scanning"]
@@ -250,12 +337,14 @@ def test_passes_on_what_the_inputs_say(job: Job) -> None:
         paths="renderer/a folder\r\n\n*.yaml\n",
         config="ci/msaa lint.toml",
         fail_on="error",
-        args="--select MSAA2\n  --profile 'my device.json' --exclude \"*.yaml\" --baseline ci\\known.json",
+        args="--select MSAA2\n  --profile 'my device.json' --exclude \"*.yaml\" --baseline "
+        "ci\\known.json",
         annotations="false",
         upload_sarif="false",
     )
     assert use.arguments["Lint"] == [
-        "check", "--output", "full", "--config=ci/msaa lint.toml", "--fail-on=error", "--select", "MSAA2", "--profile", "my device.json",
+        "check", "--output", "full", "--config=ci/msaa lint.toml", "--fail-on=error", "--select",
+        "MSAA2", "--profile", "my device.json",
         "--exclude", "*.yaml", "--baseline", "ci\\known.json", "--", "renderer/a folder", "*.yaml",
     ]  # fmt: skip
     assert use.outputs == {"exit-code": "0", "sarif": ""}
@@ -266,7 +355,20 @@ HOSTILE = "$(touch owned) `touch owned`; touch owned; \\\"; touch owned; ' * ${P
 
 
 @needs_bash
-@pytest.mark.parametrize("name", ["paths", "config", "fail_on", "args", "version", "source", "category", "annotations", "upload_sarif"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        "paths",
+        "config",
+        "fail_on",
+        "args",
+        "version",
+        "source",
+        "category",
+        "annotations",
+        "upload_sarif",
+    ],
+)
 def test_inputs_are_words_and_no_code(job: Job, name: str) -> None:
     hostile = HOSTILE + "'" + '"' if name == "args" else HOSTILE
     use = job.use(**{name: hostile})
@@ -296,7 +398,10 @@ def test_modules_of_the_workspace_are_not_imported(job: Job) -> None:
 def test_a_quotation_mark_without_its_counterpart_is_an_error(job: Job) -> None:
     use = job.use(args="--config 'ci/msaa lint.toml")
     assert use.failed and use.outputs == {"exit-code": "2", "sarif": ""}
-    assert job.printed == "::error title=msaa-lint::the input `args` has a quotation mark without its counterpart\n"
+    assert (
+        job.printed == "::error title=msaa-lint::the input `args` has a quotation mark without its "
+        "counterpart\n"
+    )
     assert use.arguments["Lint"] == []
 
 
@@ -337,7 +442,10 @@ def test_a_failed_upload_is_a_notice_and_changes_no_exit_code(job: Job, code: in
     use = job.use(upload="failure")
     assert use.failed is bool(code)
     assert use.steps[-1] == "Report a failed upload"
-    assert re.fullmatch("::notice title=msaa-lint::The findings were not uploaded to code scanning: [^\n]*\n", job.printed)
+    assert re.fullmatch(
+        "::notice title=msaa-lint::The findings were not uploaded to code scanning: [^\n]*\n",
+        job.printed,
+    )
 
 
 @needs_bash
@@ -350,7 +458,9 @@ def test_a_failed_upload_is_a_notice_and_changes_no_exit_code(job: Job, code: in
         ("0.1.0", "true", "msaa-lint[source]==0.1.0"),
     ],
 )
-def test_installs_its_own_ref_or_a_release(job: Job, version: str, source: str, wanted: str) -> None:
+def test_installs_its_own_ref_or_a_release(
+    job: Job, version: str, source: str, wanted: str
+) -> None:
     arguments = job.use(version=version, source=source).arguments["Install msaa-lint"]
     assert arguments[0] == "install"
     assert arguments[-1] == wanted
@@ -358,17 +468,24 @@ def test_installs_its_own_ref_or_a_release(job: Job, version: str, source: str, 
 
 @needs_bash
 def test_with_msaa_lint_itself(tmp_path: Path) -> None:
-    """Paths with spaces and with a dash at their beginning, findings, a clean file, and a configuration that does not exist."""
+    """Paths with spaces and with a dash at their beginning, findings, a clean file, and a
+    configuration that does not exist.
+    """
     job = Job(tmp_path, REAL)
     (job.workspace / "a folder").mkdir()
     (job.workspace / "a folder" / "-bad.msaa.yaml").write_text(BAD)
     (job.workspace / "--good.msaa.yaml").write_text(GOOD)
-    use = job.use(paths="a folder\n--good.msaa.yaml", args="--ignore MSAA1 'MSAA4'", upload="failure")
+    use = job.use(
+        paths="a folder\n--good.msaa.yaml", args="--ignore MSAA1 'MSAA4'", upload="failure"
+    )
     assert use.outputs["exit-code"] == "2", "two rules need two options"
     use = job.use(paths="a folder\n--good.msaa.yaml", args="--ignore MSAA1 --ignore 'MSAA4'")
     assert use.failed and use.outputs["exit-code"] == "1"
     (run,) = json.loads(Path(use.outputs["sarif"]).read_text())["runs"]
-    places = [result["locations"][0]["physicalLocation"]["artifactLocation"]["uri"] for result in run["results"]]
+    places = [
+        result["locations"][0]["physicalLocation"]["artifactLocation"]["uri"]
+        for result in run["results"]
+    ]
     assert set(places) == {"a%20folder/-bad.msaa.yaml"}
     assert "::warning file=a folder/-bad.msaa.yaml,line=" in job.printed
     clean = job.use(paths="--good.msaa.yaml")
@@ -382,7 +499,9 @@ def test_with_msaa_lint_itself(tmp_path: Path) -> None:
 @needs_bash
 @pytest.mark.network
 def test_with_python_and_pip_themselves(tmp_path: Path) -> None:
-    """From a copy of this repository, as the documentation has it, in a folder whose name has a space."""
+    """From a copy of this repository, as the documentation has it, in a folder whose name has a
+    space.
+    """
     job = Job(tmp_path)
     job.tools["PYTHON"] = Path(sys.executable)
     copy = job.workspace / "tools" / "msaa-lint"

@@ -1,5 +1,7 @@
-"""The program in examples/capture: it runs, draws the same picture with its mistakes and without, and captured anew, by gfxreconstruct and
-by RenderDoc, it has the findings of the captures that are kept beside it."""
+"""The program in examples/capture: it runs, draws the same picture with its mistakes and without,
+and captured anew, by gfxreconstruct and by RenderDoc, it has the findings of the captures that are
+kept beside it.
+"""
 
 from __future__ import annotations
 
@@ -21,17 +23,24 @@ WIDTH, HEIGHT = 320, 180
 
 
 def findings(path: Path) -> Counter[tuple[str, str, str]]:
-    """Rule, severity and subject of what is found. Numbers of commands and passes depend on how many frames a capture has."""
+    """Rule, severity and subject of what is found. Numbers of commands and passes depend on how
+    many frames a capture has.
+    """
     done = run(ROOT, "check", "--isolated", "--output", "json", str(path))
     assert done.returncode in (0, 1), done.stderr
-    return Counter((each["rule"], each["severity"], each["subject"]) for each in json.loads(done.stdout)["findings"])
+    return Counter(
+        (each["rule"], each["severity"], each["subject"])
+        for each in json.loads(done.stdout)["findings"]
+    )
 
 
 @pytest.fixture(scope="module")
 def anew(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A folder with captures made now."""
     folder = tmp_path_factory.mktemp("captured")
-    done = subprocess.run(["sh", EXAMPLE / "capture.sh", folder], capture_output=True, text=True, check=False)
+    done = subprocess.run(
+        ["sh", EXAMPLE / "capture.sh", folder], capture_output=True, text=True, check=False
+    )
     assert done.returncode == 0, done.stderr
     return folder
 
@@ -42,14 +51,21 @@ def forward(tmp_path_factory: pytest.TempPathFactory) -> Path:
     program = tmp_path_factory.mktemp("built") / "forward"
     sources = [str(EXAMPLE / name) for name in ("forward.c", "device.c")]
     warnings = ["-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Wshadow", "-Werror"]
-    subprocess.run([os.environ.get("CC", "cc"), *warnings, "-o", str(program), *sources, "-lvulkan", "-ldl"], check=True)
+    subprocess.run(
+        [os.environ.get("CC", "cc"), *warnings, "-o", str(program), *sources, "-lvulkan", "-ldl"],
+        check=True,
+    )
     return program
 
 
 def drawn(forward: Path, *arguments: str) -> bytes:
     """The picture of a run, three bytes to a pixel."""
     path = forward.with_suffix(".ppm")
-    subprocess.run([forward, "--frames", "3", "--picture", path, *arguments], check=True, stdout=subprocess.DEVNULL)
+    subprocess.run(
+        [forward, "--frames", "3", "--picture", path, *arguments],
+        check=True,
+        stdout=subprocess.DEVNULL,
+    )
     head, pixels = path.read_bytes().split(b"\n255\n", 1)
     assert head == f"P6\n{WIDTH} {HEIGHT}".encode()
     assert len(pixels) == WIDTH * HEIGHT * 3
@@ -72,8 +88,14 @@ def test_the_layer_finds_no_error(forward: Path, tmp_path: Path) -> None:
         "khronos_validation.enables = VK_VALIDATION_FEATURE_ENABLE_BEST_PRACTICES_EXT\n",
         encoding="utf-8",
     )
-    layer = {**os.environ, "VK_INSTANCE_LAYERS": "VK_LAYER_KHRONOS_validation", "VK_LAYER_SETTINGS_PATH": str(tmp_path)}
-    subprocess.run([forward, "--frames", "3"], cwd=tmp_path, env=layer, check=True, stdout=subprocess.DEVNULL)
+    layer = {
+        **os.environ,
+        "VK_INSTANCE_LAYERS": "VK_LAYER_KHRONOS_validation",
+        "VK_LAYER_SETTINGS_PATH": str(tmp_path),
+    }
+    subprocess.run(
+        [forward, "--frames", "3"], cwd=tmp_path, env=layer, check=True, stdout=subprocess.DEVNULL
+    )
     said = (tmp_path / "said.txt").read_text(encoding="utf-8")
     assert "vkCreateRenderPass-image-requires-memory" in said, "the layer is on"
     assert re.findall(r"^.*\(ERROR .*$", said, re.MULTILINE) == []
@@ -88,8 +110,12 @@ def test_two_tools_show_the_same(anew: Path) -> None:
     assert findings(anew / "forward.xml") == findings(anew / "forward.jsonl")
 
 
-@pytest.mark.parametrize(("name", "text"), [("forward.gfxr", "forward.jsonl"), ("forward.rdc", "forward.xml")])
-def test_a_binary_capture_has_the_findings_of_the_converted_one(anew: Path, name: str, text: str) -> None:
+@pytest.mark.parametrize(
+    ("name", "text"), [("forward.gfxr", "forward.jsonl"), ("forward.rdc", "forward.xml")]
+)
+def test_a_binary_capture_has_the_findings_of_the_converted_one(
+    anew: Path, name: str, text: str
+) -> None:
     """Through the tools' converters, and with the code of its shaders, which neither text has."""
     assert findings(anew / name) == findings(anew / text)
     assert "shaders/" in run(anew, "convert", name).stdout
@@ -116,14 +142,18 @@ def test_shaders_are_fresh(tmp_path: Path) -> None:
 def mistakes() -> list[tuple[int, str, str, str]]:
     """Number, rule, pass and words of the comments."""
     text = (EXAMPLE / "forward.c").read_text(encoding="utf-8")
-    comments = re.findall(r"/\* Mistake (\d+), ([a-z-]+), (scene|mirror|glow|composite): (.*?)\. \*/", text)
+    comments = re.findall(
+        r"/\* Mistake (\d+), ([a-z-]+), (scene|mirror|glow|composite): (.*?)\. \*/", text
+    )
     assert len(comments) == text.count("/* Mistake")
     return sorted((int(number), rule, where, words) for number, rule, where, words in comments)
 
 
 def test_every_mistake_has_a_number_and_a_rule_and_is_told_of() -> None:
     """docs/replayed.py writes the page."""
-    count = int(re.findall(r"MISTAKES = (\d+)", (EXAMPLE / "forward.c").read_text(encoding="utf-8"))[0])
+    count = int(
+        re.findall(r"MISTAKES = (\d+)", (EXAMPLE / "forward.c").read_text(encoding="utf-8"))[0]
+    )
     assert [number for number, *_ in mistakes()] == list(range(1, count + 1))
     page = (ROOT / "docs" / "captures-and-the-layer.md").read_text(encoding="utf-8")
     for number, rule, where, words in mistakes():

@@ -1,4 +1,5 @@
-"""Everything that the documentation tells to run works: the commands of each page, in order, in an empty folder or in a clone.
+"""Everything that the documentation tells to run works: the commands of each page, in order, in an
+empty folder or in a clone.
 
 `python -m tests.doc_blocks` counts them.
 """
@@ -24,15 +25,40 @@ from tests.command import environment_of, run
 from tests.doc_blocks import PAGES, Block, blocks
 from tests.paths import ROOT
 
-LANGUAGES = {"sh", "console", "python", "yaml", "toml", "json", "cpp", "markdown", "text", "inline", "lua", "elisp", "groovy"}
+LANGUAGES = {
+    "sh",
+    "console",
+    "python",
+    "yaml",
+    "toml",
+    "json",
+    "cpp",
+    "markdown",
+    "text",
+    "inline",
+    "lua",
+    "elisp",
+    "groovy",
+}
 
 NOT_RUN = {
-    "README.md": {"installs packages; tests/integration/test_release.py runs it", "runs all tests; .ci/run runs it"},
-    "CONTRIBUTING.md": {"installs packages; tests/integration/test_release.py runs it", "publishes"},
-    "docs/ci.md": {"URL stands for a repository; tests/integration/test_release.py runs it", "needs reviewdog and a token"},
+    "README.md": {
+        "installs packages; tests/integration/test_release.py runs it",
+        "runs all tests; .ci/run runs it",
+    },
+    "CONTRIBUTING.md": {
+        "installs packages; tests/integration/test_release.py runs it",
+        "publishes",
+    },
+    "docs/ci.md": {
+        "URL stands for a repository; tests/integration/test_release.py runs it",
+        "needs reviewdog and a token",
+    },
     "docs/confirm.md": {"needs root", "needs a GPU"},
     "docs/devices.md": {"needs reports and a phone"},
-    "docs/editors.md": {"installs packages from npm; tests/integration/test_vscode.py builds the extension"},
+    "docs/editors.md": {
+        "installs packages from npm; tests/integration/test_vscode.py builds the extension"
+    },
     "docs/guides/editor.md": {"runs until it is interrupted"},
     "docs/scale.md": {"needs a corpus, a cluster, and a bucket"},
     "docs/study.md": {"needs a GPU"},
@@ -52,15 +78,21 @@ class Reader:
         programs = folder / "bin"
         programs.mkdir()
         for name, arguments in {"msaa-lint": "-m msaa_lint", "python": "", "python3": ""}.items():
-            (programs / name).write_text(f'#!/bin/sh\nexec {sys.executable} {arguments} "$@"\n', encoding="utf-8")
+            (programs / name).write_text(
+                f'#!/bin/sh\nexec {sys.executable} {arguments} "$@"\n', encoding="utf-8"
+            )
             (programs / name).chmod(0o755)
-        self.environment = environment_of({"COLUMNS": "140", "PATH": f"{programs}{os.pathsep}{os.environ['PATH']}"})
+        self.environment = environment_of(
+            {"COLUMNS": "140", "PATH": f"{programs}{os.pathsep}{os.environ['PATH']}"}
+        )
 
     def folder_of(self, block: Block) -> Path:
         if not block.in_clone:
             return self.empty
         if not self.clone.exists():
-            names = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, capture_output=True, text=True, check=True).stdout.split("\0")
+            names = subprocess.run(
+                ["git", "ls-files", "-z"], cwd=ROOT, capture_output=True, text=True, check=True
+            ).stdout.split("\0")
             for name in names:
                 if name and (ROOT / name).is_file():
                     (self.clone / name).parent.mkdir(parents=True, exist_ok=True)
@@ -69,7 +101,8 @@ class Reader:
 
     def types(self, block: Block, command: str) -> subprocess.CompletedProcess[str]:
         done = subprocess.run(
-            ["bash", "-c", command], cwd=self.folder_of(block), env=self.environment, stdin=subprocess.DEVNULL,
+            ["bash", "-c", command], cwd=self.folder_of(block), env=self.environment,
+            stdin=subprocess.DEVNULL,
             capture_output=True, text=True, check=False,
         )  # fmt: skip
         assert "Traceback" not in done.stderr, done.stderr
@@ -81,7 +114,9 @@ class Reader:
         path.write_text(text, encoding="utf-8")
 
 
-@pytest.mark.parametrize("page", [page for page in PAGES if any(block.commands() for block in blocks(page))])
+@pytest.mark.parametrize(
+    "page", [page for page in PAGES if any(block.commands() for block in blocks(page))]
+)
 def test_commands(page: str, tmp_path: Path) -> None:
     if shutil.which(needs_tools.get(page, "sh")) is None:
         pytest.skip(f"{needs_tools[page]} is not installed")
@@ -100,10 +135,14 @@ def test_commands(page: str, tmp_path: Path) -> None:
             for command in block.commands():
                 stated = re.search(r"# .*\bexits with (\d)", command)
                 done = reader.types(block, command)
-                assert done.returncode == (int(stated[1]) if stated else 0), f"{block.place}: {command}\n{done.stdout}{done.stderr}"
+                assert done.returncode == (int(stated[1]) if stated else 0), (
+                    f"{block.place}: {command}\n{done.stdout}{done.stderr}"
+                )
         elif block.language == "console":
             (command,) = block.commands()
-            done = reader.types(block, command if "--output" in command else f"{command} --output full")
+            done = reader.types(
+                block, command if "--output" in command else f"{command} --output full"
+            )
             assert done.returncode in (0, 1), f"{block.place}: {done.stderr}"
             shown = f"$ {command}\n{done.stdout}"
             if os.environ.get("UPDATE"):
@@ -127,17 +166,32 @@ def flags_of(command: str) -> set[str]:
 
 @pytest.mark.parametrize("page", PAGES)
 def test_what_is_only_mentioned_exists(page: str) -> None:
-    """The command and the options of inline commands that are not run, the files of scripts, and options in prose."""
-    known = set(re.findall(r"--[a-z-]+", run(ROOT, "--help").stdout)).union(*map(flags_of, COMMANDS))
+    """The command and the options of inline commands that are not run, the files of scripts, and
+    options in prose.
+    """
+    known = set(re.findall(r"--[a-z-]+", run(ROOT, "--help").stdout)).union(
+        *map(flags_of, COMMANDS)
+    )
     for block in blocks(page):
         words = block.text.split()
         if block.language == "inline" and block.skipped and words[0] == "msaa-lint":
             assert words[1] in (*COMMANDS, *known), block
-            assert words[1] in known or {word for word in words if word.startswith("--")} <= flags_of(words[1]), block
+            assert words[1] in known or {
+                word for word in words if word.startswith("--")
+            } <= flags_of(words[1]), block
         elif block.language == "inline" and block.skipped:
             assert all((ROOT / word).exists() for word in words if "/" in word), block
     text = re.sub(r"```.*?```", "", (ROOT / page).read_text(encoding="utf-8"), flags=re.DOTALL)
-    others = {"--check", "--format", "--expand-flags", "--include-binaries", "--summary", "--json", "--fixed", "--mistake"}
+    others = {
+        "--check",
+        "--format",
+        "--expand-flags",
+        "--include-binaries",
+        "--summary",
+        "--json",
+        "--fixed",
+        "--mistake",
+    }
     assert set(re.findall(r"`(--[a-z][a-z-]+)", text)) - others <= known
 
 
@@ -147,7 +201,12 @@ def test_blocks_are_of_a_known_language(page: str) -> None:
 
 
 def test_what_is_not_run_has_a_reason() -> None:
-    reasons = {page: {block.skipped for block in blocks(page) if block.skipped and block.language != "inline"} for page in PAGES}
+    reasons = {
+        page: {
+            block.skipped for block in blocks(page) if block.skipped and block.language != "inline"
+        }
+        for page in PAGES
+    }
     assert {page: found for page, found in reasons.items() if found} == NOT_RUN
 
 
@@ -164,4 +223,8 @@ def test_yaml_toml_and_json_are_valid(page: str, tmp_path: Path) -> None:
             if isinstance(data, dict) and data.keys() <= set(Description.__annotations__):
                 (tmp_path / "block.msaa.yaml").write_text(block.text, encoding="utf-8")
                 findings = lint(str(tmp_path / "block.msaa.yaml"), isolated=True).findings
-                assert [(block.place, finding.message) for finding in findings if finding.severity == "error"] == []
+                assert [
+                    (block.place, finding.message)
+                    for finding in findings
+                    if finding.severity == "error"
+                ] == []

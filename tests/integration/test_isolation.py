@@ -1,4 +1,6 @@
-"""Nothing in the working folder is imported, run, or read as somebody else's settings, whatever it is called."""
+"""Nothing in the working folder is imported, run, or read as somebody else's settings, whatever it
+is called.
+"""
 
 from __future__ import annotations
 
@@ -42,7 +44,11 @@ COMMANDS = [
 @pytest.fixture
 def checkout(tmp_path: Path) -> Path:
     """A folder with inputs."""
-    for name, text in (("frame.msaa.yaml", DESCRIPTION), ("triangle.obj", MESH), ("code.cpp", CODE)):
+    for name, text in (
+        ("frame.msaa.yaml", DESCRIPTION),
+        ("triangle.obj", MESH),
+        ("code.cpp", CODE),
+    ):
         (tmp_path / name).write_text(text)
     return tmp_path
 
@@ -50,17 +56,36 @@ def checkout(tmp_path: Path) -> Path:
 def modules() -> set[str]:
     """What Python, the packages that are installed, and this program may import."""
     loaded = {name.partition(".")[0] for name in sys.modules}
-    packages = {name.partition("-")[0].partition(".")[0] for name in os.listdir(Path(pytest.__file__).parent.parent)}
-    names = {*loaded, *packages, *sys.stdlib_module_names, "sitecustomize", "usercustomize", "pip", "venv", "vulkan", "trimesh"}
+    packages = {
+        name.partition("-")[0].partition(".")[0]
+        for name in os.listdir(Path(pytest.__file__).parent.parent)
+    }
+    names = {
+        *loaded,
+        *packages,
+        *sys.stdlib_module_names,
+        "sitecustomize",
+        "usercustomize",
+        "pip",
+        "venv",
+        "vulkan",
+        "trimesh",
+    }
     return {name for name in names if name.isidentifier()} - {"__main__", "tests"}
 
 
 @functools.lru_cache
 def of_python() -> set[str]:
-    """What Python itself imports for `python -m`, and for the packages of its environment, before any program has a say."""
+    """What Python itself imports for `python -m`, and for the packages of its environment, before
+    any program has a say.
+    """
     command = [sys.executable, "-c", "import runpy, sys, traceback\nprint(*sys.modules)"]
     done = subprocess.run(command, capture_output=True, text=True, check=True)
-    return {name.partition(".")[0] for name in done.stdout.split()} | {"_distutils_hack", "sitecustomize", "usercustomize"}
+    return {name.partition(".")[0] for name in done.stdout.split()} | {
+        "_distutils_hack",
+        "sitecustomize",
+        "usercustomize",
+    }
 
 
 def poison(folder: Path, names: set[str]) -> None:
@@ -85,9 +110,18 @@ def run_script(folder: Path, *command: str, **environment: str) -> subprocess.Co
     """Runs the command as its console script does."""
     script = folder / "bin of python"
     script.mkdir(exist_ok=True)
-    (script / "msaa-lint").write_text("import re, sys\nfrom msaa_lint.__main__ import main\nsys.exit(main())\n")
+    (script / "msaa-lint").write_text(
+        "import re, sys\nfrom msaa_lint.__main__ import main\nsys.exit(main())\n"
+    )
     arguments = [sys.executable, str(script / "msaa-lint"), *command]
-    return subprocess.run(arguments, cwd=folder, env=environment_of(environment), capture_output=True, text=True, check=False)
+    return subprocess.run(
+        arguments,
+        cwd=folder,
+        env=environment_of(environment),
+        capture_output=True,
+        text=True,
+        check=False,
+    )
 
 
 def test_no_module_of_the_working_folder_is_imported(checkout: Path) -> None:
@@ -95,7 +129,10 @@ def test_no_module_of_the_working_folder_is_imported(checkout: Path) -> None:
     for command in COMMANDS:
         done = run_script(checkout, *command)
         assert imported(checkout) == "", command
-        assert done.returncode in ((2,) if command[0] == "convert" else (0, 1)) and done.stdout + done.stderr, command
+        assert (
+            done.returncode in ((2,) if command[0] == "convert" else (0, 1))
+            and done.stdout + done.stderr
+        ), command
 
 
 def test_nor_by_python_dash_m(checkout: Path) -> None:
@@ -115,7 +152,9 @@ def test_no_relative_entry_of_pythonpath_is_searched(checkout: Path) -> None:
 
 
 def test_the_hooks_and_the_action_ignore_pythonpath(checkout: Path) -> None:
-    """Python itself imports from it before any program runs, so they have none: docs/security.md says what holds for other uses."""
+    """Python itself imports from it before any program runs, so they have none: docs/security.md
+    says what holds for other uses.
+    """
     poison(checkout, modules())
     hooks = yaml.safe_load((ROOT / ".pre-commit-hooks.yaml").read_text(encoding="utf-8"))
     assert len(hooks) == 2
@@ -134,20 +173,37 @@ def test_the_hooks_and_the_action_ignore_pythonpath(checkout: Path) -> None:
     steps = yaml.safe_load((ROOT / "action.yml").read_text(encoding="utf-8"))["runs"]["steps"]
     lint = next(step["env"] for step in steps if step["name"] == "Lint")
     assert (lint["PYTHONPATH"], lint["PYTHONSAFEPATH"]) == ("", "1")
-    done = run_script(checkout, "check", "frame.msaa.yaml", PYTHONPATH=lint["PYTHONPATH"], PYTHONSAFEPATH=lint["PYTHONSAFEPATH"])
+    done = run_script(
+        checkout,
+        "check",
+        "frame.msaa.yaml",
+        PYTHONPATH=lint["PYTHONPATH"],
+        PYTHONSAFEPATH=lint["PYTHONSAFEPATH"],
+    )
     assert imported(checkout) == "" and done.returncode in (0, 1), done.stderr
     stated = checkout / "stated"
     stated.mkdir()
     poison(stated, {"sitecustomize"})
     run_script(stated, "--version", PYTHONPATH=f".{os.pathsep}{ROOT}")
-    assert imported(stated).startswith("sitecustomize"), "as the documentation says of relative entries"
+    assert imported(stated).startswith("sitecustomize"), (
+        "as the documentation says of relative entries"
+    )
 
 
 @pytest.mark.skipif(os.name != "posix", reason="scripts with an interpreter line")
 @pytest.mark.parametrize("path", [f".{os.pathsep}{os.pathsep}{os.environ['PATH']}", ""])
 def test_no_program_of_the_working_folder_is_run(checkout: Path, path: str) -> None:
     names = {name for folder in ("/bin", "/usr/bin", "/sbin") for name in os.listdir(folder)}
-    for name in names | {"glslangValidator", "git", "adb", "pip", "python", "python3", "msaa-lint", "lscpu"}:
+    for name in names | {
+        "glslangValidator",
+        "git",
+        "adb",
+        "pip",
+        "python",
+        "python3",
+        "msaa-lint",
+        "lscpu",
+    }:
         (checkout / name).write_text(f"#!/bin/sh\necho {name} >>{checkout}/imported\n")
         (checkout / name).chmod(0o755)
     for command in (("check", "."), ("confirm", "frame.msaa.yaml"), (*STUDY, "--jobs", "2")):
@@ -155,12 +211,23 @@ def test_no_program_of_the_working_folder_is_run(checkout: Path, path: str) -> N
     assert imported(checkout) == ""
 
 
-@pytest.mark.parametrize("option", [("cost", "frame.msaa.yaml", "--chart"), (*STUDY, "--jobs", "1", "--plot")])
-def test_no_settings_of_a_working_folder_change_a_figure(checkout: Path, option: tuple[str, ...]) -> None:
+@pytest.mark.parametrize(
+    "option", [("cost", "frame.msaa.yaml", "--chart"), (*STUDY, "--jobs", "1", "--plot")]
+)
+def test_no_settings_of_a_working_folder_change_a_figure(
+    checkout: Path, option: tuple[str, ...]
+) -> None:
     assert run_process(checkout, *option, "plain.svg").returncode == 0
     for name in ("package.json", "deno.json", "vl-convert.json", ".fonts.conf", "fonts.conf"):
         (checkout / name).write_text("{")
-    done = run_process(checkout, *option, "again.svg", DENO_DIR="settings", FONTCONFIG_FILE="fonts.conf", TMPDIR=str(checkout))
+    done = run_process(
+        checkout,
+        *option,
+        "again.svg",
+        DENO_DIR="settings",
+        FONTCONFIG_FILE="fonts.conf",
+        TMPDIR=str(checkout),
+    )
     assert (done.returncode, done.stderr) == (0, "")
     assert (checkout / "again.svg").read_bytes() == (checkout / "plain.svg").read_bytes()
     assert not (checkout / "settings").exists()

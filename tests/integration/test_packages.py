@@ -1,4 +1,6 @@
-"""The wheel and the sdist: what git tracks, whatever else lies in the tree, and byte for byte the same from everywhere."""
+"""The wheel and the sdist: what git tracks, whatever else lies in the tree, and byte for byte the
+same from everywhere.
+"""
 
 from __future__ import annotations
 
@@ -27,7 +29,13 @@ STRAY = (
         "msaa_lint/core/key.pem",
         "msaa_lint/frame.yaml",
     ),
-    *("msaa_lint/__pycache__/x.cpython-311.pyc", "rules/draft.md~", "rules/.DS_Store", "rules/shaders/a.out", "rules/__pycache__/x.pyc"),
+    *(
+        "msaa_lint/__pycache__/x.cpython-311.pyc",
+        "rules/draft.md~",
+        "rules/.DS_Store",
+        "rules/shaders/a.out",
+        "rules/__pycache__/x.pyc",
+    ),
     *(
         "docs/core.12",
         "examples/id_rsa",
@@ -37,14 +45,23 @@ STRAY = (
         ".venv/lib/x.py",
         "build/lib/msaa_lint/x.py",
     ),
-    *("shared/design.md", "fuzz-failures/a/frame.msaa.yaml", ".hypothesis/examples/x", "dist/old.whl"),
+    *(
+        "shared/design.md",
+        "fuzz-failures/a/frame.msaa.yaml",
+        ".hypothesis/examples/x",
+        "dist/old.whl",
+    ),
 )
 """Files as they lie in the trees of developers."""
 
 
 def tracked() -> set[str]:
     listed = subprocess.run(
-        ["git", "ls-files", "--cached", "--others", "--exclude-standard"], cwd=ROOT, capture_output=True, text=True, check=True
+        ["git", "ls-files", "--cached", "--others", "--exclude-standard"],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        check=True,
     )
     return {name for name in listed.stdout.splitlines() if (ROOT / name).is_file()}
 
@@ -60,7 +77,14 @@ def copy(folder: Path) -> Path:
 def build(tree: Path, out: Path, umask: int) -> tuple[Path, Path]:
     """The wheel and the sdist that are built from a tree."""
     command = [sys.executable, "-m", "hatchling", "build", "-d", str(out)]
-    subprocess.run(command, cwd=tree, umask=umask, check=True, capture_output=True, env={"PATH": os.environ["PATH"]})
+    subprocess.run(
+        command,
+        cwd=tree,
+        umask=umask,
+        check=True,
+        capture_output=True,
+        env={"PATH": os.environ["PATH"]},
+    )
     (wheel,), (sdist,) = out.glob("*.whl"), out.glob("*.tar.gz")
     return wheel, sdist
 
@@ -75,7 +99,11 @@ def test_a_tree_with_stray_files_builds_the_same_packages_as_a_clean_one(tmp_pat
     wheel, sdist = build(dirty, tmp_path / "out", 0o022)
 
     names = zipfile.ZipFile(wheel).namelist()
-    package = {name.replace("core/py.typed", "py.typed") for name in tracked() if name.startswith("msaa_lint/")}
+    package = {
+        name.replace("core/py.typed", "py.typed")
+        for name in tracked()
+        if name.startswith("msaa_lint/")
+    }
     rules = {f"msaa_lint/{name}" for name in tracked() if name.startswith("rules/")}
     metadata = {
         f"{wheel.name.rpartition('-py3')[0]}.dist-info/{name}"

@@ -1,4 +1,6 @@
-"""The hook, by a real pre-commit: installed from the working tree as from a repository, run on another one."""
+"""The hook, by a real pre-commit: installed from the working tree as from a repository, run on
+another one.
+"""
 
 from __future__ import annotations
 
@@ -20,7 +22,9 @@ SHIPPED = (".pre-commit-hooks.yaml", "pyproject.toml", "README.md", "LICENSE", "
 pytestmark = [
     pytest.mark.network,
     pytest.mark.skipif(shutil.which("git") is None, reason="git is not installed"),
-    pytest.mark.skipif(importlib.util.find_spec("pre_commit") is None, reason="pre-commit is not installed"),
+    pytest.mark.skipif(
+        importlib.util.find_spec("pre_commit") is None, reason="pre-commit is not installed"
+    ),
 ]
 
 GOOD = """\
@@ -38,13 +42,34 @@ PLACE = "4:78: warning[multisampled-attachment-stored]"
 
 def environment(home: Path) -> dict[str, str]:
     """Without the git repository, the hooks and the configurations that the tests may run in."""
-    kept = {name: value for name, value in os.environ.items() if not name.startswith(("GIT_", "PRE_COMMIT", "MSAA_LINT_", "PYTHONPATH"))}
-    author = {f"GIT_{who}_{what}": "tests@example.invalid" for who in ("AUTHOR", "COMMITTER") for what in ("NAME", "EMAIL")}
-    return {**kept, **author, "GIT_CONFIG_GLOBAL": os.devnull, "GIT_CONFIG_NOSYSTEM": "1", "PRE_COMMIT_HOME": str(home)}
+    kept = {
+        name: value
+        for name, value in os.environ.items()
+        if not name.startswith(("GIT_", "PRE_COMMIT", "MSAA_LINT_", "PYTHONPATH"))
+    }
+    author = {
+        f"GIT_{who}_{what}": "tests@example.invalid"
+        for who in ("AUTHOR", "COMMITTER")
+        for what in ("NAME", "EMAIL")
+    }
+    return {
+        **kept,
+        **author,
+        "GIT_CONFIG_GLOBAL": os.devnull,
+        "GIT_CONFIG_NOSYSTEM": "1",
+        "PRE_COMMIT_HOME": str(home),
+    }
 
 
 def git(folder: Path, home: Path, *arguments: str) -> str:
-    done = subprocess.run(["git", *arguments], cwd=folder, env=environment(home), capture_output=True, text=True, check=True)
+    done = subprocess.run(
+        ["git", *arguments],
+        cwd=folder,
+        env=environment(home),
+        capture_output=True,
+        text=True,
+        check=True,
+    )
     return done.stdout.strip()
 
 
@@ -68,11 +93,20 @@ class Scratch:
         """Uses a hook as a user does, with what a user says of it."""
         rev = git(self.hooks, self.home, "rev-parse", "HEAD")
         head = ["repos:", f"- repo: {self.hooks}", f"  rev: {rev}", "  hooks:", f"  - id: {hook}"]
-        self.add(".pre-commit-config.yaml", "\n".join([*head, *(f"    {line}" for line in lines), ""]))
+        self.add(
+            ".pre-commit-config.yaml", "\n".join([*head, *(f"    {line}" for line in lines), ""])
+        )
 
     def pre_commit(self, *arguments: str) -> subprocess.CompletedProcess[str]:
         command = [sys.executable, "-m", "pre_commit", *arguments, "--color", "never"]
-        return subprocess.run(command, cwd=self.folder, env=environment(self.home), capture_output=True, text=True, check=False)
+        return subprocess.run(
+            command,
+            cwd=self.folder,
+            env=environment(self.home),
+            capture_output=True,
+            text=True,
+            check=False,
+        )
 
 
 @pytest.fixture(scope="module")
@@ -88,7 +122,9 @@ def hooks(tmp_path_factory: pytest.TempPathFactory, home: Path) -> Path:
     for name in SHIPPED:
         source = ROOT / name
         if source.is_dir():
-            shutil.copytree(source, folder / name, ignore=shutil.ignore_patterns("__pycache__", ".*_cache"))
+            shutil.copytree(
+                source, folder / name, ignore=shutil.ignore_patterns("__pycache__", ".*_cache")
+            )
         else:
             shutil.copy(source, folder / name)
     git(folder, home, "init", "--quiet")

@@ -1,4 +1,6 @@
-"""What the documentation tells to install, from a clone of the working tree: README, docs/ci.md, and the steps of a release."""
+"""What the documentation tells to install, from a clone of the working tree: README, docs/ci.md,
+and the steps of a release.
+"""
 
 from __future__ import annotations
 
@@ -29,7 +31,11 @@ def steps(page: str) -> list[str]:
 
 def tracked() -> list[str]:
     listed = subprocess.run(
-        ["git", "ls-files", "--cached", "--others", "--exclude-standard"], cwd=ROOT, capture_output=True, text=True, check=True
+        ["git", "ls-files", "--cached", "--others", "--exclude-standard"],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        check=True,
     )
     return [name for name in listed.stdout.splitlines() if (ROOT / name).is_file()]
 
@@ -40,14 +46,33 @@ def clone(tmp_path: Path) -> Path:
     for name in tracked():
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(ROOT / name, folder / name)
-    execute(folder, 'git init --quiet --initial-branch main && git add . && git commit --quiet --message "The working tree"')
+    execute(
+        folder,
+        'git init --quiet --initial-branch main && git add . && git commit --quiet --message "The '
+        'working tree"',
+    )
     return folder
 
 
 def execute(folder: Path, script: str) -> subprocess.CompletedProcess[str]:
-    kept = {name: value for name, value in os.environ.items() if not name.startswith(("GIT_", "PYTHONPATH"))}
-    author = {f"GIT_{who}_{what}": "tests@example.invalid" for who in ("AUTHOR", "COMMITTER") for what in ("NAME", "EMAIL")}
-    return subprocess.run(["bash", "-ec", script], cwd=folder, env={**kept, **author}, capture_output=True, text=True, check=False)
+    kept = {
+        name: value
+        for name, value in os.environ.items()
+        if not name.startswith(("GIT_", "PYTHONPATH"))
+    }
+    author = {
+        f"GIT_{who}_{what}": "tests@example.invalid"
+        for who in ("AUTHOR", "COMMITTER")
+        for what in ("NAME", "EMAIL")
+    }
+    return subprocess.run(
+        ["bash", "-ec", script],
+        cwd=folder,
+        env={**kept, **author},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
 
 
 def test_the_installation(clone: Path) -> None:
@@ -59,7 +84,11 @@ def test_the_installation(clone: Path) -> None:
     shown = execute(clone, first.rpartition("&&")[2].strip() + " --output full").stdout.splitlines()
     assert 10 < len(shown) < 24
     assert execute(clone, ".venv/bin/msaa-lint check examples").returncode == 1
-    done = execute(clone, f"{extras}\ncd examples\nmsaa-lint study --list-scenes\nmsaa-lint check --fail-confidence high code/forward.cpp")
+    done = execute(
+        clone,
+        f"{extras}\ncd examples\nmsaa-lint study --list-scenes\nmsaa-lint check --fail-confidence "
+        f"high code/forward.cpp",
+    )
     assert done.returncode == 0, done.stdout + done.stderr
 
 
@@ -68,16 +97,27 @@ def test_the_steps_of_a_release(clone: Path) -> None:
     assert done.returncode == 0, done.stdout + done.stderr
     assert "No findings in 1 file" in done.stdout
     assert done.stdout.count("PASSED") == 2
-    head = execute(clone, f'git rev-parse HEAD "v{__version__}^{{}}" "v{__version__.split(".")[0]}^{{}}"').stdout.split()
+    head = execute(
+        clone, f'git rev-parse HEAD "v{__version__}^{{}}" "v{__version__.split(".")[0]}^{{}}"'
+    ).stdout.split()
     assert len(head) == 3 and len(set(head)) == 1
 
 
 def test_the_snippets_for_ci(clone: Path, tmp_path: Path) -> None:
-    """In a project with a copy of the clone, as docs/ci.md says: the scripts of GitLab and Azure Pipelines, and the pre-commit hooks."""
-    named = {block.file_name or block.language: block.text for block in reversed(list(blocks("docs/ci.md")))}
+    """In a project with a copy of the clone, as docs/ci.md says: the scripts of GitLab and Azure
+    Pipelines, and the pre-commit hooks.
+    """
+    named = {
+        block.file_name or block.language: block.text
+        for block in reversed(list(blocks("docs/ci.md")))
+    }
     project = tmp_path / "project"
     project.mkdir()
-    execute(project, "git init --quiet --initial-branch main && git commit --quiet --allow-empty --message Start")
+    execute(
+        project,
+        "git init --quiet --initial-branch main && git commit --quiet --allow-empty --message "
+        "Start",
+    )
     added = execute(project, named["sh"].replace("URL", str(clone)))
     assert added.returncode == 0, added.stderr
 
@@ -87,20 +127,39 @@ def test_the_snippets_for_ci(clone: Path, tmp_path: Path) -> None:
     assert installed.returncode == 0, installed.stderr
     done = execute(project, f". ../venv/bin/activate && {check}")
     assert done.returncode == 1, done.stderr
-    assert len(json.loads((project / "gl-code-quality-report.json").read_text(encoding="utf-8"))) == 2
+    assert (
+        len(json.loads((project / "gl-code-quality-report.json").read_text(encoding="utf-8"))) == 2
+    )
 
-    install_again, check = yaml.safe_load(named["azure-pipelines.yml"])["steps"][0]["script"].splitlines()
+    install_again, check = yaml.safe_load(named["azure-pipelines.yml"])["steps"][0][
+        "script"
+    ].splitlines()
     assert install_again == install
-    done = execute(project, f". ../venv/bin/activate && export BUILD_SOURCESDIRECTORY=$PWD && {check}")
-    issues = [line for line in done.stdout.splitlines() if line.startswith("##vso[task.logissue type=")]
+    done = execute(
+        project, f". ../venv/bin/activate && export BUILD_SOURCESDIRECTORY=$PWD && {check}"
+    )
+    issues = [
+        line for line in done.stdout.splitlines() if line.startswith("##vso[task.logissue type=")
+    ]
     assert done.returncode == 1 and len(issues) == 2, done.stderr
     assert all(";sourcepath=renderer/descriptions/" in line for line in issues)
 
     head = execute(clone, "git rev-parse HEAD").stdout.strip()
-    hooks = named[".pre-commit-config.yaml"].replace("file:///path/to/msaa-lint", clone.as_uri()).replace("COMMIT", head)
+    hooks = (
+        named[".pre-commit-config.yaml"]
+        .replace("file:///path/to/msaa-lint", clone.as_uri())
+        .replace("COMMIT", head)
+    )
     (project / ".pre-commit-config.yaml").write_text(hooks, encoding="utf-8")
     (project / "renderer" / "pass.cpp").write_text("int main() {}\n", encoding="utf-8")
-    done = execute(project, f"git add renderer && PRE_COMMIT_HOME=$PWD/../cache {sys.executable} -m pre_commit run --color never")
+    done = execute(
+        project,
+        f"git add renderer && PRE_COMMIT_HOME=$PWD/../cache {sys.executable} -m pre_commit run "
+        f"--color never",
+    )
     assert done.returncode == 1, done.stdout + done.stderr
-    assert "renderer/descriptions/frame.msaa.yaml:24:18: warning[multisampled-attachment-stored]" in done.stdout
+    assert (
+        "renderer/descriptions/frame.msaa.yaml:24:18: warning[multisampled-attachment-stored]"
+        in done.stdout
+    )
     assert "No findings in 1 file" in done.stdout

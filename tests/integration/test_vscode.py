@@ -1,4 +1,6 @@
-"""The extension for Visual Studio Code: type-checked, bundled, packaged, and run with a mock editor and the real language server."""
+"""The extension for Visual Studio Code: type-checked, bundled, packaged, and run with a mock editor
+and the real language server.
+"""
 
 from __future__ import annotations
 
@@ -28,20 +30,34 @@ def node_version() -> int:
     """The major version of Node.js; 0 without it or without npm."""
     if shutil.which("npm") is None or shutil.which("node") is None:
         return 0
-    version = subprocess.run(["node", "--version"], capture_output=True, text=True, check=True).stdout
+    version = subprocess.run(
+        ["node", "--version"], capture_output=True, text=True, check=True
+    ).stdout
     return int(version.removeprefix("v").partition(".")[0])
 
 
-needs_node = pytest.mark.skipif(node_version() < MIN_NODE, reason=f"Node.js {MIN_NODE} with npm is not installed")
+needs_node = pytest.mark.skipif(
+    node_version() < MIN_NODE, reason=f"Node.js {MIN_NODE} with npm is not installed"
+)
 
 
 def npm(folder: Path, *arguments: str) -> str:
     """What an npm command prints; the extension's own `msaa-lint` is that of the working tree."""
     command = folder / "msaa-lint"
-    command.write_text(f'#!/bin/sh\nPYTHONPATH="{ROOT}" exec "{sys.executable}" -m msaa_lint "$@"\n')
+    command.write_text(
+        f'#!/bin/sh\nPYTHONPATH="{ROOT}" exec "{sys.executable}" -m msaa_lint "$@"\n'
+    )
     command.chmod(0o755)
     environment = {**os.environ, "MSAA_LINT": str(command), "NO_COLOR": "1"}
-    done = subprocess.run(["npm", *arguments], cwd=folder, env=environment, capture_output=True, text=True, check=False, timeout=400)
+    done = subprocess.run(
+        ["npm", *arguments],
+        cwd=folder,
+        env=environment,
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=400,
+    )
     assert done.returncode == 0, done.stdout + done.stderr
     return done.stdout
 
@@ -52,7 +68,9 @@ def built(tmp_path_factory: pytest.TempPathFactory) -> Path:
     top = tmp_path_factory.mktemp("clone")
     shutil.copy(ROOT / "LICENSE", top)
     folder = top / "editors" / "vscode"
-    shutil.copytree(EXTENSION, folder, ignore=shutil.ignore_patterns("node_modules", "out", "*.vsix", "LICENSE"))
+    shutil.copytree(
+        EXTENSION, folder, ignore=shutil.ignore_patterns("node_modules", "out", "*.vsix", "LICENSE")
+    )
     npm(folder, "ci", "--no-audit", "--no-fund")
     npm(folder, "run", "package", "--", "--out", "extension.vsix")
     return folder
@@ -77,7 +95,11 @@ def test_settings_and_commands_are_documented() -> None:
 
 
 def test_the_schema_is_for_the_names_of_descriptions() -> None:
-    patterns = {pattern for entry in MANIFEST["contributes"]["yamlValidation"] for pattern in entry["fileMatch"]}
+    patterns = {
+        pattern
+        for entry in MANIFEST["contributes"]["yamlValidation"]
+        for pattern in entry["fileMatch"]
+    }
     patterns |= {entry["fileMatch"] for entry in MANIFEST["contributes"]["jsonValidation"]}
     assert patterns == {f"*{ending}" for ending in DESCRIPTIONS}
 
@@ -86,7 +108,11 @@ def test_the_extension_starts_for_the_languages_of_the_server() -> None:
     source = (EXTENSION / "src" / "extension.ts").read_text(encoding="utf-8")
     listed = re.search(r"const LANGUAGES = \[(.*?)\];", source, re.DOTALL)
     assert listed is not None
-    started = {event.removeprefix("onLanguage:") for event in MANIFEST["activationEvents"] if event.startswith("onLanguage:")}
+    started = {
+        event.removeprefix("onLanguage:")
+        for event in MANIFEST["activationEvents"]
+        if event.startswith("onLanguage:")
+    }
     assert started == set(re.findall(r'"(.*?)"', listed[1]))
 
 
@@ -102,7 +128,9 @@ def test_the_package_has_the_bundle_and_the_schema_alone(built: Path) -> None:
             "extension/out/extension.js",
             "extension/out/msaa-lint.schema.json",
         }
-        assert json.loads(package.read("extension/out/msaa-lint.schema.json")) == description_schema()
+        assert (
+            json.loads(package.read("extension/out/msaa-lint.schema.json")) == description_schema()
+        )
 
 
 @pytest.mark.network

@@ -1,4 +1,6 @@
-"""The site of the documentation: built as `docs/build` builds it, with working links, and nothing that is loaded from elsewhere."""
+"""The site of the documentation: built as `docs/build` builds it, with working links, and nothing
+that is loaded from elsewhere.
+"""
 
 from __future__ import annotations
 
@@ -31,12 +33,22 @@ pytestmark = [
 ]
 
 RULES = load().rules
-LOADS = {"script": "src", "img": "src", "iframe": "src", "source": "src", "use": "href", "image": "href", "object": "data"}
+LOADS = {
+    "script": "src",
+    "img": "src",
+    "iframe": "src",
+    "source": "src",
+    "use": "href",
+    "image": "href",
+    "object": "data",
+}
 """What a page loads, by element; of `link`, what is no mere reference."""
 
 
 OF_THE_THEME = ("landmark-unique", "scrollable-region-focusable")
-"""What axe finds in every site that Zensical builds: its navigation, and code that is wider than the page."""
+"""What axe finds in every site that Zensical builds: its navigation, and code that is wider than
+the page.
+"""
 
 
 class Document(HTMLParser):
@@ -51,7 +63,9 @@ class Document(HTMLParser):
 
     def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
         values = {name: value or "" for name, value in attrs}
-        self.anchors.update(filter(None, (values.get("id"), values.get("name") if tag == "a" else None)))
+        self.anchors.update(
+            filter(None, (values.get("id"), values.get("name") if tag == "a" else None))
+        )
         if tag in LOADS and LOADS[tag] in values:
             self.loaded.append(values[LOADS[tag]])
         if tag == "link" and values.get("rel") not in ("canonical", "next", "prev", "edit"):
@@ -62,7 +76,14 @@ class Document(HTMLParser):
 
 def build(folder: Path, **environment: str) -> subprocess.CompletedProcess[str]:
     variables = {**os.environ, "PYTHON": sys.executable, **environment}
-    return subprocess.run(["sh", "docs/build", str(folder)], cwd=ROOT, env=variables, capture_output=True, text=True, check=False)
+    return subprocess.run(
+        ["sh", "docs/build", str(folder)],
+        cwd=ROOT,
+        env=variables,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
 
 
 @pytest.fixture(scope="module")
@@ -71,14 +92,22 @@ def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("site")
     done = build(folder)
     assert done.returncode == 0, done.stdout + done.stderr
-    assert done.stdout.splitlines()[-1].endswith(f" its search needs a web server: python3 -m http.server --directory {folder / 'html'}")
+    assert done.stdout.splitlines()[-1].endswith(
+        f" its search needs a web server: python3 -m http.server --directory {folder / 'html'}"
+    )
     return folder / "html"
 
 
 @pytest.fixture(scope="module")
 def documents(site: Path) -> dict[str, Document]:
-    """The pages by their path, except the one for missing pages, which does not know where it is."""
-    return {file.relative_to(site).as_posix(): Document(file) for file in site.rglob("*.html") if file.name != "404.html"}
+    """The pages by their path, except the one for missing pages, which does not know where it
+    is.
+    """
+    return {
+        file.relative_to(site).as_posix(): Document(file)
+        for file in site.rglob("*.html")
+        if file.name != "404.html"
+    }
 
 
 @pytest.mark.parametrize("rule", RULES, ids=lambda rule: rule.name)
@@ -97,7 +126,11 @@ def test_a_page_has_the_price_and_the_picture_of_its_example(site: Path) -> None
     picture = text[text.index("<svg role=") : text.index("</svg>", text.index("<svg role="))]
     assert "scene writes color_ms (store): 33.2 MB a frame, 1990.66 MB/s" in picture
     assert "resolve command 4x · 33.2 MB" in picture
-    drawn = [rule for rule in RULES if "<svg role=" in (site / "rules" / rule.name / "index.html").read_text(encoding="utf-8")]
+    drawn = [
+        rule
+        for rule in RULES
+        if "<svg role=" in (site / "rules" / rule.name / "index.html").read_text(encoding="utf-8")
+    ]
     assert len(drawn) > 70
 
 
@@ -105,12 +138,16 @@ def test_links_lead_to_pages_and_anchors(site: Path, documents: dict[str, Docume
     broken = []
     for name, document in documents.items():
         for link in document.links:
-            address, anchor = urldefrag(urljoin(f"site:/{name}".replace("site:", "http://site"), link))
+            address, anchor = urldefrag(
+                urljoin(f"site:/{name}".replace("site:", "http://site"), link)
+            )
             if not address.startswith("http://site/"):
                 continue
             target = unquote(address.removeprefix("http://site/"))
             target = f"{target}index.html" if target == "" or target.endswith("/") else target
-            if not (site / target).is_file() or (anchor and target in documents and unquote(anchor) not in documents[target].anchors):
+            if not (site / target).is_file() or (
+                anchor and target in documents and unquote(anchor) not in documents[target].anchors
+            ):
                 broken.append((name, link))
     assert broken == []
     assert sum(len(document.links) for document in documents.values()) > 2000
@@ -120,20 +157,42 @@ def test_every_page_is_in_the_navigation() -> None:
     """A page that is not would only be found by search."""
     listed = repr(navigation())
     assert [source for source in sources() if f"'{target_of(source)}'" not in listed] == []
-    assert all((ROOT / f"docs/{name}.md").exists() for names in REFERENCE.values() for name in names)
+    assert all(
+        (ROOT / f"docs/{name}.md").exists() for names in REFERENCE.values() for name in names
+    )
 
 
 def test_nothing_is_loaded_from_elsewhere(site: Path, documents: dict[str, Document]) -> None:
     external = re.compile(r"(?:[a-z]+:)?//", re.IGNORECASE)
-    assert [(name, each) for name, document in documents.items() for each in document.loaded if external.match(each)] == []
+    assert [
+        (name, each)
+        for name, document in documents.items()
+        for each in document.loaded
+        if external.match(each)
+    ] == []
     for file in (*site.rglob("*.css"), *site.rglob("*.svg")):
         text = file.read_text(encoding="utf-8")
-        assert re.findall(r"@import[^;]*|url\(\s*[\"']?(?:[a-z]+:)?//[^)]*|<(?:image|use)[^>]*href=\"http[^\"]*", text) == [], file
+        assert (
+            re.findall(
+                r"@import[^;]*|url\(\s*[\"']?(?:[a-z]+:)?//[^)]*|<(?:image|use)[^>]*href=\"http[^\"]*",
+                text,
+            )
+            == []
+        ), file
 
 
 def test_a_broken_link_fails_the_build(tmp_path: Path) -> None:
     assert build(tmp_path).returncode == 0
-    command = [sys.executable, "-m", "zensical", "build", "--strict", "--clean", "--config-file", str(tmp_path / "zensical.toml")]
+    command = [
+        sys.executable,
+        "-m",
+        "zensical",
+        "build",
+        "--strict",
+        "--clean",
+        "--config-file",
+        str(tmp_path / "zensical.toml"),
+    ]
     for link in ("../none.md", "ci.md#none"):
         page = tmp_path / "pages" / "docs" / "guides" / "ci.md"
         text = page.read_text(encoding="utf-8")
@@ -144,7 +203,9 @@ def test_a_broken_link_fails_the_build(tmp_path: Path) -> None:
 
 def test_the_address_of_the_site_is_in_the_map_of_the_site(tmp_path: Path) -> None:
     assert build(tmp_path, SITE_URL="https://example.com/msaa-lint").returncode == 0
-    assert "<loc>https://example.com/msaa-lint/rules/resolve-outside-pass/</loc>" in (tmp_path / "html" / "sitemap.xml").read_text("utf-8")
+    assert "<loc>https://example.com/msaa-lint/rules/resolve-outside-pass/</loc>" in (
+        tmp_path / "html" / "sitemap.xml"
+    ).read_text("utf-8")
 
 
 @pytest.fixture(scope="module")
@@ -177,18 +238,29 @@ def show(window: Browser, address: str, page: str, **options: Any) -> None:
 def test_pages_in_a_browser(browser: Browser, address: str, tmp_path: Path) -> None:  # noqa: F811
     """Without an error, as wide as the window, on a phone too. UPDATE=1 keeps the pictures."""
     folder = ROOT / "docs" / "images" if os.environ.get("UPDATE") else tmp_path
-    pages = {"site-home": ("", {}), "site-rule": ("rules/resolve-outside-pass/", {}), "site-rules": ("rules/", {"dark": True})}
+    pages = {
+        "site-home": ("", {}),
+        "site-rule": ("rules/resolve-outside-pass/", {}),
+        "site-rules": ("rules/", {"dark": True}),
+    }
     for name, (page, options) in pages.items():
         show(browser, address, page, **options)
         assert browser.complaints() == []
         assert browser.overflow() == 0
         assert (
-            browser.run("return performance.getEntriesByType('resource').filter(each => !each.name.startsWith(arguments[0]))", address)
+            browser.run(
+                "return performance.getEntriesByType('resource').filter(each => "
+                "!each.name.startsWith(arguments[0]))",
+                address,
+            )
             == []
         )
         assert [each for each in browser.violations() if not each.startswith(OF_THE_THEME)] == []
         # Taking a picture changes the size of the window for a moment, and tabs fade in.
-        browser.run("document.head.insertAdjacentHTML('beforeend', '<style>* { transition: none !important }</style>')")
+        browser.run(
+            "document.head.insertAdjacentHTML('beforeend', '<style>* { transition: none !important "
+            "}</style>')"
+        )
         browser.picture(folder / f"{name}.png", height=820)
         assert (folder / f"{name}.png").stat().st_size < 150_000
         show(browser, address, page, width=390)
@@ -208,7 +280,9 @@ def test_the_list_of_rules_is_filtered(browser: Browser, address: str) -> None: 
     browser.all("input.fix-none")[0].click()
     assert shown() == sum(rule.severity == "error" and bool(rule.fix_specs) for rule in RULES)
     browser.all("input.api-vulkan")[0].click()
-    assert shown() == sum(rule.severity == "error" and bool(rule.fix_specs) and "metal" in rule.apis for rule in RULES)
+    assert shown() == sum(
+        rule.severity == "error" and bool(rule.fix_specs) and "metal" in rule.apis for rule in RULES
+    )
 
 
 def test_the_search_finds_a_rule(browser: Browser, address: str) -> None:  # noqa: F811
@@ -219,4 +293,7 @@ def test_the_search_finds_a_rule(browser: Browser, address: str) -> None:  # noq
     browser.all(".md-search__button")[0].click()
     browser.wait(f"return Boolean({dialog}?.querySelector('input'))")
     ActionChains(browser.driver).send_keys("resolve-outside-pass").perform()
-    browser.wait(f"return [...({dialog}?.querySelectorAll('a') ?? [])].some(each => each.href.includes('/rules/resolve-outside-pass/'))")
+    browser.wait(
+        f"return [...({dialog}?.querySelectorAll('a') ?? [])].some(each => "
+        f"each.href.includes('/rules/resolve-outside-pass/'))"
+    )

@@ -1,4 +1,6 @@
-"""What an editor without our language server shows: the YAML language server from npm, by the JSON Schema alone."""
+"""What an editor without our language server shows: the YAML language server from npm, by the JSON
+Schema alone.
+"""
 
 from __future__ import annotations
 
@@ -48,12 +50,19 @@ PATHS: dict[str, tuple[str | int, ...]] = {
 
 pytestmark = [
     pytest.mark.network,
-    pytest.mark.skipif(shutil.which("npm") is None or shutil.which("node") is None, reason="Node.js with npm is not installed"),
+    pytest.mark.skipif(
+        shutil.which("npm") is None or shutil.which("node") is None,
+        reason="Node.js with npm is not installed",
+    ),
 ]
 
 
 def place(word: str) -> types.Position:
-    line = next(number for number, text in enumerate(TEXT.splitlines()) if word in text and not text.startswith("#"))
+    line = next(
+        number
+        for number, text in enumerate(TEXT.splitlines())
+        if word in text and not text.startswith("#")
+    )
     return types.Position(line, TEXT.splitlines()[line].index(word) + 1)
 
 
@@ -61,10 +70,14 @@ async def hovers(server: Path, folder: Path) -> dict[str, str]:
     """What the server shows for each word, as Markdown."""
     client = LanguageClient("tests", "1")
     await client.start_io("node", str(server), "--stdio")
-    await client.initialize_async(types.InitializeParams(types.ClientCapabilities(), root_uri=folder.as_uri()))
+    await client.initialize_async(
+        types.InitializeParams(types.ClientCapabilities(), root_uri=folder.as_uri())
+    )
     client.initialized(types.InitializedParams())
     document = types.TextDocumentIdentifier((folder / "frame.msaa.yaml").as_uri())
-    client.text_document_did_open(types.DidOpenTextDocumentParams(types.TextDocumentItem(document.uri, "yaml", 1, TEXT)))
+    client.text_document_did_open(
+        types.DidOpenTextDocumentParams(types.TextDocumentItem(document.uri, "yaml", 1, TEXT))
+    )
     shown = {}
     for word in PATHS:
         hover = await client.text_document_hover_async(types.HoverParams(document, place(word)))
@@ -82,7 +95,9 @@ def shown(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
     folder = tmp_path_factory.mktemp("editor")
     command = ["npm", "install", "--no-audit", "--no-fund", f"yaml-language-server@{VERSION}"]
     subprocess.run(command, cwd=folder, check=True, capture_output=True, timeout=300)
-    (folder / "msaa-lint.schema.json").write_text(json.dumps(description_schema()), encoding="utf-8")
+    (folder / "msaa-lint.schema.json").write_text(
+        json.dumps(description_schema()), encoding="utf-8"
+    )
     server = folder / "node_modules" / "yaml-language-server" / "bin" / "yaml-language-server"
     return asyncio.run(asyncio.wait_for(hovers(server, folder), 120))
 

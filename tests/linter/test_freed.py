@@ -1,4 +1,6 @@
-"""What is known of an input is freed with its result, without the garbage collector, which the command line disables."""
+"""What is known of an input is freed with its result, without the garbage collector, which the
+command line disables.
+"""
 
 from __future__ import annotations
 
@@ -68,7 +70,9 @@ def lint(*texts: str) -> None:
 
 
 def garbage(*texts: str) -> int:
-    """The number of objects that only the garbage collector frees after texts are linted and the results are dropped."""
+    """The number of objects that only the garbage collector frees after texts are linted and the
+    results are dropped.
+    """
     # What is created once and kept, such as compiled conditions, is not counted.
     lint(*texts)
     gc.collect()
@@ -93,7 +97,13 @@ def test_analyses_of_all_examples_leave_no_garbage() -> None:
 def test_a_subject_keeps_the_pass_of_its_parts(name: str) -> None:
     """What fixes are planned for outlives the frame that it was found in."""
     for subject in list(subjects(document(SHAPES[name]))):
-        for resolve in filter(None, (subject.resolve, *(subject.attachment.resolved if subject.attachment is not None else ()))):
+        for resolve in filter(
+            None,
+            (
+                subject.resolve,
+                *(subject.attachment.resolved if subject.attachment is not None else ()),
+            ),
+        ):
             render_pass = resolve.render_pass
             assert (render_pass is None) == (resolve.kind == "command")
             assert render_pass is None or resolve in render_pass.resolves

@@ -44,7 +44,9 @@ def failing_on(name: str) -> Any:
 
 
 @pytest.mark.parametrize("format", ["json", "sarif", "gitlab", "rdjson"])
-def test_the_other_inputs_are_linted_and_machine_formats_are_whole(folder: Path, format: str) -> None:
+def test_the_other_inputs_are_linted_and_machine_formats_are_whole(
+    folder: Path, format: str
+) -> None:
     with failing_on("b.msaa.yaml"):
         done = run(folder, "check", "--isolated", "--output", format, ".")
     assert done.returncode == 2
@@ -79,7 +81,8 @@ def test_a_designator_with_a_negative_index(tmp_path: Path) -> None:
     """C refuses it; the value of the enumerator may be wrong, or unknown."""
     (tmp_path / "a.c").write_text(
         "#include <vulkan/vulkan.h>\nenum { A = -1, B };\nvoid f(void) {\n"
-        "  VkAttachmentDescription at[2] = {[A] = {.samples = VK_SAMPLE_COUNT_4_BIT}, [B] = {.samples = VK_SAMPLE_COUNT_1_BIT}};\n"
+        "  VkAttachmentDescription at[2] = {[A] = {.samples = VK_SAMPLE_COUNT_4_BIT}, [B] = "
+        "{.samples = VK_SAMPLE_COUNT_1_BIT}};\n"
         "  VkRenderPassCreateInfo info = {.attachmentCount = 2, .pAttachments = at};\n"
         "  VkRenderPass pass;\n  vkCreateRenderPass(device, &info, 0, &pass);\n}\n"
     )
@@ -87,10 +90,21 @@ def test_a_designator_with_a_negative_index(tmp_path: Path) -> None:
     assert done.returncode == 0, done.stdout
 
 
-@pytest.mark.parametrize("call", ["modf(1.0)", "frexp(1.0)", "textureSamples()", "texelFetch(s).x", "interpolateAtSample(v)", "clamp(1.0)"])
+@pytest.mark.parametrize(
+    "call",
+    [
+        "modf(1.0)",
+        "frexp(1.0)",
+        "textureSamples()",
+        "texelFetch(s).x",
+        "interpolateAtSample(v)",
+        "clamp(1.0)",
+    ],
+)
 def test_calls_with_too_few_arguments(call: str, tmp_path: Path) -> None:
     (tmp_path / "a.frag").write_text(
-        "#version 450\nlayout(binding = 0) uniform sampler2DMS s;\nlayout(location = 0) in vec4 v;\nlayout(location = 0) out vec4 o;\n"
+        "#version 450\nlayout(binding = 0) uniform sampler2DMS s;\nlayout(location = 0) in vec4 "
+        "v;\nlayout(location = 0) out vec4 o;\n"
         f"void main() {{ o = texelFetch(s, ivec2(0), 0); float q = float({call}); o.x += q; }}\n"
     )
     done = run(tmp_path, "check", "--isolated", "--output", "concise", "a.frag")
@@ -101,7 +115,9 @@ def fail(*_: object, **__: object) -> Any:
     raise RecursionError("maximum recursion depth exceeded")
 
 
-@pytest.mark.parametrize("format", ["json", "sarif", "gitlab", "rdjson", "junit", "azure", "teamcity"])
+@pytest.mark.parametrize(
+    "format", ["json", "sarif", "gitlab", "rdjson", "junit", "azure", "teamcity"]
+)
 def test_a_run_that_fails_is_its_only_finding(folder: Path, format: str) -> None:
     """A program that reads the output finds a whole document."""
     with mock.patch("msaa_lint.linter.run.Workspace", fail):
@@ -111,11 +127,16 @@ def test_a_run_that_fails_is_its_only_finding(folder: Path, format: str) -> None
         json.loads(done.stdout)
 
 
-@pytest.mark.parametrize("words", ["rule --all --output json", "check --isolated --output json a.msaa.yaml"])
+@pytest.mark.parametrize(
+    "words", ["rule --all --output json", "check --isolated --output json a.msaa.yaml"]
+)
 def test_a_rule_page_that_fails_is_a_finding_of_the_page(folder: Path, words: str) -> None:
     for name in ("acme-one", "acme-two"):
         code = "ACME1" if name == "acme-one" else "ACME2"
-        page = f"---\ncode: {code}\nseverity: warning\nsubject: image\nwhen: image.samples > 1\nmessage: x\n---\nText.\n"
+        page = (
+            f"---\ncode: {code}\nseverity: warning\nsubject: image\nwhen: image.samples > 1\n"
+            f"message: x\n---\nText.\n"
+        )
         (folder / f"{name}.md").write_text(page)
     read = registry.read_page
 
@@ -141,6 +162,9 @@ def test_a_command_of_one_input_names_it(folder: Path, words: str, target: str, 
     with mock.patch(target, fail):
         done = run(folder, *words.split())
     assert (done.returncode, done.stdout) == (2, kept)
-    assert done.stderr.startswith("msaa-lint: a.msaa.yaml: internal error: RecursionError: ") and done.stderr.count("\n") == 1
+    assert (
+        done.stderr.startswith("msaa-lint: a.msaa.yaml: internal error: RecursionError: ")
+        and done.stderr.count("\n") == 1
+    )
     with mock.patch(target, fail), pytest.raises(RecursionError):
         run(folder, *words.split(), "--traceback")

@@ -1,4 +1,6 @@
-"""What travels to the processes that lint: settings, rule pages, and device reports, so that only inputs are read there."""
+"""What travels to the processes that lint: settings, rule pages, and device reports, so that only
+inputs are read there.
+"""
 
 from __future__ import annotations
 
@@ -33,7 +35,9 @@ Samples cost memory.
 
 @pytest.fixture
 def project(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A configuration that extends another and names a folder of rule pages, and a page that the command line names."""
+    """A configuration that extends another and names a folder of rule pages, and a page that the
+    command line names.
+    """
     folder = tmp_path / "project"
     (folder / "settings" / "pages").mkdir(parents=True)
     (folder / "frame.msaa.yaml").write_text(STORED)
@@ -60,7 +64,12 @@ def codes(job: Job[object] | TravelledJob, configuration: str | None) -> list[st
 def test_only_inputs_are_read_where_a_job_travels_to(project: Path) -> None:
     here, configuration = job(), str(project / "msaa-lint.toml")
     expected = codes(here, configuration)
-    assert "TEAM1" in expected and "OWN1" in expected and "MSAA201" in expected and "MSAA403" not in expected
+    assert (
+        "TEAM1" in expected
+        and "OWN1" in expected
+        and "MSAA201" in expected
+        and "MSAA403" not in expected
+    )
     data = pickle.dumps(here)
     for path in (project / "msaa-lint.toml", project / "own-rule.md"):
         path.unlink()
@@ -72,9 +81,15 @@ def test_only_inputs_are_read_where_a_job_travels_to(project: Path) -> None:
     assert codes(pickle.loads(pickle.dumps(there)), configuration) == expected
 
 
-def test_a_machine_without_the_folder_says_so(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_machine_without_the_folder_says_so(
+    project: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     there = pickle.loads(pickle.dumps(job()))
     monkeypatch.chdir("/")
     shutil.rmtree(project)
-    with pytest.raises(Unusable, match=f"has no folder {project}: inputs must have the same paths on all machines, or be URLs"):
+    with pytest.raises(
+        Unusable,
+        match=f"has no folder {project}: inputs must have the same paths on all machines, or be "
+        f"URLs",
+    ):
         codes(there, str(project / "msaa-lint.toml"))

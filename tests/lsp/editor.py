@@ -1,4 +1,6 @@
-"""An editor for the tests of the language server: pytest-lsp's client, and a server of its own process."""
+"""An editor for the tests of the language server: pytest-lsp's client, and a server of its own
+process.
+"""
 
 from __future__ import annotations
 
@@ -43,16 +45,24 @@ class Editor:
     def uri(self, name: str) -> str:
         return (self.folder / name).as_uri()
 
-    async def open(self, name: str, text: str, language: str = "yaml", save: bool = True) -> list[types.Diagnostic]:
-        """Opens a document, of a file with its text unless it is new, and waits for its diagnostics."""
+    async def open(
+        self, name: str, text: str, language: str = "yaml", save: bool = True
+    ) -> list[types.Diagnostic]:
+        """Opens a document, of a file with its text unless it is new, and waits for its
+        diagnostics.
+        """
         if save:
             (self.folder / name).write_bytes(text.encode())
         uri = self.uri(name)
         self.versions[uri] = 1
-        self.client.text_document_did_open(types.DidOpenTextDocumentParams(types.TextDocumentItem(uri, language, 1, text)))
+        self.client.text_document_did_open(
+            types.DidOpenTextDocumentParams(types.TextDocumentItem(uri, language, 1, text))
+        )
         return await self.diagnostics(name)
 
-    async def change(self, name: str, *changes: types.TextDocumentContentChangeEvent) -> list[types.Diagnostic]:
+    async def change(
+        self, name: str, *changes: types.TextDocumentContentChangeEvent
+    ) -> list[types.Diagnostic]:
         """Changes a document, and waits for the diagnostics of the new version."""
         self.send(name, *changes)
         return await self.diagnostics(name)
@@ -66,14 +76,24 @@ class Editor:
         uri = self.uri(name)
         self.versions[uri] += 1
         identifier = types.VersionedTextDocumentIdentifier(uri=uri, version=self.versions[uri])
-        self.client.text_document_did_change(types.DidChangeTextDocumentParams(identifier, list(changes)))
+        self.client.text_document_did_change(
+            types.DidChangeTextDocumentParams(identifier, list(changes))
+        )
 
     async def diagnostics(self, name: str) -> list[types.Diagnostic]:
         """The diagnostics of the newest version of a document."""
         uri = self.uri(name)
-        return list((await self.published(lambda params: params.uri == uri and params.version == self.versions[uri])).diagnostics)
+        return list(
+            (
+                await self.published(
+                    lambda params: params.uri == uri and params.version == self.versions[uri]
+                )
+            ).diagnostics
+        )
 
-    async def published(self, matches: Callable[[types.PublishDiagnosticsParams], bool]) -> types.PublishDiagnosticsParams:
+    async def published(
+        self, matches: Callable[[types.PublishDiagnosticsParams], bool]
+    ) -> types.PublishDiagnosticsParams:
         """The next diagnostics that match, which are then forgotten with all before them."""
         while True:
             params = await asyncio.wait_for(self.queue.get(), TIMEOUT)
@@ -83,12 +103,16 @@ class Editor:
     async def actions(self, name: str, range: types.Range, *only: str) -> list[types.CodeAction]:
         """The code actions at a place, perhaps without their edits."""
         context = types.CodeActionContext([], only=list(only) or None)
-        params = types.CodeActionParams(types.TextDocumentIdentifier(self.uri(name)), range, context)
+        params = types.CodeActionParams(
+            types.TextDocumentIdentifier(self.uri(name)), range, context
+        )
         found = await asyncio.wait_for(self.client.text_document_code_action_async(params), TIMEOUT)
         return [action for action in found or () if isinstance(action, types.CodeAction)]
 
 
-def _client(queue: asyncio.Queue[types.PublishDiagnosticsParams], registrations: list[types.Registration]) -> LanguageClient:
+def _client(
+    queue: asyncio.Queue[types.PublishDiagnosticsParams], registrations: list[types.Registration]
+) -> LanguageClient:
     client = LanguageClient()
 
     @client.feature(types.TEXT_DOCUMENT_PUBLISH_DIAGNOSTICS)
@@ -107,17 +131,27 @@ def _client(queue: asyncio.Queue[types.PublishDiagnosticsParams], registrations:
 
 
 @asynccontextmanager
-async def editor(folder: Path, capabilities: types.ClientCapabilities | str = "neovim@v0.7.0") -> AsyncIterator[Editor]:
+async def editor(
+    folder: Path, capabilities: types.ClientCapabilities | str = "neovim@v0.7.0"
+) -> AsyncIterator[Editor]:
     """An editor that has a folder open. `capabilities` are its own, or those of a known editor."""
     queue: asyncio.Queue[types.PublishDiagnosticsParams] = asyncio.Queue()
     registrations: list[types.Registration] = []
     client = _client(queue, registrations)
-    await client.start_io(sys.executable, "-m", "msaa_lint", "lsp", "--stdio", cwd=folder, env=environment_of({}))
-    assert client._stderr_forwarder is not None and client._server is not None and client._server.stderr is not None
+    await client.start_io(
+        sys.executable, "-m", "msaa_lint", "lsp", "--stdio", cwd=folder, env=environment_of({})
+    )
+    assert (
+        client._stderr_forwarder is not None
+        and client._server is not None
+        and client._server.stderr is not None
+    )
     client._stderr_forwarder.cancel()
     own = client_capabilities(capabilities) if isinstance(capabilities, str) else capabilities
     folders = [types.WorkspaceFolder(folder.as_uri(), "folder")]
-    answer = await client.initialize_session(types.InitializeParams(own, root_uri=folder.as_uri(), workspace_folders=folders))
+    answer = await client.initialize_session(
+        types.InitializeParams(own, root_uri=folder.as_uri(), workspace_folders=folders)
+    )
     yield Editor(client, folder, queue, answer.capabilities, registrations)
     await asyncio.wait_for(client.shutdown_session(), TIMEOUT)
     errors = (await client._server.stderr.read()).decode()

@@ -18,9 +18,13 @@ from msaa_lint.frame.description.shapes import Shape
 from .views import at, engine
 
 
-def items(text: str, kind: str = "description", snippets: bool = False, folder: Path | None = None) -> tuple[str, dict[str, Completion]]:
+def items(
+    text: str, kind: str = "description", snippets: bool = False, folder: Path | None = None
+) -> tuple[str, dict[str, Completion]]:
     text, offset = at(text)
-    view = View(text, kind, None, engine().registry, folder=str(folder) if folder is not None else None)
+    view = View(
+        text, kind, None, engine().registry, folder=str(folder) if folder is not None else None
+    )
     return text, {item.label: item for item in complete(view, offset, snippets)}
 
 
@@ -48,16 +52,27 @@ renderPasses:
 
 def test_keys_that_are_stated_are_not_offered() -> None:
     _, found = items(FRAME.replace("samples: 1}", "samples: 1, ^}"))
-    assert "usage" in found and "format" not in found and "samples" not in found and "loadOp" not in found
+    assert (
+        "usage" in found
+        and "format" not in found
+        and "samples" not in found
+        and "loadOp" not in found
+    )
 
 
 @pytest.mark.parametrize(
     ("before", "after"),
     [
         (("      source: {image", "      s^\n      source: {image"), None),
-        (("    subpasses:\n", "    dep^\n    subpasses:\n"), "    dependencies: \n    subpasses:\n"),
+        (
+            ("    subpasses:\n", "    dep^\n    subpasses:\n"),
+            "    dependencies: \n    subpasses:\n",
+        ),
         (("    subpasses:\n", "    ^\n    subpasses:\n"), "    dependencies: \n    subpasses:\n"),
-        (("- colorAttachments: [source]\n", "- colorAttachments: [source]\n        res^\n"), "        resolveAttachments: \n"),
+        (
+            ("- colorAttachments: [source]\n", "- colorAttachments: [source]\n        res^\n"),
+            "        resolveAttachments: \n",
+        ),
         (("- colorAttachments: [source]\n", "- ^\n"), "      - resolveAttachments: \n"),
         (("storeOp: STORE}", "storeOp: STORE, fin^"), "storeOp: STORE, finalLayout: \n"),
     ],
@@ -80,7 +95,11 @@ def test_keys(before: tuple[str, str], after: str | None) -> None:
         ("images: {a: {e^}}", "extent", "images: {a: {extent: {$0}}}"),
         ('{"images": {"a": {"e^"}}}', "extent", '{"images": {"a": {"extent": {$0}}}}'),
         ('{"images": {"a": {"e^" "samples": 4}}}', None, ""),
-        ('{"images": {"a": {"e^"\n "samples": 4}}}', "extent", '{"images": {"a": {"extent": {$0},\n "samples": 4}}}'),
+        (
+            '{"images": {"a": {"e^"\n "samples": 4}}}',
+            "extent",
+            '{"images": {"a": {"extent": {$0},\n "samples": 4}}}',
+        ),
         ('{"commands": [\n^\n]}', "draw", '{"commands": [\n{"draw": {$0}}\n]}'),
         ('{"commands": ["n^"]}', "nextSubpass", '{"commands": ["nextSubpass"]}'),
         ('{"commands": [{"d^"}]}', "draw", '{"commands": [{"draw": {$0}}]}'),
@@ -110,14 +129,22 @@ def test_snippets(text: str, label: str | None, after: str) -> None:
             {"SAMPLED", "TRANSIENT_ATTACHMENT"},
             "COLOR_ATTACHMENT",
         ),
-        (FRAME.replace("usage: [COLOR_ATTACHMENT]", "usage: COLOR_ATTACHMENT | ^"), {"SAMPLED"}, "LOAD"),
+        (
+            FRAME.replace("usage: [COLOR_ATTACHMENT]", "usage: COLOR_ATTACHMENT | ^"),
+            {"SAMPLED"},
+            "LOAD",
+        ),
         (f"device: ^\n{FRAME}", {"mali-g76"}, "arm"),
         (f"scene: {{edges: ^}}\n{FRAME}", {"true", "false"}, "LDR"),
         (f"scene: {{color: ^}}\n{FRAME}", {"LDR", "HDR"}, "true"),
         (f"{FRAME}pipelines: {{p: {{renderPass: ^}}}}", {"forward"}, "color"),
         (f"{FRAME}pipelines: {{p: {{renderPass: forward, subpass: ^}}}}", {"0"}, "1"),
         (f"{FRAME}pipelines: {{p: {{}}}}\ncommands:\n  - draw: {{pipeline: ^}}", {"p"}, "forward"),
-        (f"{FRAME}commands:\n  - beginRenderPass: {{renderPass: ^\n  - endRenderPass", {"forward"}, "color"),
+        (
+            f"{FRAME}commands:\n  - beginRenderPass: {{renderPass: ^\n  - endRenderPass",
+            {"forward"},
+            "color",
+        ),
         ("device: {tile: {^}}", {"model", "kind", "colorBytes", "gmemBytes"}, "mali"),
         ("device: {tile: {model: mali-g76, ^}}", {"kind"}, "model"),
         ("device: {tile: {model: ^}}", {"mali-g76", "adreno-740"}, "adreno"),
@@ -137,11 +164,27 @@ def test_values(text: str, expected: set[str], other: str) -> None:
 @pytest.mark.parametrize(
     ("text", "label"),
     [
-        ("images:\n  a: {format: VK_FORMAT_D16_UNORM}\n  b: {tiling: ^}", "VK_IMAGE_TILING_OPTIMAL"),
-        ("images:\n  a: {usage: [VK_IMAGE_USAGE_SAMPLED_BIT]}\n  b: {usage: [^]}", "VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT"),
-        ("images:\n  a: {samples: VK_SAMPLE_COUNT_4_BIT}\n  b: {samples: ^}", "VK_SAMPLE_COUNT_2_BIT"),
-        ("metal: {renderPasses: {p: {depthAttachment: {loadAction: .clear, storeAction: ^}}}}", ".dontCare"),
-        ("metal: {renderPasses: {p: {depthAttachment: {loadAction: MTLLoadActionClear, storeAction: ^}}}}", "MTLStoreActionDontCare"),
+        (
+            "images:\n  a: {format: VK_FORMAT_D16_UNORM}\n  b: {tiling: ^}",
+            "VK_IMAGE_TILING_OPTIMAL",
+        ),
+        (
+            "images:\n  a: {usage: [VK_IMAGE_USAGE_SAMPLED_BIT]}\n  b: {usage: [^]}",
+            "VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT",
+        ),
+        (
+            "images:\n  a: {samples: VK_SAMPLE_COUNT_4_BIT}\n  b: {samples: ^}",
+            "VK_SAMPLE_COUNT_2_BIT",
+        ),
+        (
+            "metal: {renderPasses: {p: {depthAttachment: {loadAction: .clear, storeAction: ^}}}}",
+            ".dontCare",
+        ),
+        (
+            "metal: {renderPasses: {p: {depthAttachment: {loadAction: MTLLoadActionClear, "
+            "storeAction: ^}}}}",
+            "MTLStoreActionDontCare",
+        ),
     ],
 )
 def test_enumerants_are_spelled_as_in_the_text(text: str, label: str) -> None:
@@ -150,7 +193,9 @@ def test_enumerants_are_spelled_as_in_the_text(text: str, label: str) -> None:
 
 def test_names_are_quoted_where_they_need_it() -> None:
     assert '{image: "a: b",' in accepted(FRAME.replace("{image: color,", "{image: ^,"), "a: b")
-    assert '"image": "a"' in accepted('{"images": {"a": {}}, "commands": [{"present": {"image": ^}}]}', "a")
+    assert '"image": "a"' in accepted(
+        '{"images": {"a": {}}, "commands": [{"present": {"image": ^}}]}', "a"
+    )
 
 
 def test_a_flag_alone_becomes_a_list() -> None:
@@ -164,7 +209,9 @@ def test_the_rest_of_a_text_with_errors_is_still_known() -> None:
 
 
 def test_a_name_that_is_used_and_not_defined_is_offered() -> None:
-    text = FRAME.replace("image: color,", "image: resolved,").replace("  color: {", "  ^\n  color: {")
+    text = FRAME.replace("image: color,", "image: resolved,").replace(
+        "  color: {", "  ^\n  color: {"
+    )
     assert "\n  resolved: \n  color: {" in accepted(text, "resolved")
 
 
@@ -200,7 +247,15 @@ def test_comments_configuration_and_rule_pages(text: str, kind: str, expected: s
 
 @pytest.fixture
 def folder(tmp_path: Path) -> Path:
-    for name in ("shaders/a.frag.spv", "shaders/deep/b.frag", "base.toml", "pages/r.md", "reports/gpu.json", ".hidden/c.spv", "build.txt"):
+    for name in (
+        "shaders/a.frag.spv",
+        "shaders/deep/b.frag",
+        "base.toml",
+        "pages/r.md",
+        "reports/gpu.json",
+        ".hidden/c.spv",
+        "build.txt",
+    ):
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / name).write_text("")
     return tmp_path
@@ -209,8 +264,16 @@ def folder(tmp_path: Path) -> Path:
 @pytest.mark.parametrize(
     ("text", "kind", "expected"),
     [
-        ("pipelines: {p: {stages: [{stage: FRAGMENT, module: ^}]}}", "description", ["shaders/a.frag.spv", "shaders/deep/b.frag"]),
-        ("pipelines: {p: {stages: [{module: shaders/de^}]}}", "description", ["shaders/a.frag.spv", "shaders/deep/b.frag"]),
+        (
+            "pipelines: {p: {stages: [{stage: FRAGMENT, module: ^}]}}",
+            "description",
+            ["shaders/a.frag.spv", "shaders/deep/b.frag"],
+        ),
+        (
+            "pipelines: {p: {stages: [{module: shaders/de^}]}}",
+            "description",
+            ["shaders/a.frag.spv", "shaders/deep/b.frag"],
+        ),
         ("device: ./r^", "description", ["reports/gpu.json"]),
         ("extends = '^'", "configuration", ["base.toml"]),
         ("rules = ['pages/^']", "configuration", ["pages/r.md"]),
@@ -223,7 +286,9 @@ def test_files(folder: Path, text: str, kind: str, expected: list[str]) -> None:
     assert list(found) == expected
     item = found[expected[-1]]
     after = without[: item.start] + item.text + without[item.end :]
-    assert expected[-1] in after and not any(part in after for part in ("de/", "pages/pages", "shaders/shaders", "./r"))
+    assert expected[-1] in after and not any(
+        part in after for part in ("de/", "pages/pages", "shaders/shaders", "./r")
+    )
 
 
 def test_files_of_a_large_folder_are_bounded(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -235,8 +300,12 @@ def test_files_of_a_large_folder_are_bounded(folder: Path, monkeypatch: pytest.M
     assert paths(str(folder / "none"), (".spv",)) == []
 
 
-def leaves(kind: type[Record], text: str = "^", seen: frozenset[type[Record]] = frozenset()) -> Iterator[tuple[str, str, Shape, str]]:
-    """The structure and name of each key of the schema that holds no structure, its shape, and a text with the cursor in its value."""
+def leaves(
+    kind: type[Record], text: str = "^", seen: frozenset[type[Record]] = frozenset()
+) -> Iterator[tuple[str, str, Shape, str]]:
+    """The structure and name of each key of the schema that holds no structure, its shape, and a
+    text with the cursor in its value.
+    """
     if kind in seen:
         return
     for name, shape in kind.SHAPE.items():
@@ -259,9 +328,14 @@ def leaves_of(
 
 FREE_KINDS = {"int", "number", "share"}
 FREE_MEMBERS = {"label", "name", "pNext", "tile", "compression"}
-"""What a person chooses, and unread structures. The entries of `tile` and `compression` have their own test: values depend on keys."""
+"""What a person chooses, and unread structures. The entries of `tile` and `compression` have their
+own test: values depend on keys.
+"""
 
-NAMED = "images: {i: {}}\nrenderPasses: {r: {attachments: {a: {}}, subpasses: [{}]}}\nframebuffers: {f: {}}\npipelines: {p: {}}\n"
+NAMED = (
+    "images: {i: {}}\nrenderPasses: {r: {attachments: {a: {}}, subpasses: [{}]}}\n"
+    "framebuffers: {f: {}}\npipelines: {p: {}}\n"
+)
 METAL = "metal: {textures: {t: {}}, renderPasses: {q: {}}, renderPipelines: {s: {}}}\n"
 
 
@@ -273,12 +347,24 @@ def test_every_enumerable_value_is_completed(folder: Path) -> None:
             continue
         count += 1
         head, _, tail = text[1:-1].partition(": ")
-        others = "".join(line + "\n" for line in (NAMED + METAL).splitlines() if not line.startswith(f"{head}:"))
+        others = "".join(
+            line + "\n" for line in (NAMED + METAL).splitlines() if not line.startswith(f"{head}:")
+        )
         if head in ("renderPasses", "metal"):
             # The names are those of the same section.
-            tail = f"{tail[:-1]}, a: {{attachments: {{a: {{}}}}}}}}" if head == "renderPasses" else tail
-            tail = f"{tail[:-1]}, {METAL[8:-2]}}}" if head == "metal" and "textures: " not in tail else tail
-        if all(item.kind == KEY for item in items(f"{others}{head}: {tail}", folder=folder)[1].values()):
+            tail = (
+                f"{tail[:-1]}, a: {{attachments: {{a: {{}}}}}}}}"
+                if head == "renderPasses"
+                else tail
+            )
+            tail = (
+                f"{tail[:-1]}, {METAL[8:-2]}}}"
+                if head == "metal" and "textures: " not in tail
+                else tail
+            )
+        if all(
+            item.kind == KEY for item in items(f"{others}{head}: {tail}", folder=folder)[1].values()
+        ):
             missing.add((kind, name, shape[0]))
     assert count > 150
     assert missing == set()
@@ -288,6 +374,9 @@ def test_other_tables_of_a_project_are_left_alone() -> None:
     assert not items('[tool.ruff]\nselect = ["^"]', "configuration")[1]
 
 
-@pytest.mark.parametrize("text", ["# a comm^", "images: {a: {}} # c^", "images: {a: {format: D16_UNORM ^ }}", "images: {a: &^}"])
+@pytest.mark.parametrize(
+    "text",
+    ["# a comm^", "images: {a: {}} # c^", "images: {a: {format: D16_UNORM ^ }}", "images: {a: &^}"],
+)
 def test_nothing_is_offered_where_nothing_may_stand(text: str) -> None:
     assert not items(text)[1]

@@ -25,7 +25,8 @@ SEVERITIES = {
 }
 
 PIECES = (
-    "STORE", "DONT_CARE", "4", "1", "}", "{", "[", "]", ",", ": ", "\n", "\r\n", "  ", "# msaa-lint: ignore[MSAA201] why\n", "é\U0001f600",
+    "STORE", "DONT_CARE", "4", "1", "}", "{", "[", "]", ",", ": ", "\n", "\r\n", "  ",
+    "# msaa-lint: ignore[MSAA201] why\n", "é\U0001f600",
     "\u2028", "\t", "&a ", "*a", "---\n", "usage: ", "samples: 8", "'", '"', "\x00", "",
 )  # fmt: skip
 
@@ -67,8 +68,9 @@ def session(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Session]:
 
 
 class Kind(NamedTuple):
-    """A kind of documents: its name in a folder, its language in an editor, texts to begin with, what is likely in them, and the input
-    that is checked with it, if it is none itself."""
+    """A kind of documents: its name in a folder, its language in an editor, texts to begin with,
+    what is likely in them, and the input that is checked with it, if it is none itself.
+    """
 
     name: str
     language: str
@@ -77,35 +79,60 @@ class Kind(NamedTuple):
     checked: str = ""
 
 
-JSON = tuple(json.dumps(yaml.safe_load(text), indent=indent) for text, indent in ((STORED, 1), (CLEAN, None)))
-TOML = 'select = ["MSAA2", "MSAA403"]\nfail-on = "warning"\n[severity]\nMSAA201 = "note"\n[limits]\ndepth = 50\n'
+JSON = tuple(
+    json.dumps(yaml.safe_load(text), indent=indent) for text, indent in ((STORED, 1), (CLEAN, None))
+)
+TOML = (
+    'select = ["MSAA2", "MSAA403"]\nfail-on = "warning"\n[severity]\nMSAA201 = "note"\n'
+    "[limits]\ndepth = 50\n"
+)
 KINDS = [
     Kind("frame.msaa.yaml", "yaml", (CLEAN, STORED)),
     Kind("frame.msaa.json", "json", JSON, ('"samples": 8', '"STORE"', "null", ": ")),
-    Kind("msaa-lint.toml", "toml", (TOML, f'extends = "base.toml"\n{TOML}'), ("= ", "[limits]\n", "depth = 0\n", '"off"', "true"), "input"),
-    Kind("main.cpp", "cpp", (CODE.read_text(encoding="utf-8"),), ("VK_SAMPLE_COUNT_1_BIT", ";", "// ", "/*", "(", "#if 1\n")),
+    Kind(
+        "msaa-lint.toml",
+        "toml",
+        (TOML, f'extends = "base.toml"\n{TOML}'),
+        ("= ", "[limits]\n", "depth = 0\n", '"off"', "true"),
+        "input",
+    ),
+    Kind(
+        "main.cpp",
+        "cpp",
+        (CODE.read_text(encoding="utf-8"),),
+        ("VK_SAMPLE_COUNT_1_BIT", ";", "// ", "/*", "(", "#if 1\n"),
+    ),
 ]
 
 
 @pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.language)
 @settings(max_examples=10, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 @given(data=st.data())
-def test_findings_are_those_of_check_after_edits(session: Session, kind: Kind, data: st.DataObject) -> None:
+def test_findings_are_those_of_check_after_edits(
+    session: Session, kind: Kind, data: st.DataObject
+) -> None:
     if kind.language == "cpp":
         pytest.importorskip("tree_sitter")
     pieces = st.sampled_from(PIECES + kind.pieces)
     edits = st.lists(st.tuples(st.floats(0, 1), st.integers(0, 40), pieces), max_size=4)
-    start, steps = data.draw(st.sampled_from(kind.starts)), data.draw(st.lists(edits, min_size=1, max_size=3))
+    start, steps = (
+        data.draw(st.sampled_from(kind.starts)),
+        data.draw(st.lists(edits, min_size=1, max_size=3)),
+    )
     session.documents += 1
     folder = session.editor.folder / str(session.documents)
     folder.mkdir()
     if kind.checked:
         (folder / "input.msaa.yaml").write_text(STORED, encoding="utf-8")
         (folder / "base.toml").write_text("min-severity = 'warning'\n", encoding="utf-8")
-    session.runner.run(edited(session.editor, f"{session.documents}/{kind.name}", kind, start, steps))
+    session.runner.run(
+        edited(session.editor, f"{session.documents}/{kind.name}", kind, start, steps)
+    )
 
 
-async def edited(opened: Editor, name: str, kind: Kind, text: str, steps: list[list[tuple[float, int, str]]]) -> None:
+async def edited(
+    opened: Editor, name: str, kind: Kind, text: str, steps: list[list[tuple[float, int, str]]]
+) -> None:
     """Edits a document step by step, and compares its diagnostics after each."""
     await opened.open(name, text, kind.language)
     for step in steps:
@@ -122,15 +149,29 @@ async def edited(opened: Editor, name: str, kind: Kind, text: str, steps: list[l
         report = json.loads(run(opened.folder, "check", "--output", "json", checked).stdout)
         expected = [of_report(each, text) for each in report["findings"] if each["file"] == name]
         assert [plain(each) for each in found] == expected
-    opened.client.text_document_did_close(types.DidCloseTextDocumentParams(types.TextDocumentIdentifier(opened.uri(name))))
+    opened.client.text_document_did_close(
+        types.DidCloseTextDocumentParams(types.TextDocumentIdentifier(opened.uri(name)))
+    )
 
 
 def plain(found: types.Diagnostic) -> tuple[object, ...]:
-    return (found.code, found.message.split("\n")[0], SEVERITIES[found.severity], found.range.start.line, found.range.start.character)
+    return (
+        found.code,
+        found.message.split("\n")[0],
+        SEVERITIES[found.severity],
+        found.range.start.line,
+        found.range.start.character,
+    )
 
 
 def of_report(found: dict[str, object], text: str) -> tuple[object, ...]:
     line, column = (found["line"] or 1, found["column"] or 1)
     lines = text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
     before = lines[line - 1][: column - 1]
-    return (found["code"], f"{found['message']} [{found['rule']}]", found["severity"], line - 1, len(before.encode("utf-16-le")) // 2)
+    return (
+        found["code"],
+        f"{found['message']} [{found['rule']}]",
+        found["severity"],
+        line - 1,
+        len(before.encode("utf-16-le")) // 2,
+    )

@@ -37,7 +37,10 @@ def said(text: str, kind: str = "description") -> str:
 def test_a_key() -> None:
     text = said(FRAME.replace("storeOp: STORE", "store^Op: STORE", 1))
     assert text.startswith("**Store operation** `storeOp`")
-    assert "[VkAttachmentDescription2::storeOp](https://" in text and "Value: `VkAttachmentStoreOp`" in text
+    assert (
+        "[VkAttachmentDescription2::storeOp](https://" in text
+        and "Value: `VkAttachmentStoreOp`" in text
+    )
 
 
 def test_a_store_with_and_without() -> None:
@@ -51,7 +54,9 @@ def test_a_store_with_and_without() -> None:
 def test_samples_and_formats() -> None:
     text = said(FRAME.replace("samples: 4", "samples: ^4"))
     assert "| `1` | 800 (−1,200) |" in text and "| `8` | 3,600 (+1,600) |" in text
-    text = said(FRAME.replace("format: R8G8B8A8_UNORM, samples: 4", "format: R8^G8B8A8_UNORM, samples: 4"))
+    text = said(
+        FRAME.replace("format: R8G8B8A8_UNORM, samples: 4", "format: R8^G8B8A8_UNORM, samples: 4")
+    )
     assert "4 bytes a texel" in text and "| `R16G16B16A16_SFLOAT` | 3,600 (+1,600) |" in text
 
 
@@ -61,17 +66,28 @@ def test_a_flag_that_saves_memory() -> None:
 
 
 def test_a_value_that_costs_nothing_has_no_table() -> None:
-    assert "|" not in said(FRAME.replace("R8G8B8A8_UNORM, samples: 1, usage: [C", "R8G8B8A8_UNORM, samples: 1, usage: [^C"))
+    assert "|" not in said(
+        FRAME.replace(
+            "R8G8B8A8_UNORM, samples: 1, usage: [C", "R8G8B8A8_UNORM, samples: 1, usage: [^C"
+        )
+    )
 
 
 def test_a_device_and_a_value_without_a_text() -> None:
-    assert said("device: mali^-g76\n").startswith("**Mali-G76**: tile-based; color sample counts 1, ")
-    assert "`rasterizationSamples`" in said("pipelines: {p: {multisampleState: {rasterizationSamples: ^4}}}\n")
+    assert said("device: mali^-g76\n").startswith(
+        "**Mali-G76**: tile-based; color sample counts 1, "
+    )
+    assert "`rasterizationSamples`" in said(
+        "pipelines: {p: {multisampleState: {rasterizationSamples: ^4}}}\n"
+    )
 
 
 def test_an_image_over_the_frame() -> None:
     text = said(FRAME.replace("image: color_ms", "image: color^_ms"))
-    assert "Image `color_ms`: 0.00 MB/s read, 1,600 MB/s written, 160 mW; 0.00 MiB of memory of 15.3 MiB." in text
+    assert (
+        "Image `color_ms`: 0.00 MB/s read, 1,600 MB/s written, 160 mW; 0.00 MiB of memory of 15.3 "
+        "MiB." in text
+    )
     assert "| `forward` | color | store | 1,600 | 160 |" in text
 
 
@@ -79,7 +95,9 @@ def test_a_pass_and_an_attachment() -> None:
     text = said(FRAME.replace("  forward:", "  for^ward:"))
     assert "This pass moves 2,000 MB/s, 200 mW." in text
     assert "| `target` | color | resolve | 1 | 400 |" in text
-    assert "This attachment moves 400 MB/s, 40.0 mW, by its resolve." in said(FRAME.replace("  target:", "  tar^get:"))
+    assert "This attachment moves 400 MB/s, 40.0 mW, by its resolve." in said(
+        FRAME.replace("  target:", "  tar^get:")
+    )
 
 
 def test_metal() -> None:
@@ -114,7 +132,9 @@ renderTargets:
 
 def test_names_are_escaped() -> None:
     name = "a`|<b>[x](y)"
-    text = said(FRAME.replace("color_ms", f"'{name}'").replace(f"image: '{name}'", f"image: ^'{name}'"))
+    text = said(
+        FRAME.replace("color_ms", f"'{name}'").replace(f"image: '{name}'", f"image: ^'{name}'")
+    )
     assert name not in text and "<b>" not in text and "&#60;b&#62;" in text
 
 
@@ -142,7 +162,9 @@ def test_a_rule_that_is_named(text: str, kind: str) -> None:
 def test_the_page_of_a_rule_is_linked_where_there_is_a_site() -> None:
     text, offset = at('select = ["MSAA^102"]')
     rule = next(rule for rule in engine().registry.rules if rule.code == "MSAA102")
-    answer = hover(View(text, "configuration", None, engine().registry, docs_url="https://example.org"), offset)
+    answer = hover(
+        View(text, "configuration", None, engine().registry, docs_url="https://example.org"), offset
+    )
     assert answer is not None and f"](https://example.org/rules/{rule.name}/)" in answer.markdown
 
 
@@ -158,13 +180,18 @@ def test_nothing_is_said_about_blanks_and_other_texts() -> None:
 
 
 def test_hints() -> None:
-    found = [(FRAME.count("\n", 0, hint.at) + 1, hint.text) for hint in hints(view(FRAME), Span(0, len(FRAME)))]
+    found = [
+        (FRAME.count("\n", 0, hint.at) + 1, hint.text)
+        for hint in hints(view(FRAME), Span(0, len(FRAME)))
+    ]
     assert found == [(6, "2,000 MB/s, 200 mW"), (8, "1,600 MB/s"), (9, "400 MB/s (resolve)")]
 
 
 def test_hints_of_a_part_of_the_text() -> None:
     start = FRAME.index("      target")
-    assert [hint.text for hint in hints(view(FRAME), Span(start, len(FRAME)))] == ["400 MB/s (resolve)"]
+    assert [hint.text for hint in hints(view(FRAME), Span(start, len(FRAME)))] == [
+        "400 MB/s (resolve)"
+    ]
 
 
 def test_hints_of_dynamic_rendering() -> None:
@@ -179,7 +206,10 @@ commands:
         - {image: color_ms, loadOp: CLEAR, storeOp: STORE, resolveMode: AVERAGE, resolveImage: color}
   - endRendering
 """
-    found = [(text.count("\n", 0, hint.at) + 1, hint.text) for hint in hints(view(text), Span(0, len(text)))]
+    found = [
+        (text.count("\n", 0, hint.at) + 1, hint.text)
+        for hint in hints(view(text), Span(0, len(text)))
+    ]
     assert found == [(6, "2,000 MB/s, 200 mW"), (8, "2,000 MB/s, 400 of it the resolve")]
 
 
@@ -193,8 +223,16 @@ commands:
         ("[tool.msaa-lint]\ninc^lude = ['a']", "Default: as below", "](#"),
         ("fail^-on", "**fail-on**: the lowest severity", "(#"),
         ("select = ['ALL']\n[limits]\ndep^th =\n", "**limits.depth**", "nodes"),
-        ("[tool.ruff]\na = 1\n[tool.msaa-lint]\nfail^-on =\n", "**fail-on**: the lowest severity", "(#"),
-        ("[tool.msaa-lint.source.ass^ume]\na = 1", "**source.assume**: values that source code does not state", "]("),
+        (
+            "[tool.ruff]\na = 1\n[tool.msaa-lint]\nfail^-on =\n",
+            "**fail-on**: the lowest severity",
+            "(#",
+        ),
+        (
+            "[tool.msaa-lint.source.ass^ume]\na = 1",
+            "**source.assume**: values that source code does not state",
+            "](",
+        ),
     ],
 )
 def test_settings(text: str, expected: str, other: str) -> None:

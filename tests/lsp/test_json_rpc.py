@@ -1,4 +1,6 @@
-"""Messages that are not those of the protocol: each is answered with an error of JSON-RPC, and the server goes on."""
+"""Messages that are not those of the protocol: each is answered with an error of JSON-RPC, and the
+server goes on.
+"""
 
 from __future__ import annotations
 
@@ -24,7 +26,9 @@ PARSE_ERROR, INVALID_REQUEST, METHOD_NOT_FOUND, INVALID_PARAMS = -32700, -32600,
 
 
 def message(identifier: object, method: object, params: object) -> bytes:
-    return json.dumps({"jsonrpc": "2.0", "id": identifier, "method": method, "params": params}).encode()
+    return json.dumps(
+        {"jsonrpc": "2.0", "id": identifier, "method": method, "params": params}
+    ).encode()
 
 
 class Conversation:
@@ -49,7 +53,9 @@ class Conversation:
         return found
 
     def ask(self, body: bytes) -> dict[str, object]:
-        """The answer to a message; requests of the server, which begin with an identifier of its own, are not in this conversation."""
+        """The answer to a message; requests of the server, which begin with an identifier of its
+        own, are not in this conversation.
+        """
         self.send(body)
         return self.answer()
 
@@ -58,15 +64,29 @@ class Conversation:
 def server(tmp_path_factory: pytest.TempPathFactory) -> object:
     folder: Path = tmp_path_factory.mktemp("messages")
     command = [sys.executable, "-m", "msaa_lint", "lsp"]
-    with subprocess.Popen(command, cwd=folder, env=environment_of({}), stdin=subprocess.PIPE, stdout=subprocess.PIPE) as process:
+    with subprocess.Popen(
+        command, cwd=folder, env=environment_of({}), stdin=subprocess.PIPE, stdout=subprocess.PIPE
+    ) as process:
         timer = Timer(LIMIT, process.kill)
         timer.start()
         conversation = Conversation(process)
-        answer = conversation.ask(message(0, "initialize", {"capabilities": {}, "processId": None, "rootUri": None}))
+        answer = conversation.ask(
+            message(0, "initialize", {"capabilities": {}, "processId": None, "rootUri": None})
+        )
         assert "result" in answer
         yield conversation
-        assert conversation.ask(message(1, "shutdown", None)) == {"jsonrpc": "2.0", "id": 1, "result": None}
-        assert error(conversation.ask(message(2, HOVER, {"textDocument": DOCUMENT, "position": {"line": 0, "character": 0}}))) == (
+        assert conversation.ask(message(1, "shutdown", None)) == {
+            "jsonrpc": "2.0",
+            "id": 1,
+            "result": None,
+        }
+        assert error(
+            conversation.ask(
+                message(
+                    2, HOVER, {"textDocument": DOCUMENT, "position": {"line": 0, "character": 0}}
+                )
+            )
+        ) == (
             2,
             INVALID_REQUEST,
         )
@@ -95,7 +115,10 @@ def position(line: object, character: object) -> dict[str, object]:
         (message(7, HOVER, None), (7, INVALID_PARAMS)),
         (b'{"jsonrpc": "2.0", "id": 7, "method": "textDocument/hover"}', (7, INVALID_PARAMS)),
         (message(7, "textDocument/rename", position(0, 0)), (7, INVALID_PARAMS)),
-        (message(7, "textDocument/codeAction", {"textDocument": DOCUMENT, "range": 3}), (7, INVALID_PARAMS)),
+        (
+            message(7, "textDocument/codeAction", {"textDocument": DOCUMENT, "range": 3}),
+            (7, INVALID_PARAMS),
+        ),
         (message(7, "codeAction/resolve", {"kind": 3}), (7, INVALID_PARAMS)),
         (message(7, "textDocument/never", {}), (7, METHOD_NOT_FOUND)),
         (b'{"jsonrpc": "2.0", "id": 7, "method": "textDocument/never"}', (7, METHOD_NOT_FOUND)),
@@ -108,7 +131,9 @@ def position(line: object, character: object) -> dict[str, object]:
         (b"[" * 100_000, (None, PARSE_ERROR)),
     ],
 )
-def test_what_is_not_a_message_is_an_error(server: Conversation, body: bytes, expected: tuple[object, int]) -> None:
+def test_what_is_not_a_message_is_an_error(
+    server: Conversation, body: bytes, expected: tuple[object, int]
+) -> None:
     assert error(server.ask(body)) == expected
 
 
@@ -119,6 +144,19 @@ def test_the_error_names_the_parameter(server: Conversation) -> None:
 
 
 def test_a_notification_that_cannot_be_read_has_no_answer(server: Conversation) -> None:
-    for params in (None, [], {"textDocument": 3}, {"textDocument": {"uri": "a", "version": "x"}, "contentChanges": {}}):
-        server.send(json.dumps({"jsonrpc": "2.0", "method": "textDocument/didChange", "params": params}).encode())
-    assert server.ask(message(8, HOVER, position(0, 0))) == {"jsonrpc": "2.0", "id": 8, "result": None}
+    for params in (
+        None,
+        [],
+        {"textDocument": 3},
+        {"textDocument": {"uri": "a", "version": "x"}, "contentChanges": {}},
+    ):
+        server.send(
+            json.dumps(
+                {"jsonrpc": "2.0", "method": "textDocument/didChange", "params": params}
+            ).encode()
+        )
+    assert server.ask(message(8, HOVER, position(0, 0))) == {
+        "jsonrpc": "2.0",
+        "id": 8,
+        "result": None,
+    }

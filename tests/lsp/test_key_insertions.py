@@ -39,7 +39,11 @@ def insertions(text: str, name: str = "frame.msaa.yaml") -> list[KeyInsertion]:
 
 
 def errors(text: str, name: str) -> list[str]:
-    return [found.message for found in linted(text, name).findings if found.severity == "error" and found.code.startswith("MSAA9")]
+    return [
+        found.message
+        for found in linted(text, name).findings
+        if found.severity == "error" and found.code.startswith("MSAA9")
+    ]
 
 
 def is_valid(text: str, name: str) -> int:
@@ -68,7 +72,10 @@ def test_what_is_inserted_in_json_is_valid(indent: int | None) -> None:
 
 
 def titles(text: str) -> dict[str, str]:
-    return {each.title.partition(", to decide")[0]: apply(text, list(each.edits)) for each in insertions(text)}
+    return {
+        each.title.partition(", to decide")[0]: apply(text, list(each.edits))
+        for each in insertions(text)
+    }
 
 
 def test_lists_are_inserted_with_their_first_item() -> None:
@@ -86,20 +93,31 @@ commands:
   - beginRendering: {colorAttachments: [{image: shown, loadOp: CLEAR, storeOp: STORE}]}
   - endRendering
 """
-    assert [each for each in titles(text) if each.startswith("Add present:")] == ["Add present: shown to commands"]
+    assert [each for each in titles(text) if each.startswith("Add present:")] == [
+        "Add present: shown to commands"
+    ]
     assert titles(text)["Add present: shown to commands"] == text + "  - present: {image: shown}\n"
     flow = (
         text.partition("commands:")[0]
-        + "commands: [{beginRendering: {colorAttachments: [{image: shown, storeOp: STORE}]}}, endRendering]\n"
+        + "commands: [{beginRendering: {colorAttachments: [{image: shown, storeOp: STORE}]}}, "
+        "endRendering]\n"
     )
-    assert titles(flow)["Add present: shown to commands"] == flow.replace("endRendering]", "endRendering, {present: {image: shown}}]")
+    assert titles(flow)["Add present: shown to commands"] == flow.replace(
+        "endRendering]", "endRendering, {present: {image: shown}}]"
+    )
 
 
 def test_values_are_those_that_other_structures_state() -> None:
-    text = CLEAN.replace("{format: R8G8B8A8_UNORM, samples: 1, usage: [COLOR_ATTACHMENT, SAMPLED]", "{format: R8G8B8A8_UNORM, samples: 1")
+    text = CLEAN.replace(
+        "{format: R8G8B8A8_UNORM, samples: 1, usage: [COLOR_ATTACHMENT, SAMPLED]",
+        "{format: R8G8B8A8_UNORM, samples: 1",
+    )
     assert "Add usage: [COLOR_ATTACHMENT, TRANSIENT_ATTACHMENT] to images.color" in titles(text)
     text = CLEAN.replace("{image: color, loadOp", "{loadOp")
-    assert "image: color}" in titles(text)["Add image: color to renderPasses.forward.attachments.color"]
+    assert (
+        "image: color}"
+        in titles(text)["Add image: color to renderPasses.forward.attachments.color"]
+    )
 
 
 def test_a_snippet_places_the_cursor_in_the_value() -> None:

@@ -18,7 +18,14 @@ DOCS = "https://example.com/docs"
 
 
 def view(text: str, kind: str = "description", folder: Path | None = None) -> View:
-    return View(text, kind, None, engine().registry, docs_url=DOCS, folder=str(folder) if folder is not None else None)
+    return View(
+        text,
+        kind,
+        None,
+        engine().registry,
+        docs_url=DOCS,
+        folder=str(folder) if folder is not None else None,
+    )
 
 
 @pytest.fixture
@@ -31,31 +38,54 @@ def folder(tmp_path: Path) -> Path:
 
 
 def linked(text: str, kind: str, folder: Path) -> dict[str, str]:
-    return {text[link.span.start : link.span.end]: link.target for link in links(view(text, kind, folder))}
+    return {
+        text[link.span.start : link.span.end]: link.target
+        for link in links(view(text, kind, folder))
+    }
 
 
 @pytest.mark.parametrize(
     ("text", "kind", "expected"),
     [
-        ("pipelines: {p: {stages: [{module: a.spv}, {module: 'a.spv'}, {module: b.spv}]}}", "description", {"a.spv": "a.spv"}),
+        (
+            "pipelines: {p: {stages: [{module: a.spv}, {module: 'a.spv'}, {module: b.spv}]}}",
+            "description",
+            {"a.spv": "a.spv"},
+        ),
         ("pipelines: {p: {stages: [{module: ../outside.spv}]}}", "description", {}),
         ("device: ./gpu.json#one", "description", {"./gpu.json#one": "gpu.json"}),
         ("device: mali-g76", "description", {}),
-        ("extends = 'base.toml'\nrules = ['r.md', 'none.md']", "configuration", {"base.toml": "base.toml", "r.md": "r.md"}),
+        (
+            "extends = 'base.toml'\nrules = ['r.md', 'none.md']",
+            "configuration",
+            {"base.toml": "base.toml", "r.md": "r.md"},
+        ),
         ("[tool.msaa-lint]\nprofile = 'gpu.json'", "configuration", {"gpu.json": "gpu.json"}),
     ],
 )
-def test_paths_lead_to_files_of_the_project(folder: Path, text: str, kind: str, expected: dict[str, str]) -> None:
-    assert linked(text, kind, folder) == {name: (folder / file).as_uri() for name, file in expected.items()}
+def test_paths_lead_to_files_of_the_project(
+    folder: Path, text: str, kind: str, expected: dict[str, str]
+) -> None:
+    assert linked(text, kind, folder) == {
+        name: (folder / file).as_uri() for name, file in expected.items()
+    }
 
 
 def test_rules_lead_to_their_pages(folder: Path) -> None:
     page = f"{DOCS}/rules/multisampled-attachment-stored/"
     comment = "a: 1 # msaa-lint: ignore[MSAA201, multisampled-attachment-stored, none, MSAA911] why"
-    assert linked(comment, "description", folder) == {"MSAA201": page, "multisampled-attachment-stored": page}
+    assert linked(comment, "description", folder) == {
+        "MSAA201": page,
+        "multisampled-attachment-stored": page,
+    }
     assert linked("int a; // msaa-lint: ignore[MSAA201]", "code", folder) == {"MSAA201": page}
-    configuration = "select = ['MSAA201', 'MSAA2']\n[severity]\nmultisampled-attachment-stored = 'off'"
-    assert linked(configuration, "configuration", folder) == {"MSAA201": page, "multisampled-attachment-stored": page}
+    configuration = (
+        "select = ['MSAA201', 'MSAA2']\n[severity]\nmultisampled-attachment-stored = 'off'"
+    )
+    assert linked(configuration, "configuration", folder) == {
+        "MSAA201": page,
+        "multisampled-attachment-stored": page,
+    }
     without = View(comment, "description", None, engine().registry)
     assert links(without) == []
 
@@ -81,7 +111,10 @@ def test_folds_of_a_description() -> None:
 
 
 def test_folds_of_other_texts() -> None:
-    assert folds(view("a = 1\n[severity]\nx = 2\n\n[limits]\ndepth = 3\n", "configuration")) == [Fold(1, 2), Fold(4, 5)]
+    assert folds(view("a = 1\n[severity]\nx = 2\n\n[limits]\ndepth = 3\n", "configuration")) == [
+        Fold(1, 2),
+        Fold(4, 5),
+    ]
     assert folds(view("---\ncode: A\nwhen: b\n---\ntext\n", "rule")) == [Fold(0, 3)]
     assert folds(view("// a\n// b\n", "code")) == []
 

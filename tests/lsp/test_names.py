@@ -36,16 +36,23 @@ commands:
 """
 
 
-def lines(text: str, offset_of: str, occurrence: int = 0, with_definition: bool = True) -> list[int]:
+def lines(
+    text: str, offset_of: str, occurrence: int = 0, with_definition: bool = True
+) -> list[int]:
     """The lines that name what is named at an occurrence of a word, counted from 1."""
     offset = [n for n in range(len(text)) if text.startswith(offset_of, n)][occurrence]
     seen = view(text)
-    return [text.count("\n", 0, span.start) + 1 for span in navigation.references(seen, offset, with_definition)]
+    return [
+        text.count("\n", 0, span.start) + 1
+        for span in navigation.references(seen, offset, with_definition)
+    ]
 
 
 def defined(text: str, offset_of: str, occurrence: int) -> list[int]:
     offset = [n for n in range(len(text)) if text.startswith(offset_of, n)][occurrence]
-    return [text.count("\n", 0, span.start) + 1 for span in navigation.definition(view(text), offset)]
+    return [
+        text.count("\n", 0, span.start) + 1 for span in navigation.definition(view(text), offset)
+    ]
 
 
 def test_references() -> None:
@@ -71,7 +78,9 @@ def test_anchors_and_aliases() -> None:
     assert lines(text, "base") == lines(text, "base", 2) == [2, 3, 4]
     assert defined(text, "base", 1) == [2]
     seen = view(text)
-    assert edited(text, rename.rename(seen, text.index("*base") + 2, "one")) == text.replace("base", "one")
+    assert edited(text, rename.rename(seen, text.index("*base") + 2, "one")) == text.replace(
+        "base", "one"
+    )
     with pytest.raises(rename.Refused, match="blanks"):
         rename.rename(seen, text.index("*base") + 2, "a b")
 
@@ -84,7 +93,12 @@ def test_an_anchor_may_be_defined_again() -> None:
 
 @pytest.mark.parametrize(
     ("name", "new", "quoted"),
-    [("color_ms", "a: b", '"a: b"'), ("fb", "true", '"true"'), ("opaque", "x.y", "x.y"), ("forward", "12", '"12"')],
+    [
+        ("color_ms", "a: b", '"a: b"'),
+        ("fb", "true", '"true"'),
+        ("opaque", "x.y", "x.y"),
+        ("forward", "12", '"12"'),
+    ],
 )
 def test_renames_where_it_is_defined_and_named(name: str, new: str, quoted: str) -> None:
     edits = rename.rename(view(FRAME), FRAME.index(name) + 1, new)
@@ -101,7 +115,9 @@ def test_renames_an_attachment_in_its_pass_only() -> None:
 
 def test_renames_in_quotes() -> None:
     text = """{"images": {"a": {}, 'b': {}}, "commands": [{"present": {"image": 'a'}}, {"present": {"image": b}}]}"""
-    assert edited(text, rename.rename(view(text), text.index('"a"') + 1, 'q"')) == text.replace('"a"', '"q\\""').replace("'a'", "'q\"'")
+    assert edited(text, rename.rename(view(text), text.index('"a"') + 1, 'q"')) == text.replace(
+        '"a"', '"q\\""'
+    ).replace("'a'", "'q\"'")
     assert rename.prepare(view(text), text.index('"a"')) == (slice_of(text, "a"), "a")
 
 
@@ -111,10 +127,13 @@ def slice_of(text: str, name: str) -> tuple[int, int]:
 
 
 def test_an_alias_of_a_name_follows_it() -> None:
-    text = "images:\n  a: {samples: 1}\ncommands:\n  - present: {image: &it a}\n  - present: {image: *it}\n"
-    assert edited(text, rename.rename(view(text), text.index("a:"), "b")) == text.replace("a:", "b:", 1).replace(
-        "imbges", "images"
-    ).replace("&it a", "&it b")
+    text = (
+        "images:\n  a: {samples: 1}\ncommands:\n  - present: {image: &it a}\n  - present: "
+        "{image: *it}\n"
+    )
+    assert edited(text, rename.rename(view(text), text.index("a:"), "b")) == text.replace(
+        "a:", "b:", 1
+    ).replace("imbges", "images").replace("&it a", "&it b")
 
 
 def test_frames_of_one_program_share_names() -> None:
@@ -157,14 +176,23 @@ def test_a_text_with_errors_has_names() -> None:
 
 
 def outline(found: list[symbols.Symbol]) -> list[object]:
-    return [[symbol.name, outline(list(symbol.children))] if symbol.children else symbol.name for symbol in found]
+    return [
+        [symbol.name, outline(list(symbol.children))] if symbol.children else symbol.name
+        for symbol in found
+    ]
 
 
 def test_outline() -> None:
     found = symbols.symbols(view(FRAME))
     assert outline(found) == [
         ["images", ["color_ms", "color"]],
-        ["renderPasses", [["forward", ["source", "target", "subpass 0", "subpass 1"]], ["other", ["source", "subpass 0"]]]],
+        [
+            "renderPasses",
+            [
+                ["forward", ["source", "target", "subpass 0", "subpass 1"]],
+                ["other", ["source", "subpass 0"]],
+            ],
+        ],
         ["framebuffers", ["fb"]],
         ["pipelines", ["opaque"]],
         ["commands", [["beginRenderPass", ["draw", "nextSubpass", "endRenderPass"]], "present"]],
@@ -173,9 +201,16 @@ def test_outline() -> None:
 
 
 def test_outline_of_several_documents_and_of_metal() -> None:
-    metal = "metal:\n  textures: {t: {}}\n  renderPasses: {p: {colorAttachments: [{texture: t}]}}\n  commands: [{renderPass: p}]\n"
+    metal = (
+        "metal:\n  textures: {t: {}}\n  renderPasses: {p: {colorAttachments: [{texture: t}]}}\n"
+        "  commands: [{renderPass: p}]\n"
+    )
     found = symbols.symbols(view(f"{metal}---\nimages: {{a: {{}}}}\n"))
-    parts = [["metal.textures", ["t"]], ["metal.renderPasses", [["p", ["colorAttachment 0"]]]], ["metal.commands", ["renderPass"]]]
+    parts = [
+        ["metal.textures", ["t"]],
+        ["metal.renderPasses", [["p", ["colorAttachment 0"]]]],
+        ["metal.commands", ["renderPass"]],
+    ]
     assert outline(found) == [["document 1", parts], ["document 2", [["images", ["a"]]]]]
 
 

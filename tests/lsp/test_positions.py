@@ -1,4 +1,6 @@
-"""Every position of every example has an answer, and what the answers change leaves the document whole."""
+"""Every position of every example has an answer, and what the answers change leaves the document
+whole.
+"""
 
 from __future__ import annotations
 
@@ -21,7 +23,9 @@ from msaa_lint.core.text.tree import parse
 from .views import descriptions, edited, engine, view
 
 MAX_POSITIONS = 40
-"""Positions of an example at which completions are asked for; of a short text they are at every third."""
+"""Positions of an example at which completions are asked for; of a short text they are at every
+third.
+"""
 
 NEW = ("renamed", "with: colon", "12", "ünïcode name")
 """The new names, one for each name of an example in turn."""
@@ -53,7 +57,9 @@ PIECES = (
 )
 """What random edits insert."""
 
-FILES = pytest.mark.parametrize("path", descriptions(), ids=lambda path: f"{path.parent.name}/{path.name}")
+FILES = pytest.mark.parametrize(
+    "path", descriptions(), ids=lambda path: f"{path.parent.name}/{path.name}"
+)
 
 SHORT = """\
 device: mali-g76
@@ -85,16 +91,23 @@ SHORT_JSON = """\
 
 def problems(text: str) -> int:
     """The errors of a text's syntax."""
-    return sum(problem.code in ("MSAA901", "MSAA906") for problem in parse(Source("", text), Limits()).problems)
+    return sum(
+        problem.code in ("MSAA901", "MSAA906")
+        for problem in parse(Source("", text), Limits()).problems
+    )
 
 
 def tokens(text: str) -> list[int]:
-    """The offsets at which words and other characters begin, and the end of the text: all of a word has the same answers."""
+    """The offsets at which words and other characters begin, and the end of the text: all of a word
+    has the same answers.
+    """
     return [*(match.start() for match in re.finditer(r"[\w.-]+|[^\w\s.-]|\s+", text)), len(text)]
 
 
 def typed(item: completion.Completion, text: str) -> int:
-    """The errors of the syntax with anything else in its place: what follows may lack a comma before it."""
+    """The errors of the syntax with anything else in its place: what follows may lack a comma
+    before it.
+    """
     return problems(f"{text[: item.start]} x: 1 {text[item.end :]}")
 
 
@@ -108,7 +121,9 @@ def test_every_position_of_an_example_has_an_answer(path: Path) -> None:
     seen = view(text)
     for offset in tokens(text):
         answer = hover.hover(seen, offset)
-        assert answer is None or (answer.markdown and answer.span.start <= offset <= answer.span.end)
+        assert answer is None or (
+            answer.markdown and answer.span.start <= offset <= answer.span.end
+        )
         for span in (*navigation.definition(seen, offset), *navigation.references(seen, offset)):
             assert 0 <= span.start <= span.end <= len(text)
         found = rename.prepare(seen, offset)
@@ -123,7 +138,10 @@ def test_completions_of_an_example_leave_its_syntax_whole(path: Path) -> None:
     seen = view(text)
     for offset in Random(path.name).sample(range(len(text) + 1), MAX_POSITIONS):
         for item in completion.complete(seen, offset, snippets=bool(offset % 2))[:12]:
-            assert not problems(inserted(item, text)) or typed(item, text), (item, text[max(0, offset - 60) : offset])
+            assert not problems(inserted(item, text)) or typed(item, text), (
+                item,
+                text[max(0, offset - 60) : offset],
+            )
 
 
 @pytest.mark.parametrize("text", [SHORT, SHORT_JSON], ids=["yaml", "json"])
@@ -132,7 +150,10 @@ def test_completions_of_a_short_text_leave_its_syntax_whole(text: str, snippets:
     seen = view(text)
     for offset in range(0, len(text) + 1, 3):
         for item in completion.complete(seen, offset, snippets)[:20]:
-            assert not problems(inserted(item, text)) or typed(item, text), (item, text[max(0, offset - 60) : offset])
+            assert not problems(inserted(item, text)) or typed(item, text), (
+                item,
+                text[max(0, offset - 60) : offset],
+            )
 
 
 @pytest.mark.parametrize("text", [SHORT, SHORT_JSON], ids=["yaml", "json"])
@@ -140,7 +161,10 @@ def test_completions_of_a_text_that_is_cut_off_add_no_error(text: str) -> None:
     for end in range(0, len(text), 3):
         seen = View(text[:end], "description", None, engine().registry)
         for item in completion.complete(seen, end)[:12]:
-            assert problems(inserted(item, text[:end])) <= max(problems(text[:end]), 1), (item, text[max(0, end - 60) : end])
+            assert problems(inserted(item, text[:end])) <= max(problems(text[:end]), 1), (
+                item,
+                text[max(0, end - 60) : end],
+            )
 
 
 @FILES
@@ -152,7 +176,10 @@ def test_symbols_enclose_their_parts(path: Path) -> None:
         assert symbol.name
         assert symbol.span.start <= symbol.head.start <= symbol.head.end <= symbol.span.end
         for part in symbol.children:
-            assert symbol.span.start <= part.span.start <= part.span.end <= symbol.span.end, (symbol.name, part.name)
+            assert symbol.span.start <= part.span.start <= part.span.end <= symbol.span.end, (
+                symbol.name,
+                part.name,
+            )
         pending += symbol.children
 
 
@@ -171,7 +198,9 @@ def test_a_name_is_renamed_and_back(path: Path) -> None:
         renamed = edited(text, edits)
         assert list(safe_load_all(renamed))
         again = view(renamed)
-        assert sorted((found.code, found.severity) for found in again.findings) == sorted(before), name
+        assert sorted((found.code, found.severity) for found in again.findings) == sorted(before), (
+            name
+        )
         start = min(edit.span.start for edit in edits)
         restored = edited(renamed, rename.rename(again, start + 1, name.text))
         assert list(safe_load_all(restored)) == list(safe_load_all(text))

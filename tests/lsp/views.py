@@ -25,7 +25,9 @@ def engine() -> Engine:
 def view(text: str, kind: str = "description", path: str = "frame.msaa.yaml") -> View:
     """The view of a text after it was linted, if it is a description."""
     result = engine().lint(text.encode(), path, OPTIONS) if kind == "description" else None
-    return View(text, kind, result, engine().registry, result.findings if result is not None else ())
+    return View(
+        text, kind, result, engine().registry, result.findings if result is not None else ()
+    )
 
 
 def at(text: str, mark: str = "^") -> tuple[str, int]:

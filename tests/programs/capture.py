@@ -37,9 +37,15 @@ class Scene(NamedTuple):
 
 def missing(scene: Scene) -> list[str]:
     """What has to be installed before the scene can be captured."""
-    needs = [f"PyPI {package}" for package, module in scene.packages if importlib.util.find_spec(module) is None]
+    needs = [
+        f"PyPI {package}"
+        for package, module in scene.packages
+        if importlib.util.find_spec(module) is None
+    ]
     layers = [Path(folder, "vulkan", "explicit_layer.d") for folder in _LAYER_FOLDERS]
-    if shutil.which("gfxrecon-convert") is None or not any(any(each.glob("VkLayer_gfxreconstruct*.json")) for each in layers):
+    if shutil.which("gfxrecon-convert") is None or not any(
+        any(each.glob("VkLayer_gfxreconstruct*.json")) for each in layers
+    ):
         needs.append("Debian gfxreconstruct")
     if scene.interpreter is not None and shutil.which(scene.interpreter) is None:
         needs.append(f"Debian {scene.interpreter}")
@@ -54,8 +60,20 @@ def _display(wanted: bool) -> Iterator[dict[str, str]]:
         yield {}
         return
     reading, writing = os.pipe()
-    command = ["Xvfb", "-displayfd", str(writing), "-screen", "0", "1024x768x24", "-nolisten", "tcp"]
-    with subprocess.Popen(command, pass_fds=[writing], stderr=subprocess.DEVNULL) as server, os.fdopen(reading) as number:
+    command = [
+        "Xvfb",
+        "-displayfd",
+        str(writing),
+        "-screen",
+        "0",
+        "1024x768x24",
+        "-nolisten",
+        "tcp",
+    ]
+    with (
+        subprocess.Popen(command, pass_fds=[writing], stderr=subprocess.DEVNULL) as server,
+        os.fdopen(reading) as number,
+    ):
         os.close(writing)
         try:
             yield {"DISPLAY": f":{number.readline().strip()}"}
@@ -64,7 +82,9 @@ def _display(wanted: bool) -> Iterator[dict[str, str]]:
 
 
 def capture(scene: Scene, folder: Path) -> Path:
-    """The capture as JSON Lines. AssertionError with the scene's output if it fails or draws nothing."""
+    """The capture as JSON Lines. AssertionError with the scene's output if it fails or draws
+    nothing.
+    """
     raw = folder / "scene.gfxr"
     layer = {
         "VK_INSTANCE_LAYERS": _LAYER,
@@ -73,10 +93,22 @@ def capture(scene: Scene, folder: Path) -> Path:
         "GFXRECON_MEMORY_TRACKING_MODE": "page_guard",
         "QML_DISABLE_DISK_CACHE": "1",
     }
-    zink = {"MESA_LOADER_DRIVER_OVERRIDE": "zink", "GALLIUM_DRIVER": "zink", "LIBGL_ALWAYS_SOFTWARE": "1"} if scene.opengl else {}
+    zink = (
+        {
+            "MESA_LOADER_DRIVER_OVERRIDE": "zink",
+            "GALLIUM_DRIVER": "zink",
+            "LIBGL_ALWAYS_SOFTWARE": "1",
+        }
+        if scene.opengl
+        else {}
+    )
     with _display(scene.window) as display:
         done = subprocess.run(
-            [scene.interpreter or sys.executable, SCENES / scene.script, *([scene.mode] if scene.mode else [])],
+            [
+                scene.interpreter or sys.executable,
+                SCENES / scene.script,
+                *([scene.mode] if scene.mode else []),
+            ],
             cwd=folder,
             env={**os.environ, **layer, **zink, **display},
             stdout=subprocess.PIPE,
@@ -88,5 +120,7 @@ def capture(scene: Scene, folder: Path) -> Path:
     assert done.returncode == 0 and raw.is_file(), done.stdout
     lines = raw.with_suffix(".gfxr.jsonl")
     convert = ["gfxrecon-convert", "--output", lines.name, raw.name]
-    subprocess.run(convert, cwd=folder, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    subprocess.run(
+        convert, cwd=folder, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+    )
     return lines

@@ -53,23 +53,39 @@ def programs(tmp_path: Path) -> Path:
 
 def table(folder: Path, *rows: str) -> str:
     path = folder / "table.tsv"
-    path.write_text(HEADING + "".join(row.replace(" ", "\t", 6) + "\n" for row in rows), encoding="utf-8")
+    path.write_text(
+        HEADING + "".join(row.replace(" ", "\t", 6) + "\n" for row in rows), encoding="utf-8"
+    )
     return str(path)
 
 
 def test_found(programs: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    rows = table(programs, "stored game src/render.cpp 8 MSAA201 expected stored", "empty engine - 0 - clean nothing")
-    assert source_programs.main([str(programs), rows, "--texts", "--findings", str(programs / "kept")]) == 0
+    rows = table(
+        programs,
+        "stored game src/render.cpp 8 MSAA201 expected stored",
+        "empty engine - 0 - clean nothing",
+    )
+    assert (
+        source_programs.main([str(programs), rows, "--texts", "--findings", str(programs / "kept")])
+        == 0
+    )
     printed = capsys.readouterr().out
     assert "stored               game       found 1 of 1, false 0;" in printed
     assert "read      storeOp 2 of 3, samples 1 of 1" in printed
     assert "unread    src/render.cpp:28 storeOp" in printed
     assert "\nall                 2      1    1    1.00      0      1.00         0\n" in printed
-    assert sorted(path.name for path in (programs / "kept").iterdir()) == ["empty.json", "stored.json"]
+    assert sorted(path.name for path in (programs / "kept").iterdir()) == [
+        "empty.json",
+        "stored.json",
+    ]
 
 
 def test_missed_and_false(programs: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    rows = table(programs, "stored game src/render.cpp 10 MSAA201 expected elsewhere", "empty game src/render.cpp 1 MSAA401 expected image")
+    rows = table(
+        programs,
+        "stored game src/render.cpp 10 MSAA201 expected elsewhere",
+        "empty game src/render.cpp 1 MSAA401 expected image",
+    )
     assert source_programs.main([str(programs), rows]) == 1
     printed = capsys.readouterr().out
     assert "missed    src/render.cpp:10 MSAA201 elsewhere" in printed
@@ -79,14 +95,21 @@ def test_missed_and_false(programs: Path, capsys: pytest.CaptureFixture[str]) ->
 
 
 def test_groups_and_debatable(programs: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    group = ("stored game src/render.cpp 8 MSAA403#color expected transient", "stored game src/render.cpp 8 MSAA201#color expected stored")
-    assert source_programs.main([str(programs), table(programs, *group), "--program", "stored"]) == 0
+    group = (
+        "stored game src/render.cpp 8 MSAA403#color expected transient",
+        "stored game src/render.cpp 8 MSAA201#color expected stored",
+    )
+    assert (
+        source_programs.main([str(programs), table(programs, *group), "--program", "stored"]) == 0
+    )
     assert "found 1 of 1, false 0" in capsys.readouterr().out
     near = table(programs, "stored game src/render.cpp 6 MSAA201 debatable maybe")
     assert source_programs.main([str(programs), near]) == 0
     assert "debatable src/render.cpp:8 MSAA201" in capsys.readouterr().out
     denied = table(
-        programs, "stored game src/render.cpp 6 MSAA201 debatable maybe", "stored game src/render.cpp 8 MSAA201 false loaded later"
+        programs,
+        "stored game src/render.cpp 6 MSAA201 debatable maybe",
+        "stored game src/render.cpp 8 MSAA201 false loaded later",
     )
     assert source_programs.main([str(programs), denied]) == 1
     assert "false     src/render.cpp:8 MSAA201" in capsys.readouterr().out
@@ -94,7 +117,9 @@ def test_groups_and_debatable(programs: Path, capsys: pytest.CaptureFixture[str]
 
 def test_wrong_verdict(programs: Path) -> None:
     with pytest.raises(ValueError, match=r"table.tsv:2: 'maybe' is not a verdict"):
-        source_programs.table(Path(table(programs, "stored game src/render.cpp 8 MSAA201 maybe stored")))
+        source_programs.table(
+            Path(table(programs, "stored game src/render.cpp 8 MSAA201 maybe stored"))
+        )
 
 
 def test_stated() -> None:
@@ -117,7 +142,12 @@ def test_stated() -> None:
 def test_rows_of_the_repository() -> None:
     path = Path(__file__).parents[1] / "data" / "programs" / "source_findings.tsv"
     rows = source_programs.table(path)
-    commits = {line.split("\t")[0] for line in path.with_name("source_repositories.tsv").read_text(encoding="utf-8").splitlines()[1:]}
+    commits = {
+        line.split("\t")[0]
+        for line in path.with_name("source_repositories.tsv")
+        .read_text(encoding="utf-8")
+        .splitlines()[1:]
+    }
     assert {row.program for row in rows} == commits
     assert len({(row.program, row.place, row.verdict) for row in rows}) == len(rows)
     assert all((row.line > 0) == (row.verdict != "clean") for row in rows)

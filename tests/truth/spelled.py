@@ -1,4 +1,6 @@
-"""A description as different texts: JSON, block and flow style, keys in another order, equal parts as anchors and aliases."""
+"""A description as different texts: JSON, block and flow style, keys in another order, equal parts
+as anchors and aliases.
+"""
 
 from __future__ import annotations
 
@@ -9,7 +11,15 @@ from typing import Any
 
 import yaml
 
-IN_ORDER = {"attachments", "pipelines", "framebuffers", "images", "renderPasses", "textures", "renderPipelines"}
+IN_ORDER = {
+    "attachments",
+    "pipelines",
+    "framebuffers",
+    "images",
+    "renderPasses",
+    "textures",
+    "renderPipelines",
+}
 """The mappings whose entries have a number, or an order of their findings."""
 
 
@@ -31,15 +41,19 @@ def shuffled(data: Any, random: Random, key: str = "") -> Any:
 
 
 def shared(data: Any) -> Any:
-    """The data with each part that is equal to an earlier one in its place: a YAML dumper gives these anchors.
+    """The data with each part that is equal to an earlier one in its place: a YAML dumper gives
+    these anchors.
 
-    Without commands: a rendering that an alias repeats is one mistake, as the renderings of a capture that are alike.
+    Without commands: a rendering that an alias repeats is one mistake, as the renderings of a
+    capture that are alike.
     """
     known: dict[str, Any] = {}
 
     def one(value: Any) -> Any:
         if isinstance(value, dict):
-            value = {name: each if name == "commands" else one(each) for name, each in value.items()}
+            value = {
+                name: each if name == "commands" else one(each) for name, each in value.items()
+            }
         elif isinstance(value, list):
             value = [one(each) for each in value]
         else:
@@ -66,8 +80,12 @@ STYLES: dict[str, Callable[[Any, Random], str]] = {
     "leaves in flow": lambda data, _: dumped(without_aliases(data), default_flow_style=None),
     "shuffled block": lambda data, random: dumped(shuffled(data, random), default_flow_style=False),
     "shuffled json": lambda data, random: json.dumps(shuffled(data, random)),
-    "shuffled leaves in flow": lambda data, random: dumped(shuffled(data, random), default_flow_style=None),
+    "shuffled leaves in flow": lambda data, random: dumped(
+        shuffled(data, random), default_flow_style=None
+    ),
     "aliases in block": lambda data, _: dumped(shared(data), default_flow_style=False),
     "aliases in flow": lambda data, _: dumped(shared(data), default_flow_style=None),
-    "shuffled aliases": lambda data, random: dumped(shared(shuffled(data, random)), default_flow_style=None),
+    "shuffled aliases": lambda data, random: dumped(
+        shared(shuffled(data, random)), default_flow_style=None
+    ),
 }

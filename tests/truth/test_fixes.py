@@ -1,4 +1,6 @@
-"""A finding that says `(safe: --fix)` is fixed by `--fix`, and no fix makes a finding that was not there."""
+"""A finding that says `(safe: --fix)` is fixed by `--fix`, and no fix makes a finding that was not
+there.
+"""
 
 from __future__ import annotations
 
@@ -46,11 +48,19 @@ commands:
 @pytest.mark.parametrize("text", [SUBPASSES, RENDERINGS])
 def test_what_is_said_to_be_fixed_is_fixed(text: str, tmp_path: Path) -> None:
     def findings() -> list[dict[str, object]]:
-        return list(json.loads(run(tmp_path, "check", "--output", "json", "--no-cache", "frame.yaml").stdout)["findings"])
+        return list(
+            json.loads(
+                run(tmp_path, "check", "--output", "json", "--no-cache", "frame.yaml").stdout
+            )["findings"]
+        )
 
     (tmp_path / "frame.yaml").write_text(text)
     before = findings()
-    safe = [(f["code"], f["subject"]) for f in before if f["fixable"] and f["fix"]["safe"] and not f["fix"]["shown"]]  # type: ignore[index]
+    safe = [
+        (f["code"], f["subject"])
+        for f in before
+        if f["fixable"] and f["fix"]["safe"] and not f["fix"]["shown"]
+    ]  # type: ignore[index]
     assert any(code == "MSAA308" for code, _ in safe)
     run(tmp_path, "check", "--fix", "--no-cache", "frame.yaml")
     after = [(f["code"], f["subject"]) for f in findings()]

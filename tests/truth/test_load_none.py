@@ -28,12 +28,19 @@ commands:
 {rest}\
 - present: {{image: o}}
 """
-LOADED = "- beginRendering: {{{aspect}Attachment: {{image: d, loadOp: LOAD, storeOp: DONT_CARE}}}}\n- endRendering\n"
+LOADED = (
+    "- beginRendering: {{{aspect}Attachment: {{image: d, loadOp: LOAD, storeOp: "
+    "DONT_CARE}}}}\n- endRendering\n"
+)
 
 
 def findings(folder: Path, text: str) -> list[dict[str, Any]]:
     (folder / "frame.yaml").write_text(text)
-    return list(json.loads(run(folder, "check", "--output", "json", "--no-cache", "frame.yaml").stdout)["findings"])
+    return list(
+        json.loads(run(folder, "check", "--output", "json", "--no-cache", "frame.yaml").stdout)[
+            "findings"
+        ]
+    )
 
 
 @pytest.mark.parametrize(("format", "aspect"), [("D32_SFLOAT", "depth"), ("S8_UINT", "stencil")])
@@ -43,19 +50,39 @@ def findings(folder: Path, text: str) -> list[dict[str, Any]]:
 def test_a_store_before_a_test_without_a_load_is_not_unread(
     format: str, aspect: str, samples: int, store: str, pipeline: str, tmp_path: Path
 ) -> None:
-    stated = {"format": format, "aspect": aspect, "samples": samples, "store": store, "pipeline": pipeline}
+    stated = {
+        "format": format,
+        "aspect": aspect,
+        "samples": samples,
+        "store": store,
+        "pipeline": pipeline,
+    }
     found = findings(tmp_path, FRAME.format(rest="", **stated))
-    assert [(f["code"], f["line"]) for f in found if f["code"] == "MSAA216"] == [("MSAA216", 12)] * (aspect == "depth")
-    assert not [f for f in found if f["code"] in ("MSAA201", "MSAA203", "MSAA204", "MSAA208", "MSAA401")], found
+    assert [(f["code"], f["line"]) for f in found if f["code"] == "MSAA216"] == [
+        ("MSAA216", 12)
+    ] * (aspect == "depth")
+    assert not [
+        f for f in found if f["code"] in ("MSAA201", "MSAA203", "MSAA204", "MSAA208", "MSAA401")
+    ], found
     assert not [f for f in found if f["fixable"] and f["fix"]["safe"]]
 
 
 @pytest.mark.parametrize("samples", [1, 4])
 @pytest.mark.parametrize("pipeline", ["off", "glass", "opaque"])
-def test_what_a_pass_without_operations_leaves_is_loaded_later(samples: int, pipeline: str, tmp_path: Path) -> None:
-    stated = {"format": "D32_SFLOAT", "aspect": "depth", "samples": samples, "store": "NONE", "pipeline": pipeline}
+def test_what_a_pass_without_operations_leaves_is_loaded_later(
+    samples: int, pipeline: str, tmp_path: Path
+) -> None:
+    stated = {
+        "format": "D32_SFLOAT",
+        "aspect": "depth",
+        "samples": samples,
+        "store": "NONE",
+        "pipeline": pipeline,
+    }
     found = findings(tmp_path, FRAME.format(rest=LOADED.format(**stated), **stated))
-    assert not [f for f in found if f["code"] in ("MSAA203", "MSAA208", "MSAA209", "MSAA401")], found
+    assert not [f for f in found if f["code"] in ("MSAA203", "MSAA208", "MSAA209", "MSAA401")], (
+        found
+    )
     assert ("MSAA216" in {f["code"] for f in found}) == (pipeline != "off")
 
 
@@ -72,9 +99,18 @@ commands:
 - present: {{image: c}}
 """
 ALL = "colorWriteMask: [R, G, B, A]"
-BLEND = f"{{blendEnable: true, srcColorBlendFactor: ONE, dstColorBlendFactor: ONE_MINUS_SRC_ALPHA, colorBlendOp: ADD, {ALL}}}"
-MULTIPLY = f"{{blendEnable: true, srcColorBlendFactor: DST_COLOR, dstColorBlendFactor: ZERO, colorBlendOp: ADD, {ALL}}}"
-REPLACE = f"{{blendEnable: true, srcColorBlendFactor: ONE, dstColorBlendFactor: ZERO, colorBlendOp: ADD, {ALL}}}"
+BLEND = (
+    f"{{blendEnable: true, srcColorBlendFactor: ONE, dstColorBlendFactor: ONE_MINUS_SRC_ALPHA, "
+    f"colorBlendOp: ADD, {ALL}}}"
+)
+MULTIPLY = (
+    f"{{blendEnable: true, srcColorBlendFactor: DST_COLOR, dstColorBlendFactor: ZERO, "
+    f"colorBlendOp: ADD, {ALL}}}"
+)
+REPLACE = (
+    f"{{blendEnable: true, srcColorBlendFactor: ONE, dstColorBlendFactor: ZERO, "
+    f"colorBlendOp: ADD, {ALL}}}"
+)
 OPAQUE = f"{{blendEnable: false, {ALL}}}"
 NOTHING = BLEND.replace("R, G, B, A", "")
 UNSTATED = "{blendEnable: true}"

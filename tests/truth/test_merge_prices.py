@@ -1,4 +1,6 @@
-"""The price of loading samples is that of drawing in the pass that stored them: the load, and the store if nothing else needs it."""
+"""The price of loading samples is that of drawing in the pass that stored them: the load, and the
+store if nothing else needs it.
+"""
 
 from __future__ import annotations
 
@@ -11,16 +13,28 @@ import pytest
 from tests.command import run
 
 FRAME = "frame: {width: 1000, height: 1000, fps: 50}\n"
-COLOR = "images:\n  c: {format: R8G8B8A8_UNORM, samples: 4}\n  r: {format: R8G8B8A8_UNORM, samples: 1}\n"
+COLOR = (
+    "images:\n  c: {format: R8G8B8A8_UNORM, samples: 4}\n  r: {format: R8G8B8A8_UNORM, "
+    "samples: 1}\n"
+)
 RESOLVE = "resolveMode: AVERAGE, resolveImage: r"
-FIRST = "- beginRendering: {colorAttachments: [{image: c, loadOp: CLEAR, storeOp: STORE}]}\n- endRendering\n"
-LAST = f"- beginRendering: {{colorAttachments: [{{image: c, loadOp: LOAD, storeOp: DONT_CARE, {RESOLVE}}}]}}\n- endRendering\n"
+FIRST = (
+    "- beginRendering: {colorAttachments: [{image: c, loadOp: CLEAR, storeOp: STORE}]}\n- "
+    "endRendering\n"
+)
+LAST = (
+    f"- beginRendering: {{colorAttachments: [{{image: c, loadOp: LOAD, storeOp: DONT_CARE, "
+    f"{RESOLVE}}}]}}\n- endRendering\n"
+)
 READ = "- readImage: {image: c, stage: FRAGMENT, access: SHADER_READ}\n"
 PASSES = (
     "renderPasses:\n"
-    "  first:\n    attachments:\n      a: {image: c, loadOp: CLEAR, storeOp: STORE}\n    subpasses: [{colorAttachments: [a]}]\n"
-    "  last:\n    attachments:\n      a: {image: c, loadOp: LOAD, storeOp: DONT_CARE, initialLayout: COLOR_ATTACHMENT_OPTIMAL}\n"
-    "      b: {image: r, loadOp: DONT_CARE, storeOp: STORE}\n    subpasses: [{colorAttachments: [a], resolveAttachments: [b]}]\n"
+    "  first:\n    attachments:\n      a: {image: c, loadOp: CLEAR, storeOp: STORE}\n    "
+    "subpasses: [{colorAttachments: [a]}]\n"
+    "  last:\n    attachments:\n      a: {image: c, loadOp: LOAD, storeOp: DONT_CARE, "
+    "initialLayout: COLOR_ATTACHMENT_OPTIMAL}\n"
+    "      b: {image: r, loadOp: DONT_CARE, storeOp: STORE}\n    subpasses: [{colorAttachments: "
+    "[a], resolveAttachments: [b]}]\n"
 )
 METAL = """metal:
   textures:
@@ -33,21 +47,28 @@ METAL = """metal:
 
 
 def depth(format: str, first: str, last: str, device: str = "") -> str:
-    """Two render passes with depth and stencil; `first` and `last` are what states their operations."""
+    """Two render passes with depth and stencil; `first` and `last` are what states their
+    operations.
+    """
     return (
-        f"{device}{FRAME}images: {{d: {{format: {format}, samples: 4, usage: [DEPTH_STENCIL_ATTACHMENT]}}}}\nrenderPasses:\n"
-        f"  first: {{attachments: {{a: {{image: d, {first}}}}}, subpasses: [{{depthStencilAttachment: a}}]}}\n"
-        f"  last: {{attachments: {{a: {{image: d, {last}}}}}, subpasses: [{{depthStencilAttachment: a}}]}}\n"
+        f"{device}{FRAME}images: {{d: {{format: {format}, samples: 4, usage: "
+        f"[DEPTH_STENCIL_ATTACHMENT]}}}}\nrenderPasses:\n"
+        f"  first: {{attachments: {{a: {{image: d, {first}}}}}, subpasses: "
+        f"[{{depthStencilAttachment: a}}]}}\n"
+        f"  last: {{attachments: {{a: {{image: d, {last}}}}}, subpasses: "
+        f"[{{depthStencilAttachment: a}}]}}\n"
     )
 
 
 BOTH = (
     "loadOp: CLEAR, storeOp: STORE, stencilLoadOp: CLEAR, stencilStoreOp: STORE",
-    "loadOp: LOAD, storeOp: DONT_CARE, stencilLoadOp: LOAD, stencilStoreOp: DONT_CARE, initialLayout: DEPTH_STENCIL_ATTACHMENT_OPTIMAL",
+    "loadOp: LOAD, storeOp: DONT_CARE, stencilLoadOp: LOAD, stencilStoreOp: DONT_CARE, "
+    "initialLayout: DEPTH_STENCIL_ATTACHMENT_OPTIMAL",
 )
 STENCIL = (
     "loadOp: CLEAR, storeOp: DONT_CARE, stencilLoadOp: CLEAR, stencilStoreOp: STORE",
-    "loadOp: CLEAR, storeOp: DONT_CARE, stencilLoadOp: LOAD, stencilStoreOp: DONT_CARE, initialLayout: DEPTH_STENCIL_ATTACHMENT_OPTIMAL",
+    "loadOp: CLEAR, storeOp: DONT_CARE, stencilLoadOp: LOAD, stencilStoreOp: DONT_CARE, "
+    "initialLayout: DEPTH_STENCIL_ATTACHMENT_OPTIMAL",
 )
 
 
@@ -81,13 +102,25 @@ CASES: dict[str, tuple[str, dict[str, tuple[float, float]]]] = {
     "split rendering": (FRAME + COLOR + "commands:\n" + FIRST + LAST, {"MSAA202": MERGED}),
     "split render pass": (FRAME + COLOR + PASSES, {"MSAA202": MERGED}),
     "Metal": (f"{FRAME}{METAL}", {"MSAA808": MERGED}),
-    "the store is read before the load": (FRAME + COLOR + "commands:\n" + FIRST + READ + LAST, {"MSAA202": ALONE}),
+    "the store is read before the load": (
+        FRAME + COLOR + "commands:\n" + FIRST + READ + LAST,
+        {"MSAA202": ALONE},
+    ),
     "the store is read after the load": (
-        FRAME + COLOR + "commands:\n" + FIRST + LAST.replace("storeOp: DONT_CARE", "storeOp: NONE") + READ,
+        FRAME
+        + COLOR
+        + "commands:\n"
+        + FIRST
+        + LAST.replace("storeOp: DONT_CARE", "storeOp: NONE")
+        + READ,
         {"MSAA202": ALONE},
     ),
     "something that is not described may read it": (
-        FRAME + COLOR.replace("samples: 4", "samples: 4, mayBeRead: true") + "commands:\n" + FIRST + LAST,
+        FRAME
+        + COLOR.replace("samples: 4", "samples: 4, mayBeRead: true")
+        + "commands:\n"
+        + FIRST
+        + LAST,
         {"MSAA202": ALONE},
     ),
     "what the second pass stores is read": (
@@ -102,13 +135,29 @@ CASES: dict[str, tuple[str, dict[str, tuple[float, float]]]] = {
         FRAME + COLOR + "commands:\n" + FIRST + "- writeImage: {image: c, stage: COMPUTE}\n" + LAST,
         {"MSAA202": ALONE},
     ),
-    "round the frame": (FRAME + COLOR + "commands:\n" + LAST.replace("DONT_CARE", "STORE"), {"MSAA202": MERGED}),
-    "round the frame, with a reader": (FRAME + COLOR + "commands:\n" + LAST.replace("DONT_CARE", "STORE") + READ, {"MSAA202": ALONE}),
-    "immediate-mode": ("device: nvidia\n" + FRAME + COLOR + "commands:\n" + FIRST + LAST, {"MSAA202": (0.0, 0.0)}),
+    "round the frame": (
+        FRAME + COLOR + "commands:\n" + LAST.replace("DONT_CARE", "STORE"),
+        {"MSAA202": MERGED},
+    ),
+    "round the frame, with a reader": (
+        FRAME + COLOR + "commands:\n" + LAST.replace("DONT_CARE", "STORE") + READ,
+        {"MSAA202": ALONE},
+    ),
+    "immediate-mode": (
+        "device: nvidia\n" + FRAME + COLOR + "commands:\n" + FIRST + LAST,
+        {"MSAA202": (0.0, 0.0)},
+    ),
     "stencil": (depth("D32_SFLOAT_S8_UINT", *STENCIL), {"MSAA204": (200.0, 200.0)}),
-    "depth and stencil in two planes": (depth("D32_SFLOAT_S8_UINT", *BOTH), {"MSAA202": MERGED, "MSAA204": (200.0, 200.0)}),
+    "depth and stencil in two planes": (
+        depth("D32_SFLOAT_S8_UINT", *BOTH),
+        {"MSAA202": MERGED, "MSAA204": (200.0, 200.0)},
+    ),
     "stencil that is loaded, and stored in vain": (
-        depth("D32_SFLOAT_S8_UINT", STENCIL[0], STENCIL[1].replace("stencilStoreOp: DONT_CARE", "stencilStoreOp: STORE")),
+        depth(
+            "D32_SFLOAT_S8_UINT",
+            STENCIL[0],
+            STENCIL[1].replace("stencilStoreOp: DONT_CARE", "stencilStoreOp: STORE"),
+        ),
         {"MSAA204": (200.0, 400.0)},
     ),
 }
@@ -118,7 +167,13 @@ CASES: dict[str, tuple[str, dict[str, tuple[float, float]]]] = {
 PLANES = [
     (device, format, *expected)
     for format, devices, *expected in [
-        ("D24_UNORM_S8_UINT", ("mali-g76", "adreno-740", "{vendor: img}"), 800.0, 800.0, (800.0, 800.0)),
+        (
+            "D24_UNORM_S8_UINT",
+            ("mali-g76", "adreno-740", "{vendor: img}"),
+            800.0,
+            800.0,
+            (800.0, 800.0),
+        ),
         # No more than is known: the bits of each aspect.
         ("D24_UNORM_S8_UINT", ("", "{vendor: broadcom}"), 600.0, 200.0, (600.0, 200.0)),
         ("D32_SFLOAT_S8_UINT", ("mali-g76", "adreno-740", ""), 800.0, 200.0, (800.0, 200.0)),
@@ -128,26 +183,44 @@ PLANES = [
 
 
 @pytest.mark.parametrize(("device", "format", "depth_alone", "stencil_alone", "both"), PLANES)
-def test_planes(tmp_path: Path, device: str, format: str, depth_alone: float, stencil_alone: float, both: tuple[float, float]) -> None:
+def test_planes(
+    tmp_path: Path,
+    device: str,
+    format: str,
+    depth_alone: float,
+    stencil_alone: float,
+    both: tuple[float, float],
+) -> None:
     named = f"device: {device}\n" if device else ""
-    assert prices(checked(tmp_path, depth(format, *DEPTH, named))) == {"MSAA202": (depth_alone, depth_alone)}
-    assert prices(checked(tmp_path, depth(format, *STENCIL, named))) == {"MSAA204": (stencil_alone, stencil_alone)}
+    assert prices(checked(tmp_path, depth(format, *DEPTH, named))) == {
+        "MSAA202": (depth_alone, depth_alone)
+    }
+    assert prices(checked(tmp_path, depth(format, *STENCIL, named))) == {
+        "MSAA204": (stencil_alone, stencil_alone)
+    }
     of_depth, of_stencil = both
     merged = checked(tmp_path, depth(format, *BOTH, named))
     assert prices(merged) == {"MSAA202": (of_depth, of_depth), "MSAA204": (of_stencil, of_stencil)}
     unread = checked(tmp_path, depth(format, STORED, DEPTH[0].replace("STORE", "DONT_CARE"), named))
     assert prices(unread) == {"MSAA203": (0.0, of_depth), "MSAA204": (0.0, of_stencil)}
     # Together they save each byte once.
-    assert unread["summary"]["savings"]["fix"]["price"]["write_mb_per_s"] == (800.0 if "24" in format else 1000.0)
+    assert unread["summary"]["savings"]["fix"]["price"]["write_mb_per_s"] == (
+        800.0 if "24" in format else 1000.0
+    )
     one_plane = of_depth == of_stencil
     for found in (*merged["findings"], *unread["findings"]):
         if found["code"] in ("MSAA202", "MSAA203", "MSAA204"):
-            assert ("depth and stencil are in one plane of memory: the price is that of both" in found["notes"]) == one_plane
+            assert (
+                "depth and stencil are in one plane of memory: the price is that of both"
+                in found["notes"]
+            ) == one_plane
 
 
 def test_a_store_that_goes_with_one_that_is_needed_saves_nothing(tmp_path: Path) -> None:
     """The plane is stored for the stencil that the second pass loads, with or without depth."""
-    found = prices(checked(tmp_path, depth("D24_UNORM_S8_UINT", STORED, STENCIL[1], "device: mali-g76\n")))
+    found = prices(
+        checked(tmp_path, depth("D24_UNORM_S8_UINT", STORED, STENCIL[1], "device: mali-g76\n"))
+    )
     assert found == {"MSAA203": (0.0, 0.0), "MSAA204": (800.0, 0.0)}
 
 
@@ -159,11 +232,16 @@ def test_price(tmp_path: Path, name: str) -> None:
     for found in result["findings"]:
         if found["code"] not in expected:
             continue
-        alone = any(note.startswith("the price is that of the load alone") for note in found["notes"])
+        alone = any(
+            note.startswith("the price is that of the load alone") for note in found["notes"]
+        )
         assert alone == (expected[found["code"]] == ALONE)
     # What the prices of merges are is a choice, outside every sum.
     stores = sum(write for code, (_, write) in expected.items() if code in ("MSAA201", "MSAA203"))
-    saved = result["summary"]["savings"]["fix"]["price"] or {"read_mb_per_s": 0.0, "write_mb_per_s": 0.0}
+    saved = result["summary"]["savings"]["fix"]["price"] or {
+        "read_mb_per_s": 0.0,
+        "write_mb_per_s": 0.0,
+    }
     assert (saved["read_mb_per_s"], saved["write_mb_per_s"]) == (0.0, stores)
 
 
@@ -171,9 +249,22 @@ def test_no_fix_clears_what_was_stored(tmp_path: Path) -> None:
     for text in (FRAME + COLOR + PASSES, depth("D32_SFLOAT_S8_UINT", *BOTH)):
         (tmp_path / "frame.msaa.yaml").write_text(text, encoding="utf-8")
         run(tmp_path, "check", "--no-cache", "--fix", "--unsafe-fixes", "frame.msaa.yaml")
-        assert (tmp_path / "frame.msaa.yaml").read_text(encoding="utf-8").count("LOAD,") == text.count("LOAD,")
+        assert (tmp_path / "frame.msaa.yaml").read_text(encoding="utf-8").count(
+            "LOAD,"
+        ) == text.count("LOAD,")
 
 
 def test_fail_on_cost_counts_what_fixes_save(tmp_path: Path) -> None:
     (tmp_path / "frame.msaa.yaml").write_text(FRAME + COLOR + PASSES, encoding="utf-8")
-    assert run(tmp_path, "check", "--no-cache", "--exit-zero", "--fail-on-cost", "1MB/s", "frame.msaa.yaml").returncode == 0
+    assert (
+        run(
+            tmp_path,
+            "check",
+            "--no-cache",
+            "--exit-zero",
+            "--fail-on-cost",
+            "1MB/s",
+            "frame.msaa.yaml",
+        ).returncode
+        == 0
+    )

@@ -17,7 +17,9 @@ renderPasses:
 """
 DEPTH = {"usage": "DEPTH_STENCIL", "reference": "depthStencilAttachment: a"}
 COLOR = {"usage": "COLOR", "reference": "colorAttachments: [a]", "format": "R8G8B8A8_UNORM"}
-STENCIL = "loadOp: CLEAR, storeOp: DONT_CARE, stencilLoadOp: {}, stencilStoreOp: {}, initialLayout: {}"
+STENCIL = (
+    "loadOp: CLEAR, storeOp: DONT_CARE, stencilLoadOp: {}, stencilStoreOp: {}, initialLayout: {}"
+)
 WHOLE = "loadOp: {}, storeOp: {}, initialLayout: {}"
 
 
@@ -34,13 +36,20 @@ WHOLE = "loadOp: {}, storeOp: {}, initialLayout: {}"
 def test_a_load_from_undefined(samples: int, stated: dict[str, str], operations: str) -> None:
     def codes(*words: str) -> list[str]:
         text = PASS.format(samples=samples, operations=operations.format(*words), **stated)
-        return [found.code for found in lint(text).findings if found.subject.startswith("renderPasses") and found.code != "MSAA207"]
+        return [
+            found.code
+            for found in lint(text).findings
+            if found.subject.startswith("renderPasses") and found.code != "MSAA207"
+        ]
 
     assert codes("LOAD", "DONT_CARE", "UNDEFINED") == ["MSAA210"]
 
 
 def test_a_count_that_the_device_lacks_is_not_said_to_be_slow() -> None:
-    text = "device: mali-g76\nimages: {i: {format: R8G8B8A8_UNORM, samples: 64, usage: [COLOR_ATTACHMENT]}}\n"
+    text = (
+        "device: mali-g76\nimages: {i: {format: R8G8B8A8_UNORM, samples: 64, usage: "
+        "[COLOR_ATTACHMENT]}}\n"
+    )
     codes = [found.code for found in lint(text).findings]
     assert "MSAA102" in codes and "MSAA101" not in codes
 
@@ -48,8 +57,12 @@ def test_a_count_that_the_device_lacks_is_not_said_to_be_slow() -> None:
 @pytest.mark.parametrize("samples", [1, 2])
 def test_pipelines_with_another_count(samples: int) -> None:
     text = (
-        "renderPasses: {r: {attachments: {a: {format: R8G8B8A8_UNORM, samples: 4, loadOp: CLEAR, storeOp: STORE}}, "
+        "renderPasses: {r: {attachments: {a: {format: R8G8B8A8_UNORM, samples: 4, loadOp: CLEAR, "
+        "storeOp: STORE}}, "
         "subpasses: [{colorAttachments: [a]}]}}\n"
-        f"pipelines: {{p: {{renderPass: r, subpass: 0, multisampleState: {{rasterizationSamples: {samples}}}}}}}\n"
+        f"pipelines: {{p: {{renderPass: r, subpass: 0, multisampleState: {{rasterizationSamples: "
+        f"{samples}}}}}}}\n"
     )
-    assert [found.code for found in lint(text).findings if found.code in ("MSAA104", "MSAA511")] == ["MSAA104"]
+    assert [
+        found.code for found in lint(text).findings if found.code in ("MSAA104", "MSAA511")
+    ] == ["MSAA104"]

@@ -1,4 +1,6 @@
-"""A key, a value or a name that cannot be read is reported, and the rest of the document is checked without it."""
+"""A key, a value or a name that cannot be read is reported, and the rest of the document is checked
+without it.
+"""
 
 from __future__ import annotations
 
@@ -61,12 +63,42 @@ def test_the_whole_frame_has_findings(tmp_path: Path) -> None:
         ("images:", "weird: 1\nimages:", "MSAA902", {"MSAA101", "MSAA212"}, {"MSAA201"}),
         ("samples: 8,", "samples: 8, colour: red,", "MSAA902", {"MSAA101", "MSAA212"}, set()),
         ("  main:\n", "  main:\n    weird: {attachment: c}\n", "MSAA902", {"MSAA101"}, {"MSAA212"}),
-        ("[{colorAttachments", "[{weird: c, colorAttachments", "MSAA902", {"MSAA101", "MSAA201"}, {"MSAA212"}),
-        ("{renderPass: main, mu", "{weird: 1, renderPass: main, mu", "MSAA902", {"MSAA101", "MSAA201", "MSAA212"}, set()),
-        ("readImage: {image: out}", "readImage: {image: out, weird: ms}", "MSAA902", {"MSAA101", "MSAA212"}, {"MSAA201"}),
-        ("readImage: {image: out}", "raedImage: {image: ms}", "MSAA902", {"MSAA101", "MSAA212"}, {"MSAA201"}),
+        (
+            "[{colorAttachments",
+            "[{weird: c, colorAttachments",
+            "MSAA902",
+            {"MSAA101", "MSAA201"},
+            {"MSAA212"},
+        ),
+        (
+            "{renderPass: main, mu",
+            "{weird: 1, renderPass: main, mu",
+            "MSAA902",
+            {"MSAA101", "MSAA201", "MSAA212"},
+            set(),
+        ),
+        (
+            "readImage: {image: out}",
+            "readImage: {image: out, weird: ms}",
+            "MSAA902",
+            {"MSAA101", "MSAA212"},
+            {"MSAA201"},
+        ),
+        (
+            "readImage: {image: out}",
+            "raedImage: {image: ms}",
+            "MSAA902",
+            {"MSAA101", "MSAA212"},
+            {"MSAA201"},
+        ),
         # Values and names.
-        ("usage: [COLOR_ATTACHMENT, SAMPLED]}\n  out", "usage: [COLOR_ATACHMENT]}\n  out", "MSAA903", {"MSAA101", "MSAA212"}, set()),
+        (
+            "usage: [COLOR_ATTACHMENT, SAMPLED]}\n  out",
+            "usage: [COLOR_ATACHMENT]}\n  out",
+            "MSAA903",
+            {"MSAA101", "MSAA212"},
+            set(),
+        ),
         (
             "a: {image: ms, loadOp: CLEAR, storeOp: STORE}",
             "a: {image: ms, loadOp: CLEAR, storeOp: STOER}",
@@ -75,11 +107,19 @@ def test_the_whole_frame_has_findings(tmp_path: Path) -> None:
             {"MSAA201"},
         ),
         ("colorAttachments: [a]", "colorAttachments: [x]", "MSAA904", {"MSAA101"}, {"MSAA212"}),
-        ("readImage: {image: out}", "readImage: {image: mss}", "MSAA904", {"MSAA101", "MSAA212"}, {"MSAA201"}),
+        (
+            "readImage: {image: out}",
+            "readImage: {image: mss}",
+            "MSAA904",
+            {"MSAA101", "MSAA212"},
+            {"MSAA201"},
+        ),
         ("a: {image: ms,", "a: {image: mss,", "MSAA904", {"MSAA101"}, {"MSAA201"}),
     ],
 )
-def test_the_rest_of_a_document_is_checked(tmp_path: Path, before: str, after: str, error: str, left: set[str], gone: set[str]) -> None:
+def test_the_rest_of_a_document_is_checked(
+    tmp_path: Path, before: str, after: str, error: str, left: set[str], gone: set[str]
+) -> None:
     assert before in FRAME
     code, findings = check(tmp_path, FRAME.replace(before, after, 1))
     codes = {found["code"] for found in findings}
@@ -103,9 +143,15 @@ def test_after_a_syntax_error_nothing_is_checked(tmp_path: Path) -> None:
 
 
 def test_what_is_not_known_to_be_whole_says_nothing_of_the_frame(tmp_path: Path) -> None:
-    """Nothing else is checked where the device could not be read, since rules ask for it; a foreign key of it is left out."""
-    assert {found["code"] for found in check(tmp_path, "device: {vendor: armm}\n" + FRAME)[1]} == {"MSAA903"}
-    assert "MSAA201" in {found["code"] for found in check(tmp_path, "device: {vendor: arm, weird: 1}\n" + FRAME)[1]}
+    """Nothing else is checked where the device could not be read, since rules ask for it; a foreign
+    key of it is left out.
+    """
+    assert {found["code"] for found in check(tmp_path, "device: {vendor: armm}\n" + FRAME)[1]} == {
+        "MSAA903"
+    }
+    assert "MSAA201" in {
+        found["code"] for found in check(tmp_path, "device: {vendor: arm, weird: 1}\n" + FRAME)[1]
+    }
 
 
 METAL = """
@@ -125,9 +171,19 @@ def test_of_metal_only_foreign_keys_are_left_out(tmp_path: Path) -> None:
 
 def _documents() -> list[tuple[str, dict[str, Any]]]:
     texts = [(str(example), example.text) for example in all_examples()]
-    texts += [(str(path), path.read_text(encoding="utf-8")) for path in sorted((ROOT / "examples").rglob("*.msaa.yaml"))]
-    parsed = ((name, [plain(root) for root in parse(Source(name, text), Limits()).documents]) for name, text in texts)
-    return [(name, documents[0]) for name, documents in parsed if len(documents) == 1 and isinstance(documents[0], dict)]
+    texts += [
+        (str(path), path.read_text(encoding="utf-8"))
+        for path in sorted((ROOT / "examples").rglob("*.msaa.yaml"))
+    ]
+    parsed = (
+        (name, [plain(root) for root in parse(Source(name, text), Limits()).documents])
+        for name, text in texts
+    )
+    return [
+        (name, documents[0])
+        for name, documents in parsed
+        if len(documents) == 1 and isinstance(documents[0], dict)
+    ]
 
 
 def plain(node: Node) -> Any:
@@ -138,19 +194,40 @@ def plain(node: Node) -> Any:
 
 
 WRONG = ("bogus", -1, 3, None, {}, [], 1.5, True, {"weird": 1}, ["bogus"])
-NAMED = {"images", "renderPasses", "framebuffers", "pipelines", "attachments", "textures", "sampleCountChoices", "renderTargets"}
+NAMED = {
+    "images",
+    "renderPasses",
+    "framebuffers",
+    "pipelines",
+    "attachments",
+    "textures",
+    "sampleCountChoices",
+    "renderTargets",
+}
 
 
 def places(node: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:
     """The paths of a value and of all that it contains."""
     yield path
-    for key, value in node.items() if isinstance(node, dict) else enumerate(node) if isinstance(node, list) else ():
+    for key, value in (
+        node.items()
+        if isinstance(node, dict)
+        else enumerate(node)
+        if isinstance(node, list)
+        else ()
+    ):
         yield from places(value, (*path, key))
 
 
 def misspelled(random: Random, word: str) -> str:
     at = random.randrange(len(word))
-    return random.choice((word[:at] + word[at + 1 :], word[:at] + word[at] + word[at:], f"{word[:at]}x{word[at + 1 :]}"))
+    return random.choice(
+        (
+            word[:at] + word[at + 1 :],
+            word[:at] + word[at] + word[at:],
+            f"{word[:at]}x{word[at + 1 :]}",
+        )
+    )
 
 
 def corrupt(random: Random, frame: dict[str, Any]) -> None:
@@ -161,7 +238,9 @@ def corrupt(random: Random, frame: dict[str, Any]) -> None:
         parents.append(parents[-1][part])
     node = parents.pop()
     if isinstance(node, dict) and (not path or random.random() < 0.4):
-        node[random.choice(("weird", "vendorThing", "x"))] = random.choice((1, "foo", {"attachment": 0}, {"image": "color"}))
+        node[random.choice(("weird", "vendorThing", "x"))] = random.choice(
+            (1, "foo", {"attachment": 0}, {"image": "color"})
+        )
         return
     parent, last = parents[-1], path[-1]
     if isinstance(parent, dict) and not (NAMED & set(path[-2:-1])) and random.random() < 0.4:
@@ -170,14 +249,24 @@ def corrupt(random: Random, frame: dict[str, Any]) -> None:
         parent.clear()
         parent.update(items)
     else:
-        parent[last] = misspelled(random, node) if isinstance(node, str) and node and random.random() < 0.6 else random.choice(WRONG)
+        parent[last] = (
+            misspelled(random, node)
+            if isinstance(node, str) and node and random.random() < 0.6
+            else random.choice(WRONG)
+        )
 
 
 def mistakes(frame: dict[str, Any]) -> tuple[bool, set[tuple[str, str]]]:
     """Whether the description has errors, and the errors and warnings of rules."""
     findings = lint(text=json.dumps(frame), filename="frame.msaa.json", isolated=True).findings
-    has_errors = any(found.code in ("MSAA901", "MSAA902", "MSAA903", "MSAA904") for found in findings)
-    return has_errors, {(found.code, found.subject) for found in findings if not found.fatal and found.severity != "note"}
+    has_errors = any(
+        found.code in ("MSAA901", "MSAA902", "MSAA903", "MSAA904") for found in findings
+    )
+    return has_errors, {
+        (found.code, found.subject)
+        for found in findings
+        if not found.fatal and found.severity != "note"
+    }
 
 
 DOCUMENTS = _documents()

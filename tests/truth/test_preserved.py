@@ -1,8 +1,10 @@
 """Attachments that a subpass between two others neither uses nor preserves.
 
-Render Pass Creation: "The contents of an attachment within the render area become undefined at the start of a subpass S if ... There is a
-subpass S1 that uses or preserves the attachment, and a subpass dependency from S1 to S; the attachment is not used or preserved in
-subpass S." They "remain undefined for subpasses in subpass dependency chains starting with subpass S until they are written again".
+Render Pass Creation: "The contents of an attachment within the render area become undefined at the
+start of a subpass S if ... There is a subpass S1 that uses or preserves the attachment, and a
+subpass dependency from S1 to S; the attachment is not used or preserved in subpass S." They "remain
+undefined for subpasses in subpass dependency chains starting with subpass S until they are written
+again".
 """
 
 from __future__ import annotations
@@ -16,7 +18,11 @@ import yaml
 from tests.command import run
 
 CHAIN = "0 1, 1 2"
-WRITES, OTHER, READS = "{colorAttachments: [a]}", "{colorAttachments: [b]}", "{inputAttachments: [a], colorAttachments: [c]}"
+WRITES, OTHER, READS = (
+    "{colorAttachments: [a]}",
+    "{colorAttachments: [b]}",
+    "{inputAttachments: [a], colorAttachments: [c]}",
+)
 KEEPS = "{colorAttachments: [b], preserveAttachments: [a]}"
 
 FRAMES = [
@@ -29,28 +35,54 @@ FRAMES = [
     ("one that nothing depends on", [WRITES, OTHER, READS], "0 1, 0 2", ""),
     ("one that depends on nothing", [WRITES, OTHER, READS], "1 2, 0 2", ""),
     ("two chains, one without it", [WRITES, KEEPS, OTHER, READS], "0 1, 0 2, 1 3, 2 3", "high"),
-    ("two subpasses, the second without it", [WRITES, KEEPS, OTHER, READS], "0 1, 1 2, 2 3", "high"),
+    (
+        "two subpasses, the second without it",
+        [WRITES, KEEPS, OTHER, READS],
+        "0 1, 1 2, 2 3",
+        "high",
+    ),
     ("two subpasses that preserve it", [WRITES, KEEPS, KEEPS, READS], "0 1, 1 2, 2 3", ""),
     ("first used after it", [OTHER, OTHER, WRITES], CHAIN, ""),
     ("last used before it", [WRITES, READS, OTHER], CHAIN, ""),
     ("read only", [READS, "{colorAttachments: [c]}", READS], CHAIN, ""),
-    ("depth", ["{depthStencilAttachment: d}", OTHER, "{depthStencilAttachment: d, colorAttachments: [b]}"], CHAIN, "medium"),
+    (
+        "depth",
+        [
+            "{depthStencilAttachment: d}",
+            OTHER,
+            "{depthStencilAttachment: d, colorAttachments: [b]}",
+        ],
+        CHAIN,
+        "medium",
+    ),
     (
         "depth preserved",
-        ["{depthStencilAttachment: d}", "{colorAttachments: [b], preserveAttachments: [d]}", "{depthStencilAttachment: d}"],
+        [
+            "{depthStencilAttachment: d}",
+            "{colorAttachments: [b], preserveAttachments: [d]}",
+            "{depthStencilAttachment: d}",
+        ],
         CHAIN,
         "",
     ),
     ("external dependencies", [WRITES, OTHER, READS], "EXTERNAL 0, 2 EXTERNAL", ""),
     (
         "a resolve target that is read",
-        ["{colorAttachments: [a], resolveAttachments: [r]}", OTHER, "{inputAttachments: [r], colorAttachments: [b]}"],
+        [
+            "{colorAttachments: [a], resolveAttachments: [r]}",
+            OTHER,
+            "{inputAttachments: [r], colorAttachments: [b]}",
+        ],
         CHAIN,
         "high",
     ),
     (
         "a resolve target that is written again",
-        ["{colorAttachments: [a], resolveAttachments: [r]}", OTHER, "{colorAttachments: [b], resolveAttachments: [r]}"],
+        [
+            "{colorAttachments: [a], resolveAttachments: [r]}",
+            OTHER,
+            "{colorAttachments: [b], resolveAttachments: [r]}",
+        ],
         CHAIN,
         "",
     ),
@@ -60,7 +92,8 @@ FRAMES = [
 def frame(subpasses: list[str], dependencies: str) -> str:
     pairs = (pair.split() for pair in dependencies.split(",") if pair)
     stated = "".join(
-        f"      - {{srcSubpass: {source}, dstSubpass: {target}, srcStageMask: [ALL_GRAPHICS], dstStageMask: [ALL_GRAPHICS], "
+        f"      - {{srcSubpass: {source}, dstSubpass: {target}, srcStageMask: [ALL_GRAPHICS], "
+        f"dstStageMask: [ALL_GRAPHICS], "
         "srcAccessMask: [MEMORY_WRITE], dstAccessMask: [MEMORY_READ, MEMORY_WRITE]}\n"
         for source, target in pairs
     )
@@ -91,11 +124,20 @@ def found(tmp_path_factory: pytest.TempPathFactory) -> dict[str, list[tuple[str,
     for finding in json.loads(run(folder, "check", "--output", "json", ".").stdout)["findings"]:
         assert not finding["code"].startswith("MSAA9"), finding
         if finding["code"] == "MSAA218":
-            by_file.setdefault(finding["file"], []).append((finding["severity"], finding["confidence"]))
+            by_file.setdefault(finding["file"], []).append(
+                (finding["severity"], finding["confidence"])
+            )
     return by_file
 
 
-@pytest.mark.parametrize(("number", "name", "confidence"), [(n, name, confidence) for n, (name, _, _, confidence) in enumerate(FRAMES)])
-def test_a_frame(found: dict[str, list[tuple[str, str]]], number: int, name: str, confidence: str) -> None:
+@pytest.mark.parametrize(
+    ("number", "name", "confidence"),
+    [(n, name, confidence) for n, (name, _, _, confidence) in enumerate(FRAMES)],
+)
+def test_a_frame(
+    found: dict[str, list[tuple[str, str]]], number: int, name: str, confidence: str
+) -> None:
     for kind in ("yaml", "json"):
-        assert found.get(f"{number}.msaa.{kind}", []) == ([("error", confidence)] if confidence else []), (name, kind)
+        assert found.get(f"{number}.msaa.{kind}", []) == (
+            [("error", confidence)] if confidence else []
+        ), (name, kind)

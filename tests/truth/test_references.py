@@ -1,4 +1,6 @@
-"""Attachments that no subpass lists: density maps and shading rate attachments, and structures of a pNext chain that are not read."""
+"""Attachments that no subpass lists: density maps and shading rate attachments, and structures of a
+pNext chain that are not read.
+"""
 
 from __future__ import annotations
 
@@ -17,8 +19,12 @@ COLOR = "{format: R8G8B8A8_UNORM, samples: 1, loadOp: CLEAR, storeOp: STORE}"
 MAP = "{format: R8G8_UNORM, samples: 1, loadOp: LOAD, storeOp: DONT_CARE}"
 
 
-def found(folder: Path, text: str, *arguments: str, name: str = "f.msaa.yaml") -> list[tuple[str, bool | None]]:
-    """The codes of the findings in a text, each with whether its fix is safe (None: it has none)."""
+def found(
+    folder: Path, text: str, *arguments: str, name: str = "f.msaa.yaml"
+) -> list[tuple[str, bool | None]]:
+    """The codes of the findings in a text, each with whether its fix is safe (None: it has
+    none).
+    """
     (folder / name).write_text(text, encoding="utf-8")
     done = run(folder, "check", "--output", "json", "--min-severity", "note", *arguments, name)
     findings = json.loads(done.stdout)["findings"]
@@ -41,19 +47,36 @@ renderPasses:
         (yaml(), [("MSAA212", True)]),
         (yaml("    fragmentDensityMapAttachment: map"), []),
         (yaml("    fragmentDensityMapAttachment: 1"), []),
-        (yaml("    fragmentDensityMapAttachment: {attachment: map, layout: FRAGMENT_DENSITY_MAP_OPTIMAL_EXT}"), []),
+        (
+            yaml(
+                "    fragmentDensityMapAttachment: {attachment: map, layout: "
+                "FRAGMENT_DENSITY_MAP_OPTIMAL_EXT}"
+            ),
+            [],
+        ),
         (yaml("    fragmentDensityMapAttachment: null"), [("MSAA212", True)]),
-        (yaml("", ", fragmentShadingRateAttachment: map, shadingRateAttachmentTexelSize: {width: 8, height: 8}"), []),
+        (
+            yaml(
+                "",
+                ", fragmentShadingRateAttachment: map, shadingRateAttachmentTexelSize: {width: 8, "
+                "height: 8}",
+            ),
+            [],
+        ),
         (yaml("    pNext: [RENDER_PASS_TILE_SHADING_CREATE_INFO_QCOM]"), []),
         (yaml("", ", pNext: [SOMETHING_NEW]"), []),
     ],
 )
-def test_an_attachment_that_a_pass_reads_without_a_subpass_is_used(tmp_path: Path, text: str, expected: list[Any]) -> None:
+def test_an_attachment_that_a_pass_reads_without_a_subpass_is_used(
+    tmp_path: Path, text: str, expected: list[Any]
+) -> None:
     assert [each for each in found(tmp_path, text) if each[0] == "MSAA212"] == expected
 
 
 def test_the_image_of_a_density_map_is_kept(tmp_path: Path) -> None:
-    """What a pass stores in a map that the next one reads is read, and the map outlives passes that may discard it."""
+    """What a pass stores in a map that the next one reads is read, and the map outlives passes that
+    may discard it.
+    """
     frame = """
 images:
   map: {format: R8G8_UNORM, samples: 1, usage: [COLOR_ATTACHMENT, FRAGMENT_DENSITY_MAP_EXT]}
@@ -80,7 +103,13 @@ commands:
   - endRenderPass
   - present: {image: eyes}
 """
-    assert not {code for code, _ in found(tmp_path, frame)} & {"MSAA203", "MSAA211", "MSAA212", "MSAA213", "MSAA214"}
+    assert not {code for code, _ in found(tmp_path, frame)} & {
+        "MSAA203",
+        "MSAA211",
+        "MSAA212",
+        "MSAA213",
+        "MSAA214",
+    }
     unread = frame.replace("fragmentDensityMapAttachment: map", "pNext: [SOMETHING_NEW]")
     assert not [each for each in found(tmp_path, unread) if each[1]]
 
@@ -89,7 +118,8 @@ commands:
     "member",
     [
         "fragmentDensityMapAttachment: {image: map, imageLayout: FRAGMENT_DENSITY_MAP_OPTIMAL_EXT}",
-        "fragmentShadingRateAttachment: {image: map, shadingRateAttachmentTexelSize: {width: 16, height: 16}}",
+        "fragmentShadingRateAttachment: {image: map, shadingRateAttachmentTexelSize: {width: 16, "
+        "height: 16}}",
         "pNext: [SOMETHING_NEW]",
     ],
 )
@@ -113,16 +143,38 @@ commands:
 
 
 def dumped(render_pass: Json, version: int = 1) -> str:
-    return json.dumps({"GraphicsPipelineState": {"Renderpass" + ("2" if version == 2 else ""): render_pass}})
+    return json.dumps(
+        {"GraphicsPipelineState": {"Renderpass" + ("2" if version == 2 else ""): render_pass}}
+    )
 
 
 def vulkan_sc(pass_chain: Json, subpass_chain: Json = "NULL") -> Json:
-    described = {"format": "VK_FORMAT_R8G8B8A8_UNORM", "samples": "VK_SAMPLE_COUNT_1_BIT", "storeOp": "VK_ATTACHMENT_STORE_OP_DONT_CARE"}
-    described |= {"stencilLoadOp": "VK_ATTACHMENT_LOAD_OP_DONT_CARE", "stencilStoreOp": "VK_ATTACHMENT_STORE_OP_DONT_CARE"}
-    attachments = [{**described, "loadOp": f"VK_ATTACHMENT_LOAD_OP_{load}"} for load in ("CLEAR", "LOAD")]
+    described = {
+        "format": "VK_FORMAT_R8G8B8A8_UNORM",
+        "samples": "VK_SAMPLE_COUNT_1_BIT",
+        "storeOp": "VK_ATTACHMENT_STORE_OP_DONT_CARE",
+    }
+    described |= {
+        "stencilLoadOp": "VK_ATTACHMENT_LOAD_OP_DONT_CARE",
+        "stencilStoreOp": "VK_ATTACHMENT_STORE_OP_DONT_CARE",
+    }
+    attachments = [
+        {**described, "loadOp": f"VK_ATTACHMENT_LOAD_OP_{load}"} for load in ("CLEAR", "LOAD")
+    ]
     color = [{"attachment": 0, "layout": "VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL"}]
-    subpass = {"pNext": subpass_chain, "colorAttachmentCount": 1, "pColorAttachments": color, "pDepthStencilAttachment": "NULL"}
-    return {"pNext": pass_chain, "attachmentCount": 2, "pAttachments": attachments, "subpassCount": 1, "pSubpasses": [subpass]}
+    subpass = {
+        "pNext": subpass_chain,
+        "colorAttachmentCount": 1,
+        "pColorAttachments": color,
+        "pDepthStencilAttachment": "NULL",
+    }
+    return {
+        "pNext": pass_chain,
+        "attachmentCount": 2,
+        "pAttachments": attachments,
+        "subpassCount": 1,
+        "pSubpasses": [subpass],
+    }
 
 
 def structure(name: str, following: Json = "NULL", **members: Json) -> Json:
@@ -130,10 +182,16 @@ def structure(name: str, following: Json = "NULL", **members: Json) -> Json:
 
 
 DENSITY = structure(
-    "RENDER_PASS_FRAGMENT_DENSITY_MAP_CREATE_INFO_EXT", fragmentDensityMapAttachment={"attachment": 1, "layout": 1000218000}
+    "RENDER_PASS_FRAGMENT_DENSITY_MAP_CREATE_INFO_EXT",
+    fragmentDensityMapAttachment={"attachment": 1, "layout": 1000218000},
 )
-RATE = structure("FRAGMENT_SHADING_RATE_ATTACHMENT_INFO_KHR", pFragmentShadingRateAttachment={"attachment": 1, "layout": 1000164003})
-RESOLVE = structure("SUBPASS_DESCRIPTION_DEPTH_STENCIL_RESOLVE", RATE, pDepthStencilResolveAttachment="NULL")
+RATE = structure(
+    "FRAGMENT_SHADING_RATE_ATTACHMENT_INFO_KHR",
+    pFragmentShadingRateAttachment={"attachment": 1, "layout": 1000164003},
+)
+RESOLVE = structure(
+    "SUBPASS_DESCRIPTION_DEPTH_STENCIL_RESOLVE", RATE, pDepthStencilResolveAttachment="NULL"
+)
 MULTIVIEW = structure("RENDER_PASS_MULTIVIEW_CREATE_INFO", subpassCount=1, pViewMasks=[3])
 
 
@@ -152,9 +210,13 @@ MULTIVIEW = structure("RENDER_PASS_MULTIVIEW_CREATE_INFO", subpassCount=1, pView
     ],
 )
 @pytest.mark.parametrize("version", [1, 2])
-def test_the_chains_of_a_dump_are_read(tmp_path: Path, pass_chain: Json, subpass_chain: Json, expected: list[str], version: int) -> None:
+def test_the_chains_of_a_dump_are_read(
+    tmp_path: Path, pass_chain: Json, subpass_chain: Json, expected: list[str], version: int
+) -> None:
     text = dumped(vulkan_sc(pass_chain, subpass_chain), version)
-    assert [code for code, _ in found(tmp_path, text, name="pipeline.json") if code == "MSAA212"] == expected
+    assert [
+        code for code, _ in found(tmp_path, text, name="pipeline.json") if code == "MSAA212"
+    ] == expected
 
 
 CPP = """
@@ -207,7 +269,9 @@ VkRenderPass make(VkDevice device) {
         ("info.pNext = chainOf(device);", []),
     ],
 )
-def test_the_chain_of_a_render_pass_in_source_code_is_read(tmp_path: Path, chain: str, expected: list[str]) -> None:
+def test_the_chain_of_a_render_pass_in_source_code_is_read(
+    tmp_path: Path, chain: str, expected: list[str]
+) -> None:
     codes = [code for code, _ in found(tmp_path, CPP.replace("CHAIN", chain), name="pass.cpp")]
     assert [code for code in codes if code == "MSAA212"] == expected
 
@@ -215,7 +279,10 @@ def test_the_chain_of_a_render_pass_in_source_code_is_read(tmp_path: Path, chain
 def test_the_image_that_is_chained_to_a_captured_rendering_is_read() -> None:
     for chained in (True, False):
         program = Program()
-        eyes, density = program.view(program.image()), program.view(program.image("VK_FORMAT_R8G8_UNORM", 4, 0x210))
+        eyes, density = (
+            program.view(program.image()),
+            program.view(program.image("VK_FORMAT_R8G8_UNORM", 4, 0x210)),
+        )
         buffer = program.buffer()
         program.rendering(buffer, [info(density, store="STORE")])
         program.draw(buffer)
@@ -223,7 +290,11 @@ def test_the_image_that_is_chained_to_a_captured_rendering_is_read() -> None:
         program.rendering(buffer, [info(eyes)])
         if chained:
             name = "VK_STRUCTURE_TYPE_RENDERING_FRAGMENT_DENSITY_MAP_ATTACHMENT_INFO_EXT"
-            program.calls[-1][1]["pRenderingInfo"]["pNext"] = {"sType": name, "imageView": density, "imageLayout": 1000218000}
+            program.calls[-1][1]["pRenderingInfo"]["pNext"] = {
+                "sType": name,
+                "imageView": density,
+                "imageLayout": 1000218000,
+            }
         program.draw(buffer)
         program.end(buffer, rendering=True)
         program.submit(buffer)
@@ -232,7 +303,10 @@ def test_the_image_that_is_chained_to_a_captured_rendering_is_read() -> None:
 
 def test_a_structure_that_a_capture_does_not_read_leaves_uses_unknown() -> None:
     program = Program()
-    views = [program.view(program.image()), program.view(program.image("VK_FORMAT_R8G8_UNORM", 1, 0x200))]
+    views = [
+        program.view(program.image()),
+        program.view(program.image("VK_FORMAT_R8G8_UNORM", 1, 0x200)),
+    ]
     render_pass = program.render_pass([attachment(), attachment("VK_FORMAT_R8G8_UNORM", 1, "LOAD")])
     program.calls[-1][1]["pCreateInfo"]["pNext"] = {"sType": "VK_STRUCTURE_TYPE_SOMETHING_NEW_EXT"}
     buffer = program.buffer()

@@ -1,4 +1,6 @@
-"""A finding that says that `--fix` fixes it is fixed by `--fix`, and nothing new is found after that."""
+"""A finding that says that `--fix` fixes it is fixed by `--fix`, and nothing new is found after
+that.
+"""
 
 from __future__ import annotations
 
@@ -30,6 +32,12 @@ def test_what_is_said_to_be_safe_is_fixed(name: str) -> None:
         before = findings(Path(folder))
         run(Path(folder), "check", "--no-cache", "--fix", "frame.msaa.yaml")
         after = findings(Path(folder))
-    said = {(found["code"], found["message"]) for found in before if found["fixable"] and found["fix"]["safe"]}
+    said = {
+        (found["code"], found["message"])
+        for found in before
+        if found["fixable"] and found["fix"]["safe"]
+    }
     assert not said & {(found["code"], found["message"]) for found in after}
-    assert not Counter(found["code"] for found in after) - Counter(found["code"] for found in before)
+    assert not Counter(found["code"] for found in after) - Counter(
+        found["code"] for found in before
+    )

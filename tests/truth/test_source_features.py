@@ -1,4 +1,6 @@
-"""The features that source code and pipeline JSON enable: what is not stated there is not enabled, what is not read is not known."""
+"""The features that source code and pipeline JSON enable: what is not stated there is not enabled,
+what is not read is not known.
+"""
 
 from __future__ import annotations
 
@@ -32,7 +34,11 @@ void run(VkPhysicalDevice gpu, VkBaseInStructure *more) {{
     [
         ("features.features.sampleRateShading = VK_TRUE;", True),
         ("features.features.shaderStorageImageMultisample = VK_TRUE;", False),
-        ("features.features.sampleRateShading = VK_TRUE; features.features.shaderStorageImageMultisample = VK_TRUE;", False),
+        (
+            "features.features.sampleRateShading = VK_TRUE; "
+            "features.features.shaderStorageImageMultisample = VK_TRUE;",
+            False,
+        ),
         # What is chained by somebody else may be anything.
         ("features.pNext = more;", False),
         ("vkGetPhysicalDeviceFeatures2(gpu, &features);", False),

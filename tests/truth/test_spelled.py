@@ -1,4 +1,6 @@
-"""A frame has the same findings, prices, fixes, and exit codes however its description is written."""
+"""A frame has the same findings, prices, fixes, and exit codes however its description is
+written.
+"""
 
 from __future__ import annotations
 
@@ -21,27 +23,69 @@ from tests.strength import examples
 from tests.truth.spelled import STYLES
 
 EXAMPLES = sorted((ROOT / "examples").rglob("*.msaa.yaml"))
-TEXTS = {str(each): each.text for each in all_examples()} | {path.stem: path.read_text(encoding="utf-8") for path in EXAMPLES}
+TEXTS = {str(each): each.text for each in all_examples()} | {
+    path.stem: path.read_text(encoding="utf-8") for path in EXAMPLES
+}
 DATA = {name: data_of(text) for name, text in TEXTS.items() if "\n---\n" not in text}
 
 
-STATED = ("code", "subject", "message", "severity", "confidence", "price", "fixable", "fix", "notes")
+STATED = (
+    "code",
+    "subject",
+    "message",
+    "severity",
+    "confidence",
+    "price",
+    "fixable",
+    "fix",
+    "notes",
+)
 
 
 def said(text: str, *options: str) -> tuple[Any, ...]:
-    """What `check` says of a description, without places: exit code, findings with prices and fixes, what the fixes save, and how much more
-    a limit than all of them accept."""
+    """What `check` says of a description, without places: exit code, findings with prices and
+    fixes, what the fixes save, and how much more a limit than all of them accept.
+    """
     with TemporaryDirectory() as folder:
         Path(folder, "frame.msaa.yaml").write_text(text, encoding="utf-8")
-        done = run(Path(folder), "check", "--no-cache", "--output", "json", "--fail-on-cost", "1MB/s", *options, "frame.msaa.yaml")
+        done = run(
+            Path(folder),
+            "check",
+            "--no-cache",
+            "--output",
+            "json",
+            "--fail-on-cost",
+            "1MB/s",
+            *options,
+            "frame.msaa.yaml",
+        )
     report = json.loads(done.stdout)
     findings = [
         json.dumps(
-            {key: found[key] for key in ("code", "subject", "message", "severity", "confidence", "price", "fixable", "fix", "notes")}
+            {
+                key: found[key]
+                for key in (
+                    "code",
+                    "subject",
+                    "message",
+                    "severity",
+                    "confidence",
+                    "price",
+                    "fixable",
+                    "fix",
+                    "notes",
+                )
+            }
         )
         for found in report["findings"]
     ]
-    return done.returncode, sorted(findings), report["summary"]["price"], report["summary"]["savings"], done.stderr
+    return (
+        done.returncode,
+        sorted(findings),
+        report["summary"]["price"],
+        report["summary"]["savings"],
+        done.stderr,
+    )
 
 
 def fixed(text: str) -> list[list[object]]:
@@ -100,18 +144,25 @@ def test_a_fix_that_two_findings_share_by_an_anchor(one: str, other: str) -> Non
     assert said(text) == said(PLAIN)
     assert said(text)[0] == 1
     findings = [json.loads(found) for found in said(text)[1] if '"MSAA201"' in found]
-    assert [(found["fixable"], found["price"]["write_mb_per_s"]) for found in findings] == [(True, 1990.656)] * 2
+    assert [(found["fixable"], found["price"]["write_mb_per_s"]) for found in findings] == [
+        (True, 1990.656)
+    ] * 2
     assert fixed(text) == fixed(PLAIN)
 
 
 @pytest.mark.parametrize("kept", ["a", "b"])
 def test_a_fix_of_one_of_two_structures_with_an_anchor(kept: str) -> None:
     """One image is read after the pass, so only the store of the other one is a mistake."""
-    read = f"commands: [{{beginRenderPass: {{renderPass: p}}}}, endRenderPass, {{readImage: {{image: {kept}, stage: FRAGMENT}}}}]\n"
+    read = (
+        f"commands: [{{beginRenderPass: {{renderPass: p}}}}, endRenderPass, {{readImage: "
+        f"{{image: {kept}, stage: FRAGMENT}}}}]\n"
+    )
 
     def text(one: str, other: str) -> str:
-        usages = TWO.replace(f"{kept}: {{format: R8G8B8A8_UNORM, samples: 4, usage: [COLOR_ATTACHMENT, TRANSIENT_ATTACHMENT]",
-                             f"{kept}: {{format: R8G8B8A8_UNORM, samples: 4, usage: [COLOR_ATTACHMENT, SAMPLED]")  # fmt: skip
+        usages = TWO.replace(f"{kept}: {{format: R8G8B8A8_UNORM, samples: 4, usage: "
+            f"[COLOR_ATTACHMENT, TRANSIENT_ATTACHMENT]",
+                             f"{kept}: {{format: R8G8B8A8_UNORM, samples: 4, usage: "
+                             f"[COLOR_ATTACHMENT, SAMPLED]")  # fmt: skip
         return usages.replace("ONE", one).replace("OTHER", other) + read
 
     plain = text(f"{{image: a, {STORED}}}", f"{{image: b, {STORED}}}")
@@ -134,13 +185,20 @@ renderPasses:
 
 @pytest.mark.parametrize("comment", ["", "  # why"])
 def test_a_key_goes_wherever_it_is(comment: str) -> None:
-    """The resolve of a depth buffer that nothing reads is removed from the first line of an item, too."""
-    keys = [f"depthStencilResolve: {{attachment: e, depthResolveMode: SAMPLE_ZERO}}{comment}", "depthStencilAttachment: d"]
+    """The resolve of a depth buffer that nothing reads is removed from the first line of an item,
+    too.
+    """
+    keys = [
+        f"depthStencilResolve: {{attachment: e, depthResolveMode: SAMPLE_ZERO}}{comment}",
+        "depthStencilAttachment: d",
+    ]
     done = []
     for order in (keys, keys[::-1]):
         text = RESOLVED.replace("KEYS", "\n        ".join(order))
         removed = [json.loads(found) for found in said(text)[1] if "esolve" in found]
-        assert removed and all(found["fixable"] and not found["fix"]["refusal"] for found in removed), removed
+        assert removed and all(
+            found["fixable"] and not found["fix"]["refusal"] for found in removed
+        ), removed
         done.append(fixed(text))
         with TemporaryDirectory() as folder:
             path = Path(folder, "frame.msaa.yaml")

@@ -8,7 +8,9 @@ from msaa_lint.core.extras import needs_extra
 
 
 def lsp(arguments: Arguments) -> int:
-    """Serves one editor over standard input and output until it disconnects; returns the exit code."""
+    """Serves one editor over standard input and output until it disconnects; returns the exit
+    code.
+    """
     return run_command(_lsp, arguments)
 
 

@@ -29,14 +29,17 @@ _VALUES: dict[str, tuple[str, ...]] = {
 """The values that are compared with the one that is stated."""
 
 _FORMATS = (
-    "R8G8B8A8_UNORM", "A2B10G10R10_UNORM_PACK32", "B10G11R11_UFLOAT_PACK32", "R16G16B16A16_SFLOAT", "D16_UNORM", "D24_UNORM_S8_UINT",
+    "R8G8B8A8_UNORM", "A2B10G10R10_UNORM_PACK32", "B10G11R11_UFLOAT_PACK32", "R16G16B16A16_SFLOAT",
+    "D16_UNORM", "D24_UNORM_S8_UINT",
     "D32_SFLOAT", "D32_SFLOAT_S8_UINT",
 )  # fmt: skip
 _COUNTS = (1, 2, 4, 8)
 _RATES = (30, 60, 120)
 
 MAX_WORDS = 4
-"""Words of a member of a shorthand that are all compared; of counts, of which there are more, one spelling each."""
+"""Words of a member of a shorthand that are all compared; of counts, of which there are more, one
+spelling each.
+"""
 
 _SHORT_COUNTS = frozenset({"k1", "k2", "k4", "k8"})
 
@@ -52,7 +55,9 @@ class Alternatives(NamedTuple):
 
 
 def alternative_costs(costs: Costs, member: Place, place: Place) -> Alternatives | None:
-    """The costs of a frame with other values of a member, or without the flag at a place. None where none of them makes a difference."""
+    """The costs of a frame with other values of a member, or without the flag at a place. None
+    where none of them makes a difference.
+    """
     found = list(_expanded(costs, member) if costs.is_expanded else _changed(costs, member, place))
     if all(total == costs.written.total for _, total in found):
         return None
@@ -60,17 +65,28 @@ def alternative_costs(costs: Costs, member: Place, place: Place) -> Alternatives
 
 
 def _changed(costs: Costs, member: Place, place: Place) -> Iterator[tuple[str, Amount]]:
-    """The totals with the changes made in the structures that were read; only the part of the frame that they concern is estimated."""
+    """The totals with the changes made in the structures that were read; only the part of the frame
+    that they concern is estimated.
+    """
     assert member.record is not None
     name = member.path[-1]
-    records = [record for record in _records(costs, member.record) if record.states(name) and _is_at(record, name, member)]
+    records = [
+        record
+        for record in _records(costs, member.record)
+        if record.states(name) and _is_at(record, name, member)
+    ]
     for title, action, value in _candidates(member, place) if records else ():
         try:
             saving = costs.prices.of([Change(record, name, action, value) for record in records])
         except NoFix:
             continue
         if saving is not None:
-            yield title, difference(costs.written.total, Amount(*saving)) if any(saving) else costs.written.total
+            yield (
+                title,
+                difference(costs.written.total, Amount(*saving))
+                if any(saving)
+                else costs.written.total,
+            )
 
 
 def _expanded(costs: Costs, member: Place) -> Iterator[tuple[str, Amount]]:
@@ -126,4 +142,8 @@ def _enumerants(enums: str, stated: str | None) -> Sequence[str]:
     if format is None:
         return ()
     is_color = "color" in format.aspects
-    return [name for name in _FORMATS if (other := format_of(name)) is not None and ("color" in other.aspects) == is_color]
+    return [
+        name
+        for name in _FORMATS
+        if (other := format_of(name)) is not None and ("color" in other.aspects) == is_color
+    ]

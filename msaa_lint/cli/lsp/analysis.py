@@ -1,4 +1,6 @@
-"""What is known of one version of an open document, and where positions of the protocol are in its text."""
+"""What is known of one version of an open document, and where positions of the protocol are in its
+text.
+"""
 
 from __future__ import annotations
 
@@ -38,9 +40,10 @@ class Kind(enum.Enum):
 class Analysis:
     """One version of an open document.
 
-    `path` is that of its file as findings name it. `text` may begin with a byte order mark, which `source` lacks: spans are places in the
-    latter. `resolved` are the settings of its folder. `findings` are those that `check` reports in it; `file` and `result` are what was
-    linted and its result, None for a document that is not an input.
+    `path` is that of its file as findings name it. `text` may begin with a byte order mark, which
+    `source` lacks: spans are places in the latter. `resolved` are the settings of its folder.
+    `findings` are those that `check` reports in it; `file` and `result` are what was linted and its
+    result, None for a document that is not an input.
     """
 
     uri: str
@@ -73,7 +76,16 @@ class Analysis:
         file = to_fs_path(self.uri) if self.uri.startswith("file:") else None
         folder = os.path.dirname(file) if file is not None else None
         docs_url = resolved.settings.docs_url or ""
-        return View(self.source.text, self.kind.value, self.result, self.registry, self.findings, resolved.limits, docs_url, folder)
+        return View(
+            self.source.text,
+            self.kind.value,
+            self.result,
+            self.registry,
+            self.findings,
+            resolved.limits,
+            docs_url,
+            folder,
+        )
 
     @cached_property
     def positions(self) -> Positions:
@@ -85,7 +97,9 @@ class Analysis:
         return len(self.text) - len(self.source.text)
 
     def offset(self, position: types.Position) -> int:
-        """The offset of a position in code points. One beyond the end of its line, or of the text, is at that end."""
+        """The offset of a position in code points. One beyond the end of its line, or of the text,
+        is at that end.
+        """
         return max(self.positions.offset(position) - self._mark, 0)
 
     def position(self, offset: int) -> types.Position:

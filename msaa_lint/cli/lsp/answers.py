@@ -55,10 +55,14 @@ def hover(analysis: Analysis, position: types.Position) -> types.Hover | None:
     answer = hovers.hover(analysis.view, analysis.offset(position))
     if answer is None:
         return None
-    return types.Hover(types.MarkupContent(types.MarkupKind.Markdown, answer.markdown), analysis.range(answer.span))
+    return types.Hover(
+        types.MarkupContent(types.MarkupKind.Markdown, answer.markdown), analysis.range(answer.span)
+    )
 
 
-def completion(analysis: Analysis, position: types.Position, snippets: bool) -> types.CompletionList:
+def completion(
+    analysis: Analysis, position: types.Position, snippets: bool
+) -> types.CompletionList:
     """What may stand at a position; `snippets` says that the editor takes snippets."""
     items = completions.complete(analysis.view, analysis.offset(position), snippets)
     ranges: dict[Span, types.Range] = {}
@@ -66,12 +70,24 @@ def completion(analysis: Analysis, position: types.Position, snippets: bool) -> 
         span = Span(item.start, item.end)
         if span not in ranges:
             ranges[span] = analysis.range(span)
-    return types.CompletionList(False, [_item(analysis, item, ranges[Span(item.start, item.end)], n) for n, item in enumerate(items)])
+    return types.CompletionList(
+        False,
+        [
+            _item(analysis, item, ranges[Span(item.start, item.end)], n)
+            for n, item in enumerate(items)
+        ],
+    )
 
 
-def _item(analysis: Analysis, item: completions.Completion, place: types.Range, number: int) -> types.CompletionItem:
+def _item(
+    analysis: Analysis, item: completions.Completion, place: types.Range, number: int
+) -> types.CompletionItem:
     quote = analysis.view.text[item.start : item.start + 1]
-    text = key_documentation(*item.member) if item.member is not None else enumerant_documentation(*item.enumerant or ("", ""))
+    text = (
+        key_documentation(*item.member)
+        if item.member is not None
+        else enumerant_documentation(*item.enumerant or ("", ""))
+    )
     if not text and item.kind == completions.KEY and analysis.view.kind == "configuration":
         text = setting_text(item.label)
     return types.CompletionItem(
@@ -82,7 +98,9 @@ def _item(analysis: Analysis, item: completions.Completion, place: types.Range, 
         sort_text=f"{number:04}",
         # The place that is replaced begins with the quote, and is compared with this.
         filter_text=quote + item.label if quote in ("'", '"') else None,
-        insert_text_format=types.InsertTextFormat.Snippet if item.snippet else types.InsertTextFormat.PlainText,
+        insert_text_format=types.InsertTextFormat.Snippet
+        if item.snippet
+        else types.InsertTextFormat.PlainText,
         insert_text_mode=types.InsertTextMode.AsIs,
         text_edit=types.TextEdit(place, item.text),
     )
@@ -94,7 +112,9 @@ def definition(analysis: Analysis, position: types.Position) -> list[types.Locat
     return [types.Location(analysis.uri, analysis.range(span)) for span in spans]
 
 
-def references(analysis: Analysis, position: types.Position, with_definition: bool) -> list[types.Location]:
+def references(
+    analysis: Analysis, position: types.Position, with_definition: bool
+) -> list[types.Location]:
     """Where what is named at a position is named."""
     spans = navigation.references(analysis.view, analysis.offset(position), with_definition)
     return [types.Location(analysis.uri, analysis.range(span)) for span in spans]
@@ -106,19 +126,31 @@ def highlights(analysis: Analysis, position: types.Position) -> list[types.Docum
     definitions = set(navigation.definition(analysis.view, offset))
     kinds = {True: types.DocumentHighlightKind.Write, False: types.DocumentHighlightKind.Read}
     spans = navigation.references(analysis.view, offset)
-    return [types.DocumentHighlight(analysis.range(span), kinds[span in definitions]) for span in spans]
+    return [
+        types.DocumentHighlight(analysis.range(span), kinds[span in definitions]) for span in spans
+    ]
 
 
-def prepare_rename(analysis: Analysis, position: types.Position) -> types.PrepareRenamePlaceholder | None:
+def prepare_rename(
+    analysis: Analysis, position: types.Position
+) -> types.PrepareRenamePlaceholder | None:
     """The name at a position; None if there is none that can be renamed."""
     found = renames.prepare(analysis.view, analysis.offset(position))
-    return types.PrepareRenamePlaceholder(analysis.range(found.span), found.text) if found is not None else None
+    return (
+        types.PrepareRenamePlaceholder(analysis.range(found.span), found.text)
+        if found is not None
+        else None
+    )
 
 
 def rename(analysis: Analysis, position: types.Position, name: str) -> types.WorkspaceEdit:
     """The edits that give what is named at a position another name. Raises rename.Refused."""
     edits = renames.rename(analysis.view, analysis.offset(position), name)
-    return types.WorkspaceEdit(changes={analysis.uri: [types.TextEdit(analysis.range(edit.span), edit.text) for edit in edits]})
+    return types.WorkspaceEdit(
+        changes={
+            analysis.uri: [types.TextEdit(analysis.range(edit.span), edit.text) for edit in edits]
+        }
+    )
 
 
 def symbols(analysis: Analysis) -> list[types.DocumentSymbol]:
@@ -127,7 +159,11 @@ def symbols(analysis: Analysis) -> list[types.DocumentSymbol]:
 
 
 def _symbol(analysis: Analysis, symbol: outline.Symbol) -> types.DocumentSymbol:
-    kind = types.SymbolKind.Namespace if symbol.name == symbol.section else _SYMBOL_KINDS.get(symbol.section, types.SymbolKind.Namespace)
+    kind = (
+        types.SymbolKind.Namespace
+        if symbol.name == symbol.section
+        else _SYMBOL_KINDS.get(symbol.section, types.SymbolKind.Namespace)
+    )
     return types.DocumentSymbol(
         symbol.name,
         kind,
@@ -141,7 +177,9 @@ def _symbol(analysis: Analysis, symbol: outline.Symbol) -> types.DocumentSymbol:
 def inlay_hints(analysis: Analysis, place: types.Range) -> list[types.InlayHint]:
     """The hints in a range."""
     return [
-        types.InlayHint(analysis.position(hint.at), hint.text, padding_left=True, tooltip=hint.tooltip)
+        types.InlayHint(
+            analysis.position(hint.at), hint.text, padding_left=True, tooltip=hint.tooltip
+        )
         for hint in hints.hints(analysis.view, analysis.span(place))
     ]
 
@@ -149,14 +187,18 @@ def inlay_hints(analysis: Analysis, place: types.Range) -> list[types.InlayHint]
 def folding_ranges(analysis: Analysis) -> list[types.FoldingRange]:
     """What can be folded."""
     return [
-        types.FoldingRange(fold.first, fold.last, kind=types.FoldingRangeKind.Comment if fold.is_comment else None)
+        types.FoldingRange(
+            fold.first, fold.last, kind=types.FoldingRangeKind.Comment if fold.is_comment else None
+        )
         for fold in folds(analysis.view)
     ]
 
 
 def document_links(analysis: Analysis) -> list[types.DocumentLink]:
     """The links of a document."""
-    return [types.DocumentLink(analysis.range(link.span), link.target) for link in links(analysis.view)]
+    return [
+        types.DocumentLink(analysis.range(link.span), link.target) for link in links(analysis.view)
+    ]
 
 
 def selection_range(analysis: Analysis, position: types.Position) -> types.SelectionRange:

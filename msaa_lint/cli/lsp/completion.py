@@ -1,4 +1,6 @@
-"""Completion in a description: keys, enumerants, names and other values, at a cursor in a text that may be incomplete."""
+"""Completion in a description: keys, enumerants, names and other values, at a cursor in a text that
+may be incomplete.
+"""
 
 from __future__ import annotations
 
@@ -32,9 +34,10 @@ KEY, VALUE, ENUMERANT, REFERENCE = "key", "value", "enumerant", "reference"
 class Completion(NamedTuple):
     """One thing that may stand at the cursor.
 
-    `text` replaces the text from `start` to `end`; `$0` in it is where the cursor goes, if `snippet`. `kind` is KEY, VALUE (a number or a
-    boolean), ENUMERANT (a word) or REFERENCE, `detail` a few words, `member` the structure and member, or `enumerant` the enum and name,
-    whose documentation it has.
+    `text` replaces the text from `start` to `end`; `$0` in it is where the cursor goes, if
+    `snippet`. `kind` is KEY, VALUE (a number or a boolean), ENUMERANT (a word) or REFERENCE,
+    `detail` a few words, `member` the structure and member, or `enumerant` the enum and name, whose
+    documentation it has.
     """
 
     label: str
@@ -49,11 +52,16 @@ class Completion(NamedTuple):
 
 
 def complete(view: View, offset: int, snippets: bool = False) -> list[Completion]:
-    """What may stand at the cursor, in the order of the format. With `snippets`, keys of structures place the cursor in them."""
+    """What may stand at the cursor, in the order of the format. With `snippets`, keys of structures
+    place the cursor in them.
+    """
     in_text = rule_names(view, offset)
     if in_text is not None:
         start, end, words = in_text
-        return [Completion(label, text, start, end, KEY if text.endswith(" = ") else ENUMERANT, detail) for label, text, detail in words]
+        return [
+            Completion(label, text, start, end, KEY if text.endswith(" = ") else ENUMERANT, detail)
+            for label, text, detail in words
+        ]
     if view.kind != "description":
         return []
     word = word_at(view.text, offset)
@@ -67,7 +75,9 @@ def complete(view: View, offset: int, snippets: bool = False) -> list[Completion
 
 
 def _is_free(text: str, word: Word) -> bool:
-    """Whether nothing but punctuation is beside a word in its line: a value cannot stand next to another one."""
+    """Whether nothing but punctuation is beside a word in its line: a value cannot stand next to
+    another one.
+    """
     line_start, line_end = text.rfind("\n", 0, word.start) + 1, text.find("\n", word.end)
     before = text[line_start : word.start].rstrip()
     after = text[word.end : line_end if line_end >= 0 else len(text)].strip()
@@ -77,9 +87,13 @@ def _is_free(text: str, word: Word) -> bool:
 
 
 class _Completer:
-    """The completions at one cursor. `place` is the value, or the member with the key, that the mark stands for."""
+    """The completions at one cursor. `place` is the value, or the member with the key, that the
+    mark stands for.
+    """
 
-    def __init__(self, view: View, word: Word, marked: Marked, place: Place, snippets: bool) -> None:
+    def __init__(
+        self, view: View, word: Word, marked: Marked, place: Place, snippets: bool
+    ) -> None:
         self.text = text = view.text
         self.folder = view.folder
         self.word = word
@@ -89,7 +103,9 @@ class _Completer:
         self.line_start = text.rfind("\n", 0, word.start) + 1
         self.begins_line = not text[self.line_start : word.start].strip(" -\t")
         self.is_json = text.lstrip("\ufeff \t\r\n")[:1] in ("{", "[") and '"' in text
-        self.is_flow = any(self._opens(each.node) for each in place.ancestors if each.node.kind != "scalar")
+        self.is_flow = any(
+            self._opens(each.node) for each in place.ancestors if each.node.kind != "scalar"
+        )
 
     def _opens(self, node: Node) -> bool:
         return self.marked.text[content(self.marked.text, node).start : node.end][:1] in ("{", "[")
@@ -127,7 +143,9 @@ class _Completer:
         text = label if text is None else text
         quote = self.word.quote or ('"' if self.is_json and kind != VALUE else "")
         quoted = f"{quote}{text}{quote}" if quote and not text.startswith(quote) else text
-        return Completion(label, lead(self.text, self.word) + quoted, self.word.start, self.word.end, kind, detail)
+        return Completion(
+            label, lead(self.text, self.word) + quoted, self.word.start, self.word.end, kind, detail
+        )
 
     # Keys.
 
@@ -135,10 +153,16 @@ class _Completer:
         for shape in shapes:
             if shape[0] in ("record", "command"):
                 kind: type[Record] = shape[1]
-                present = set(parent.node.value) - {MARK} if parent.node.kind == "mapping" else set()
+                present = (
+                    set(parent.node.value) - {MARK} if parent.node.kind == "mapping" else set()
+                )
                 if issubclass(kind, Command) and present:
                     continue
-                yield from (self._key(name, kind, inner) for name, inner in kind.SHAPE.items() if name not in present)
+                yield from (
+                    self._key(name, kind, inner)
+                    for name, inner in kind.SHAPE.items()
+                    if name not in present
+                )
             elif shape[0] == "map":
                 yield from self._missing_names(parent)
                 present = set(parent.node.value) if parent.node.kind == "mapping" else set()
@@ -153,7 +177,9 @@ class _Completer:
             text += ":" + self._after_colon(alternatives(shape)[0], "" if is_item else self._comma)
             text = f"{{{text}}}{self._comma}" if is_item else text
         detail = "command" if issubclass(kind, Command) else ""
-        return Completion(name, text, self.word.start, self.word.end, KEY, detail, snippet, (kind, name))
+        return Completion(
+            name, text, self.word.start, self.word.end, KEY, detail, snippet, (kind, name)
+        )
 
     def _entry(self, key: str) -> Completion:
         """A key of a mapping that is no structure."""
@@ -168,7 +194,9 @@ class _Completer:
         """What follows a key: the beginning of its value, if the client takes snippets."""
         kind = shape[0]
         is_list = kind in ("list", "flags")
-        is_structure = kind in ("record", "map", "numbered", "command") or (kind == "list" and shape[1][0] in ("record", "command"))
+        is_structure = kind in ("record", "map", "numbered", "command") or (
+            kind == "list" and shape[1][0] in ("record", "command")
+        )
         tail = comma if self.is_flow else ""
         if not self.snippets:
             return " "
@@ -180,9 +208,15 @@ class _Completer:
 
     @property
     def _comma(self) -> str:
-        """A comma where another entry follows without one, and the text could only be read with it."""
+        """A comma where another entry follows without one, and the text could only be read with
+        it.
+        """
         read = self.marked.text[self.marked.at + len(MARK) :].lstrip(": ")
-        return "," if read.startswith(",") and not self.text[self.word.end :].lstrip(": ").startswith(",") else ""
+        return (
+            ","
+            if read.startswith(",") and not self.text[self.word.end :].lstrip(": ").startswith(",")
+            else ""
+        )
 
     @property
     def _is_flow_item(self) -> bool:
@@ -190,15 +224,25 @@ class _Completer:
         place, parent = self.place, self.place.parent
         if not self.is_flow or parent is None:
             return False
-        return parent.node.start == self.marked.at if place.key is not None else parent.node.kind == "sequence"
+        return (
+            parent.node.start == self.marked.at
+            if place.key is not None
+            else parent.node.kind == "sequence"
+        )
 
     def _missing_names(self, parent: Place) -> Iterator[Completion]:
         """Names that structures use and a section does not define."""
         section = ".".join(parent.path)
         for name, places in self.names.items():
-            if name.section == section and not any(place.is_definition for place in places) and MARK not in name.text:
+            if (
+                name.section == section
+                and not any(place.is_definition for place in places)
+                and MARK not in name.text
+            ):
                 text = self._quoted_key(name.text) + ("" if self._colon_follows else ": ")
-                yield Completion(name.text, text, self.word.start, self.word.end, REFERENCE, "used, not defined")
+                yield Completion(
+                    name.text, text, self.word.start, self.word.end, REFERENCE, "used, not defined"
+                )
 
     # Values.
 
@@ -215,38 +259,79 @@ class _Completer:
         if kind == "samples":
             return [self._item(style, VALUE) for style in self._style.samples(SAMPLE_COUNTS)]
         if kind in ("word", "caseless"):
-            return [self._item(str(word), VALUE if isinstance(word, int) else ENUMERANT) for word in shape[1]]
+            return [
+                self._item(str(word), VALUE if isinstance(word, int) else ENUMERANT)
+                for word in shape[1]
+            ]
         if kind == "shading":
             return [self._item(word, ENUMERANT) for word in SHADING_LEVELS]
         if kind == "name":
             return self._named(shape[1], "")
         if kind == "slot":
-            return [*self._named(ATTACHMENTS, self._pass_of(place)), self._item("null", VALUE, "VK_ATTACHMENT_UNUSED")]
+            return [
+                *self._named(ATTACHMENTS, self._pass_of(place)),
+                self._item("null", VALUE, "VK_ATTACHMENT_UNUSED"),
+            ]
         if kind == "subpass":
-            return [self._item("EXTERNAL", ENUMERANT, "VK_SUBPASS_EXTERNAL"), *self._named(SUBPASSES, self._pass_of(place), VALUE)]
+            return [
+                self._item("EXTERNAL", ENUMERANT, "VK_SUBPASS_EXTERNAL"),
+                *self._named(SUBPASSES, self._pass_of(place), VALUE),
+            ]
         if kind == "command" and self.begins_line and not self.is_flow:
             return []
         if kind == "command":
-            return [self._item(name, ENUMERANT, "command") for name, inner in shape[1].SHAPE.items() if inner[0] == "null"]
+            return [
+                self._item(name, ENUMERANT, "command")
+                for name, inner in shape[1].SHAPE.items()
+                if inner[0] == "null"
+            ]
         member = next((each.path[-1] for each in place.ancestors if each.record is not None), "")
-        if kind == "text" and (member == "module" or (member == "device" and "/" in self.word.prefix)) and self.folder is not None:
-            return [self._item(path, ENUMERANT) for path in paths(self.folder, SHADERS if member == "module" else (".json",))]
-        return [self._item(label, ENUMERANT, detail) for label, detail in word_items(kind, member, place)] or self._subpasses(member, place)
+        if (
+            kind == "text"
+            and (member == "module" or (member == "device" and "/" in self.word.prefix))
+            and self.folder is not None
+        ):
+            return [
+                self._item(path, ENUMERANT)
+                for path in paths(self.folder, SHADERS if member == "module" else (".json",))
+            ]
+        return [
+            self._item(label, ENUMERANT, detail)
+            for label, detail in word_items(kind, member, place)
+        ] or self._subpasses(member, place)
 
     def _enumerants(self, shape: Shape, place: Place) -> Iterator[Completion]:
-        siblings = place.parent.node.value if place.parent is not None and place.parent.shape[0] == "flags" else ()
-        present = {node.text for node in siblings if node.kind == "scalar"} if isinstance(siblings, list) else set()
+        siblings = (
+            place.parent.node.value
+            if place.parent is not None and place.parent.shape[0] == "flags"
+            else ()
+        )
+        present = (
+            {node.text for node in siblings if node.kind == "scalar"}
+            if isinstance(siblings, list)
+            else set()
+        )
         alone = shape[0] == "flags" and place.node.text == MARK and not self.word.quote
         for name, text in enumerants(shape[1], self._style, place):
             if text not in present:
                 quoted = f'"{text}"' if alone and self.is_json else text
-                item = self._item(text, ENUMERANT, name if name != text else "", f"[{quoted}]" if alone else None)
+                item = self._item(
+                    text, ENUMERANT, name if name != text else "", f"[{quoted}]" if alone else None
+                )
                 yield item._replace(enumerant=(shape[1], name))
 
     def _subpasses(self, member: str, place: Place) -> list[Completion]:
         """The subpasses of the render pass that a pipeline is for."""
-        pipeline = place.parent.node if place.parent is not None and place.parent.node.kind == "mapping" else None
-        owner = pipeline.value.get("renderPass") if pipeline is not None and member == "subpass" else None
+        pipeline = (
+            place.parent.node
+            if place.parent is not None and place.parent.node.kind == "mapping"
+            else None
+        )
+        owner = (
+            pipeline.value.get("renderPass")
+            if pipeline is not None and member == "subpass"
+            else None
+        )
         return list(self._named(SUBPASSES, owner.text, VALUE)) if owner is not None else []
 
     def _named(self, section: str, owner: str, kind: str = REFERENCE) -> Iterator[Completion]:
@@ -254,13 +339,22 @@ class _Completer:
         found = (
             name.text
             for name, places in self.names.items()
-            if name.section == section and name.scope[1] == owner and any(place.is_definition for place in places)
+            if name.section == section
+            and name.scope[1] == owner
+            and any(place.is_definition for place in places)
         )
         for text in dict.fromkeys(found):
             if MARK in text:
                 continue
             if section in (ATTACHMENTS, SUBPASSES) and text.isdecimal():
-                yield Completion(text, lead(self.text, self.word) + text, self.word.start, self.word.end, VALUE, section)
+                yield Completion(
+                    text,
+                    lead(self.text, self.word) + text,
+                    self.word.start,
+                    self.word.end,
+                    VALUE,
+                    section,
+                )
             else:
                 yield self._item(text, kind, section, self._name_text(text))
 
@@ -271,7 +365,14 @@ class _Completer:
 
     @staticmethod
     def _pass_of(place: Place) -> str:
-        return next((each.path[1] for each in place.ancestors if len(each.path) == 2 and each.path[0] == "renderPasses"), "")
+        return next(
+            (
+                each.path[1]
+                for each in place.ancestors
+                if len(each.path) == 2 and each.path[0] == "renderPasses"
+            ),
+            "",
+        )
 
     @cached_property
     def names(self) -> Names:

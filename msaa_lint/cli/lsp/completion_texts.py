@@ -1,3 +1,4 @@
+# ruff: noqa: E501
 """Completion outside of descriptions' values: rules in suppression comments, `msaa-lint.toml`, the front matter of rule pages, devices."""
 
 from __future__ import annotations
@@ -54,7 +55,12 @@ _VALUES: Mapping[str, Sequence[str]] = {
     "respect-gitignore": ("true", "false"),
     "strict-inputs": ("true", "false"),
 }
-_FILES: Mapping[str, str] = {"extends": ".toml", "rules": ".md", "baseline": ".json", "profile": ".json"}
+_FILES: Mapping[str, str] = {
+    "extends": ".toml",
+    "rules": ".md",
+    "baseline": ".json",
+    "profile": ".json",
+}
 """By key: how the names of the files end that it names."""
 
 _PAGE_VALUES: Mapping[str, Sequence[str]] = {
@@ -78,7 +84,9 @@ def rule_names(view: View, offset: int) -> tuple[int, int, list[Item]] | None:
     comment = _SUPPRESSION.search(before)
     if comment is not None:
         word = comment["rule"] if comment["rule"] is not None else comment["word"]
-        items = _rules(view) if comment["rule"] is not None else [(word, word, "") for word in WORDS]
+        items = (
+            _rules(view) if comment["rule"] is not None else [(word, word, "") for word in WORDS]
+        )
         return offset - len(word), _word_end(view.text, offset), list(items)
     if view.kind == "configuration":
         return _configuration(view, offset)
@@ -110,22 +118,45 @@ def _configuration(view: View, offset: int) -> tuple[int, int, list[Item]]:
     bare = _BARE_KEY.search(body)
     opened = body.count("[") > body.count("]") or body.count("{") > body.count("}")
     if bare is not None and not opened:
-        present = set(_KEY.findall(body)) | set(_KEY.findall(view.text[offset:].partition("\n[")[0]))
-        names: Iterable[str] = {"": [*KEYS, "extends"], "limits": MAX_LIMITS, "source": ["assume"]}.get(table, ())
-        keys: Iterable[Item] = [(name, f"{name} = ", _type(table, name)) for name in names if name not in present]
+        present = set(_KEY.findall(body)) | set(
+            _KEY.findall(view.text[offset:].partition("\n[")[0])
+        )
+        names: Iterable[str] = {
+            "": [*KEYS, "extends"],
+            "limits": MAX_LIMITS,
+            "source": ["assume"],
+        }.get(table, ())
+        keys: Iterable[Item] = [
+            (name, f"{name} = ", _type(table, name)) for name in names if name not in present
+        ]
         if table == "severity":
             keys = ((label, f"{label} = ", detail) for label, _, detail in _rules(view))
         return offset - len(bare[1]), _word_end(view.text, offset), list(keys)
     string = _STRING.search(body)
     word, quote = (string[2], string[1]) if string is not None else ("", "")
     keys_before = _KEY.findall(body)
-    key = table if table in ("severity", "per-file-ignores") else keys_before[-1] if keys_before else ""
+    key = (
+        table
+        if table in ("severity", "per-file-ignores")
+        else keys_before[-1]
+        if keys_before
+        else ""
+    )
     is_value = bool(re.search(r"=[ \t]*[\"']?[\w.-]*\Z", body))
-    items = list(_configuration_values(view, key, is_value and (table == "severity" or "{" in body), word))
+    items = list(
+        _configuration_values(view, key, is_value and (table == "severity" or "{" in body), word)
+    )
     start, end = offset - len(word) - len(quote), _PATH.match(view.text, offset).end()  # type: ignore[union-attr]
     if quote:
         end += view.text.startswith(quote, end)
-    return start, end, [(label, text if text in ("true", "false") else f'"{text}"', detail) for label, text, detail in items]
+    return (
+        start,
+        end,
+        [
+            (label, text if text in ("true", "false") else f'"{text}"', detail)
+            for label, text, detail in items
+        ],
+    )
 
 
 def _type(table: str, name: str) -> str:
@@ -166,7 +197,11 @@ def _rule_page(view: View, offset: int, before: str) -> tuple[int, int, list[Ite
     subject = re.search(r"^subject:[ \t]*(\w+)", view.text, re.MULTILINE)
     facts = SUBJECTS.get(subject[1], ()) if subject is not None else FACTS.values()
     in_text = name in ("when", "at", "labels", "set", "add", "remove") or "{" in before
-    return start, end, [(fact.name, fact.name, f"{fact.type}: {fact.doc}") for fact in facts] if in_text else []
+    return (
+        start,
+        end,
+        [(fact.name, fact.name, f"{fact.type}: {fact.doc}") for fact in facts] if in_text else [],
+    )
 
 
 def _last(pattern: re.Pattern[str], text: str) -> re.Match[str] | None:
@@ -180,11 +215,20 @@ def word_items(kind: str, member: str, place: Place) -> Iterable[tuple[str, str]
     if kind == "text" and member == "apiVersion":
         return [(version, "") for version in API_VERSIONS]
     if kind == "text" and place.path[:2] == ("device", "tile"):
-        return [(name, "") for name in {"model": list(MODELS), "kind": list(KINDS)}.get(place.path[-1], [])]
+        return [
+            (name, "")
+            for name in {"model": list(MODELS), "kind": list(KINDS)}.get(place.path[-1], [])
+        ]
     if kind == "text" and member in ("extensions", "features"):
-        found = sorted({name for _, profile in _profiles() for name in getattr(profile, member) or ()})
+        found = sorted(
+            {name for _, profile in _profiles() for name in getattr(profile, member) or ()}
+        )
         siblings = place.parent.node.value if place.parent is not None else []
-        stated = {node.text for node in siblings if node.kind == "scalar"} if isinstance(siblings, list) else set()
+        stated = (
+            {node.text for node in siblings if node.kind == "scalar"}
+            if isinstance(siblings, list)
+            else set()
+        )
         return [(name, "") for name in found if name not in stated]
     return ()
 
@@ -192,7 +236,9 @@ def word_items(kind: str, member: str, place: Place) -> Iterable[tuple[str, str]
 def map_keys(place: Place) -> Sequence[str]:
     """The keys of a mapping of the device whose values are numbers and names."""
     if place.path == ("device", "tile"):
-        return list(dict.fromkeys(["model", "kind", *(key for keys in KINDS.values() for key in keys)]))
+        return list(
+            dict.fromkeys(["model", "kind", *(key for keys in KINDS.values() for key in keys)])
+        )
     if place.path == ("device", "compression"):
         return [f"{count}{way}" for count in COUNTS for way in ("", " read", " write")]
     return ()

@@ -55,10 +55,14 @@ def message(found: Finding) -> str:
 
 def _related(analysis: Analysis, label: Label) -> types.DiagnosticRelatedInformation | None:
     if label.file is None or label.file == analysis.path:
-        return types.DiagnosticRelatedInformation(types.Location(analysis.uri, analysis.range(label.span)), label.text)
+        return types.DiagnosticRelatedInformation(
+            types.Location(analysis.uri, analysis.range(label.span)), label.text
+        )
     source = analysis.result.sources.get(label.file) if analysis.result is not None else None
     if source is None:
         return None
     positions = Positions(source, analysis.encoding)
     range = types.Range(positions.position(label.span.start), positions.position(label.span.end))
-    return types.DiagnosticRelatedInformation(types.Location(from_fs_path(label.file) or label.file, range), label.text)
+    return types.DiagnosticRelatedInformation(
+        types.Location(from_fs_path(label.file) or label.file, range), label.text
+    )

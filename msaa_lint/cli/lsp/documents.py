@@ -14,7 +14,9 @@ from .positions import Positions
 
 
 class OpenDocument(NamedTuple):
-    """One version of an open document, and the folder of the editor's workspace whose settings apply to it."""
+    """One version of an open document, and the folder of the editor's workspace whose settings
+    apply to it.
+    """
 
     uri: str
     version: int
@@ -33,14 +35,20 @@ class OpenDocument(NamedTuple):
         return self.text.encode("utf-8", "surrogatepass")
 
     def changed(
-        self, version: int, changes: Sequence[types.TextDocumentContentChangeEvent], encoding: types.PositionEncodingKind
+        self,
+        version: int,
+        changes: Sequence[types.TextDocumentContentChangeEvent],
+        encoding: types.PositionEncodingKind,
     ) -> OpenDocument:
         """The document after changes, each of the text that the ones before it leave."""
         text = self.text
         for change in changes:
             if isinstance(change, types.TextDocumentContentChangePartial):
                 positions = Positions(Source("", text), encoding)
-                start, end = positions.offset(change.range.start), positions.offset(change.range.end)
+                start, end = (
+                    positions.offset(change.range.start),
+                    positions.offset(change.range.end),
+                )
                 text = text[:start] + change.text + text[max(start, end) :]
             else:
                 text = change.text
@@ -48,7 +56,9 @@ class OpenDocument(NamedTuple):
 
 
 def folder_of(uri: str, folders: Sequence[str]) -> str | None:
-    """The path of the innermost of the editor's folders that a document is in, or else of the first one; None if there is none."""
+    """The path of the innermost of the editor's folders that a document is in, or else of the first
+    one; None if there is none.
+    """
     local = [folder for folder in folders if folder.startswith("file:")]
     around = [folder for folder in local if uri.startswith(folder.rstrip("/") + "/")]
     folder = max(around, key=len) if around else next(iter(local), None)

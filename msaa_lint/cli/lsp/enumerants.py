@@ -34,11 +34,18 @@ class Style:
         for root in descriptions(self._roots):
             for place in islice(walk(root), MAX_PLACES):
                 node = place.node
-                if place.shape[0] in ("enum", "flags") and node.kind == "scalar" and node.value is not None and MARK not in node.text:
+                if (
+                    place.shape[0] in ("enum", "flags")
+                    and node.kind == "scalar"
+                    and node.value is not None
+                    and MARK not in node.text
+                ):
                     yield place.shape[1].partition("|")[0], node.text.partition("|")[0].strip()
 
     def form(self, enum: str) -> Form:
-        """The form of the first enumerant of the same enum, else of the same kind, else of any; else without prefix."""
+        """The form of the first enumerant of the same enum, else of the same kind, else of any;
+        else without prefix.
+        """
         is_flag = "FlagBits" in enum
         found: dict[int, Form] = {}
         for other, text in self._spellings:
@@ -64,7 +71,9 @@ class Style:
 
 
 def enumerants(enums: str, style: Style, place: Place) -> Iterator[tuple[str, str]]:
-    """The canonical names of an enum, or of several that `|` joins, and how the text spells them."""
+    """The canonical names of an enum, or of several that `|` joins, and how the text spells
+    them.
+    """
     if enums.startswith("MTL"):
         model = style.metal
         for name in METAL[enums]:

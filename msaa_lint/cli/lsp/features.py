@@ -24,11 +24,17 @@ def add_features(server: Server) -> None:
         analysis = await server.analysis(params.text_document.uri)
         return answers.hover(analysis, params.position) if analysis is not None else None
 
-    @server.feature(types.TEXT_DOCUMENT_COMPLETION, types.CompletionOptions(trigger_characters=answers.TRIGGERS))
+    @server.feature(
+        types.TEXT_DOCUMENT_COMPLETION, types.CompletionOptions(trigger_characters=answers.TRIGGERS)
+    )
     async def completion(params: types.CompletionParams) -> types.CompletionList | None:
         uri = params.text_document.uri
         analysis = server.current(uri) or await server.analysis(uri)
-        return answers.completion(analysis, params.position, takes_snippets(server)) if analysis is not None else None
+        return (
+            answers.completion(analysis, params.position, takes_snippets(server))
+            if analysis is not None
+            else None
+        )
 
     @server.feature(types.TEXT_DOCUMENT_DEFINITION)
     async def definition(params: types.DefinitionParams) -> list[types.Location]:
@@ -38,7 +44,11 @@ def add_features(server: Server) -> None:
     @server.feature(types.TEXT_DOCUMENT_REFERENCES)
     async def references(params: types.ReferenceParams) -> list[types.Location]:
         analysis = await server.analysis(params.text_document.uri)
-        return answers.references(analysis, params.position, params.context.include_declaration) if analysis is not None else []
+        return (
+            answers.references(analysis, params.position, params.context.include_declaration)
+            if analysis is not None
+            else []
+        )
 
     @server.feature(types.TEXT_DOCUMENT_DOCUMENT_HIGHLIGHT)
     async def highlights(params: types.DocumentHighlightParams) -> list[types.DocumentHighlight]:
@@ -46,7 +56,9 @@ def add_features(server: Server) -> None:
         return answers.highlights(analysis, params.position) if analysis is not None else []
 
     @server.feature(types.TEXT_DOCUMENT_PREPARE_RENAME)
-    async def prepare_rename(params: types.PrepareRenameParams) -> types.PrepareRenamePlaceholder | None:
+    async def prepare_rename(
+        params: types.PrepareRenameParams,
+    ) -> types.PrepareRenamePlaceholder | None:
         analysis = await server.analysis(params.text_document.uri)
         return answers.prepare_rename(analysis, params.position) if analysis is not None else None
 
@@ -54,7 +66,11 @@ def add_features(server: Server) -> None:
     async def rename(params: types.RenameParams) -> types.WorkspaceEdit | None:
         analysis = await server.analysis(params.text_document.uri)
         try:
-            return answers.rename(analysis, params.position, params.new_name) if analysis is not None else None
+            return (
+                answers.rename(analysis, params.position, params.new_name)
+                if analysis is not None
+                else None
+            )
         except Refused as error:
             raise JsonRpcException(str(error), _REQUEST_FAILED) from None
 
@@ -82,11 +98,19 @@ def add_features(server: Server) -> None:
     @server.feature(types.TEXT_DOCUMENT_SELECTION_RANGE)
     async def selection_ranges(params: types.SelectionRangeParams) -> list[types.SelectionRange]:
         analysis = await server.analysis(params.text_document.uri)
-        return [answers.selection_range(analysis, position) for position in params.positions] if analysis is not None else []
+        return (
+            [answers.selection_range(analysis, position) for position in params.positions]
+            if analysis is not None
+            else []
+        )
 
 
 def takes_snippets(server: Server) -> bool:
     """Whether the editor takes completions that place its cursor."""
     document = server.client_capabilities.text_document
-    item = document.completion.completion_item if document is not None and document.completion is not None else None
+    item = (
+        document.completion.completion_item
+        if document is not None and document.completion is not None
+        else None
+    )
     return bool(item is not None and item.snippet_support)

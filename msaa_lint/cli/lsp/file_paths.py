@@ -16,7 +16,9 @@ MAX_DEPTH = 5
 
 
 def paths(folder: str, endings: Sequence[str]) -> list[str]:
-    """The files below a folder whose names end so, as the text names them, in order. Hidden ones and links are left out."""
+    """The files below a folder whose names end so, as the text names them, in order. Hidden ones
+    and links are left out.
+    """
     return sorted(_paths(folder, tuple(endings)))
 
 

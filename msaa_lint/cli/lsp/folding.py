@@ -30,7 +30,9 @@ class Fold(NamedTuple):
 
 
 def folds(view: View) -> list[Fold]:
-    """The folds of a text, each line with the longest that begins on it: structures, passes with their commands, tables, and comments."""
+    """The folds of a text, each line with the longest that begins on it: structures, passes with
+    their commands, tables, and comments.
+    """
     source = Source("", view.text)
     longest: dict[int, Fold] = {}
     for span, is_comment in _spans(view):
@@ -75,6 +77,10 @@ def selection(view: View, offset: int) -> list[Span]:
     for place in found[0].ancestors:
         key = [content(view.text, place.key)] if place.key is not None else []
         inside = [] if found[1] and place is found[0] else [content(view.text, place.node)]
-        whole = [Span(place.key.start, max(place.node.end, place.key.end))] if place.key is not None else []
+        whole = (
+            [Span(place.key.start, max(place.node.end, place.key.end))]
+            if place.key is not None
+            else []
+        )
         spans += [*(key if found[1] and place is found[0] else inside), *whole]
     return [span for number, span in enumerate(spans) if number == 0 or span != spans[number - 1]]

@@ -1,4 +1,6 @@
-"""The layout of YAML and JSON as ryl writes it: edits of whitespace alone, with which the text reads the same and has the same comments."""
+"""The layout of YAML and JSON as ryl writes it: edits of whitespace alone, with which the text
+reads the same and has the same comments.
+"""
 
 import os
 import re
@@ -32,9 +34,11 @@ quote-style = "preserve"
 """
 
 _DEEP = " " * 200
-"""What ryl is given before the lines in brackets in a block, which move with the one on which the brackets begin.
+"""What ryl is given before the lines in brackets in a block, which move with the one on which the
+brackets begin.
 
-ryl indents some of them too little, and rejects a text where they are so. YAML 1.2 does, too, but not libyaml.
+ryl indents some of them too little, and rejects a text where they are so. YAML 1.2 does, too, but
+not libyaml.
 """
 
 _GAP = re.compile(r"[ \t\r\n,]+")
@@ -49,17 +53,25 @@ class Layout(NamedTuple):
 
 @cache
 def ryl() -> str | None:
-    """The path of the program of the package ryl, wherever the search path leads; None if it is not installed."""
+    """The path of the program of the package ryl, wherever the search path leads; None if it is not
+    installed.
+    """
     try:
         files = distribution("ryl").files or ()
     except PackageNotFoundError:
         return None
-    paths = (os.path.normpath(file.locate()) for file in files if file.stem == "ryl" and file.parent.name in ("bin", "Scripts"))
+    paths = (
+        os.path.normpath(file.locate())
+        for file in files
+        if file.stem == "ryl" and file.parent.name in ("bin", "Scripts")
+    )
     return next(filter(os.path.isfile, paths), None)
 
 
 def layout(text: str, within: Span | None = None) -> Layout:
-    """The layout of a text, or of a part of it. A text with a syntax error has no edits, and no problems, as its findings state them."""
+    """The layout of a text, or of a part of it. A text with a syntax error has no edits, and no
+    problems, as its findings state them.
+    """
     program = ryl()
     if program is None:
         return Layout([], ["the package ryl is not installed"])
@@ -69,10 +81,14 @@ def layout(text: str, within: Span | None = None) -> Layout:
         brackets = brackets_of(text)
     except (Stop, *ERRORS):
         return Layout([], [])
-    given = apply(text, [Edit(span, text[slice(*span)].replace("\n", "\n" + _DEEP)) for span in brackets])
+    given = apply(
+        text, [Edit(span, text[slice(*span)].replace("\n", "\n" + _DEEP)) for span in brackets]
+    )
     command = [program, "format", "--no-cache", "--config-data", _STYLE, "-"]
     try:
-        done = subprocess.run(command, input=given.encode(), capture_output=True, timeout=MAX_SECONDS, check=True)
+        done = subprocess.run(
+            command, input=given.encode(), capture_output=True, timeout=MAX_SECONDS, check=True
+        )
         after = done.stdout.decode()
     except (OSError, UnicodeError, subprocess.SubprocessError) as error:
         return Layout([], [f"ryl has failed: {type(error).__name__}"])
@@ -89,14 +105,21 @@ def layout(text: str, within: Span | None = None) -> Layout:
             if within is None or (within.start <= edit.span.start and edit.span.end <= within.end)
         ]
         if not edits or content_of(apply(text, edits)) == before:
-            return Layout(edits, [line.removeprefix("<stdin>:") for line in done.stderr.decode("utf-8", "replace").splitlines()])
+            return Layout(
+                edits,
+                [
+                    line.removeprefix("<stdin>:")
+                    for line in done.stderr.decode("utf-8", "replace").splitlines()
+                ],
+            )
     except (Stop, *ERRORS):
         pass
     return Layout([], ["formatting would change what the text means"])
 
 
 def _edits(before: str, after: str, brackets: Sequence[Span]) -> Iterator[Edit]:
-    """The edits of the whitespace in which two texts differ. Trailing commas, which ryl removes, stay. So do spaces that align a comment.
+    """The edits of the whitespace in which two texts differ. Trailing commas, which ryl removes,
+    stay. So do spaces that align a comment.
 
     Raises ValueError if the texts differ in more.
     """
@@ -118,7 +141,12 @@ def _edits(before: str, after: str, brackets: Sequence[Span]) -> Iterator[Edit]:
                 part = part[: len(part) - _indent(part)] + " " * max(_indent(blank) + shift, 0)
             elif "\n" in blank or at == 0:
                 shift = _indent(part) - _indent(blank)
-            is_aligned = before.startswith("#", at + length) and blank and part and not (blank + part).strip(" ")
+            is_aligned = (
+                before.startswith("#", at + length)
+                and blank
+                and part
+                and not (blank + part).strip(" ")
+            )
             if blank != part and not is_aligned:
                 yield _shortest(start, blank, part)
 
@@ -139,7 +167,9 @@ def _gaps(text: str) -> dict[int, str]:
 
 
 def _shortest(start: int, old: str, new: str) -> Edit:
-    """An edit that leaves as much as possible of the whitespace at a place. A CRLF is replaced as a whole."""
+    """An edit that leaves as much as possible of the whitespace at a place. A CRLF is replaced as a
+    whole.
+    """
     if "\r" in old + new:
         return Edit(Span(start, start + len(old)), new)
     same = _common(old, new)
@@ -149,4 +179,7 @@ def _shortest(start: int, old: str, new: str) -> Edit:
 
 def _common(one: str, other: str) -> int:
     """The number of characters with which both texts begin."""
-    return next((number for number, pair in enumerate(zip(one, other, strict=False)) if pair[0] != pair[1]), min(len(one), len(other)))
+    return next(
+        (number for number, pair in enumerate(zip(one, other, strict=False)) if pair[0] != pair[1]),
+        min(len(one), len(other)),
+    )

@@ -1,4 +1,6 @@
-"""What a key means, what a value costs, what an image moves, and what a rule says, at a place of a text, in Markdown."""
+"""What a key means, what a value costs, what an image moves, and what a rule says, at a place of a
+text, in Markdown.
+"""
 
 from __future__ import annotations
 
@@ -52,7 +54,9 @@ def hover(view: View, offset: int) -> Answer | None:
     if view.kind == "configuration":
         setting = setting_at(view.text, offset)
         about = Answer(*setting) if setting is not None else None
-    findings = [found for found in view.findings if found.span is not None and _contains(found.span, offset)]
+    findings = [
+        found for found in view.findings if found.span is not None and _contains(found.span, offset)
+    ]
     pages = [_page_of(view, found) for found in findings]
     if about is None and not pages:
         return None
@@ -70,7 +74,9 @@ def _contains(span: Span, offset: int) -> bool:
 
 
 def _rule_at(view: View, offset: int) -> Answer | None:
-    """The page of the rule, or the fact of rules, that is named at a place of a comment, a configuration or a rule page."""
+    """The page of the rule, or the fact of rules, that is named at a place of a comment, a
+    configuration or a rule page.
+    """
     start = view.text.rfind("\n", 0, offset) + 1
     end = view.text.find("\n", offset)
     line = view.text[start : end if end >= 0 else len(view.text)]
@@ -79,12 +85,18 @@ def _rule_at(view: View, offset: int) -> Answer | None:
     for match in _WORD.finditer(line):
         if start + match.start() <= offset <= start + match.end():
             span = Span(start + match.start(), start + match.end())
-            rule = next((each for each in view.registry.rules if match[0] in (each.name, each.code)), None)
+            rule = next(
+                (each for each in view.registry.rules if match[0] in (each.name, each.code)), None
+            )
             if rule is not None:
                 return Answer(_page(view, rule), span)
-            info = next((each for each in DIAGNOSTICS.values() if match[0] in (each.name, each.code)), None)
+            info = next(
+                (each for each in DIAGNOSTICS.values() if match[0] in (each.name, each.code)), None
+            )
             if info is not None:
-                return Answer(f"**{info.name}** `{info.code}`, {info.severity}\n\n{info.summary}", span)
+                return Answer(
+                    f"**{info.name}** `{info.code}`, {info.severity}\n\n{info.summary}", span
+                )
             fact = FACTS.get(match[0]) if view.kind == "rule" else None
             if fact is not None:
                 return Answer(f"`{fact.name}`: {fact.type}\n\n{fact.doc}", span)
@@ -155,9 +167,16 @@ def _alternatives_table(view: View, place: Place, member: Place) -> str:
         return ""
     written = costs.written.total
     lines = ["| value | MB/s | mW | MiB |", "| --- | ---: | ---: | ---: |"]
-    rows = [(f"{code(found.value)} as written", written, True), *((code(value), total, False) for value, total in found.others)]
+    rows = [
+        (f"{code(found.value)} as written", written, True),
+        *((code(value), total, False) for value, total in found.others),
+    ]
     for title, total, is_written in rows:
-        figures = [figure(total.traffic_mb_per_s), figure(total.milliwatts), figure(total.memory_mib)]
+        figures = [
+            figure(total.traffic_mb_per_s),
+            figure(total.milliwatts),
+            figure(total.memory_mib),
+        ]
         if not is_written:
             before = (written.traffic_mb_per_s, written.milliwatts, written.memory_mib)
             after = (total.traffic_mb_per_s, total.milliwatts, total.memory_mib)
@@ -167,12 +186,20 @@ def _alternatives_table(view: View, place: Place, member: Place) -> str:
     moves = f"Moves {figure(own.total)} MB/s, {figure(own.milliwatts)} mW.\n\n" if own.total else ""
     missing = [prose(text) for text in costs.written.unknown[:MAX_MISSING]]
     unknown = f"\n\nNot counted: {'; '.join(missing)}." if missing else ""
-    return f"{moves}Cost of the whole frame with this value and with others:\n\n" + "\n".join(lines) + unknown
+    return (
+        f"{moves}Cost of the whole frame with this value and with others:\n\n"
+        + "\n".join(lines)
+        + unknown
+    )
 
 
 def _with_difference(new: float, old: float) -> str:
     change = new - old
-    return f"{figure(new)} ({'+' if change > 0 else '−'}{figure(abs(change))})" if abs(change) >= 0.005 else figure(new)
+    return (
+        f"{figure(new)} ({'+' if change > 0 else '−'}{figure(abs(change))})"
+        if abs(change) >= 0.005
+        else figure(new)
+    )
 
 
 def _lines_at(costs: Iterable[PassCost], place: Place) -> Iterator[Line]:
@@ -190,26 +217,51 @@ def _about_part(view: View, start: int) -> list[str]:
         if each.head.start == start:
             cost, written = each.cost, costs.written
             rows = [
-                f"| {code(line.attachment)} | {line.aspect} | {line.action} | {line.samples} | {figure(moved([line], written).total)} |"
+                f"| {code(line.attachment)} | {line.aspect} | {line.action} | {line.samples} | "
+                f"{figure(moved([line], written).total)} |"
                 for line in cost.lines
             ]
-            total = f"{figure(cost.amount.traffic_mb_per_s)} MB/s, {figure(cost.amount.milliwatts)} mW"
-            head = "| attachment | aspect | action | samples | MB/s |\n| --- | --- | --- | ---: | ---: |\n"
+            total = (
+                f"{figure(cost.amount.traffic_mb_per_s)} MB/s, {figure(cost.amount.milliwatts)} mW"
+            )
+            head = (
+                "| attachment | aspect | action | samples | MB/s |\n| --- | --- | --- | ---: | "
+                "---: |\n"
+            )
             table = [head + "\n".join(rows)] if rows else []
             missing = [f"Not counted: {prose(text)}." for text in cost.unknown]
             return [f"This pass moves {total}.", *table, *missing]
         for head_at, _, lines in each.attachments:
             if head_at.start == start:
                 whole = moved(lines, costs.written)
-                parts = [f"{line.action} {line.aspect} {figure(moved([line], costs.written).total)} MB/s" for line in lines]
-                said = ": " + ", ".join(parts) if len(parts) > 1 else f", by its {lines[0].action}" if parts else ""
-                return [f"This attachment moves {figure(whole.total)} MB/s, {figure(whole.milliwatts)} mW{said}."]
+                parts = [
+                    f"{line.action} {line.aspect} {figure(moved([line], costs.written).total)} MB/s"
+                    for line in lines
+                ]
+                said = (
+                    ": " + ", ".join(parts)
+                    if len(parts) > 1
+                    else f", by its {lines[0].action}"
+                    if parts
+                    else ""
+                )
+                return [
+                    f"This attachment moves {figure(whole.total)} MB/s, {figure(whole.milliwatts)} "
+                    f"mW{said}."
+                ]
     return []
 
 
 def _about_name(view: View, offset: int) -> list[str]:
     """The traffic of the image that is named at a place, over the frame."""
-    image = next((name for name in names_at(view.names, view.text, offset) if name.section in ("images", "metal.textures")), None)
+    image = next(
+        (
+            name
+            for name in names_at(view.names, view.text, offset)
+            if name.section in ("images", "metal.textures")
+        ),
+        None,
+    )
     costs = costs_at(view, offset)
     if image is None or costs is None:
         return []
@@ -220,26 +272,40 @@ def _about_name(view: View, offset: int) -> list[str]:
     size = ""
     if memory is not None and memory.committed is not None:
         lazily = memory.bytes is not None and memory.committed < memory.bytes
-        size = f"; {figure(memory.committed / 2**20)} MiB of memory" + (f" of {figure((memory.bytes or 0) / 2**20)} MiB" if lazily else "")
-    traffic = f"{figure(total.read)} MB/s read, {figure(total.write)} MB/s written, {figure(total.milliwatts)} mW"
+        size = f"; {figure(memory.committed / 2**20)} MiB of memory" + (
+            f" of {figure((memory.bytes or 0) / 2**20)} MiB" if lazily else ""
+        )
+    traffic = (
+        f"{figure(total.read)} MB/s read, {figure(total.write)} MB/s written, "
+        f"{figure(total.milliwatts)} mW"
+    )
     said = f"Image {code(image.text)}: {traffic}{size}."
     if not lines:
         return [said]
     rows = [
-        f"| {code(name)} | {line.aspect} | {line.action} | {figure(moved([line], cost).total)} | {figure(moved([line], cost).milliwatts)} |"
+        f"| {code(name)} | {line.aspect} | {line.action} | {figure(moved([line], cost).total)} | "
+        f"{figure(moved([line], cost).milliwatts)} |"
         for name, line in lines
     ]
-    return [said + "\n\n| pass | aspect | action | MB/s | mW |\n| --- | --- | --- | ---: | ---: |\n" + "\n".join(rows)]
+    return [
+        said
+        + "\n\n| pass | aspect | action | MB/s | mW |\n| --- | --- | --- | ---: | ---: |\n"
+        + "\n".join(rows)
+    ]
 
 
 def code(text: str) -> str:
-    """A text of an input as it is, also in a cell of a table: in backquotes, or escaped if it has characters that end them or the cell."""
+    """A text of an input as it is, also in a cell of a table: in backquotes, or escaped if it has
+    characters that end them or the cell.
+    """
     shown = display(text)
     return escape_markdown(shown) if not shown or "`" in shown or "|" in shown else f"`{shown}`"
 
 
 def prose(text: str) -> str:
-    """A sentence with texts of an input in it, some of them in backquotes, so that it is shown as it is."""
+    """A sentence with texts of an input in it, some of them in backquotes, so that it is shown as
+    it is.
+    """
     parts = display(text).split("`")
     if len(parts) % 2 == 0:
         return escape_markdown("`".join(parts))

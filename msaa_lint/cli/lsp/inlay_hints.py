@@ -44,17 +44,31 @@ def _hints(view: View) -> Iterator[Hint]:
             unknown = "; not counted: " + ", ".join(each.cost.unknown) if each.cost.unknown else ""
             more = "+" if each.cost.unknown else ""
             text = f"{figure(total.total)}{more} MB/s, {figure(total.milliwatts)} mW"
-            yield Hint(_after_key(view.text, each.head), text, f"the whole pass{times}: {_words(total)}{unknown}")
+            yield Hint(
+                _after_key(view.text, each.head),
+                text,
+                f"the whole pass{times}: {_words(total)}{unknown}",
+            )
             for head, node, lines in each.attachments:
                 if lines:
                     yield _attachment_hint(view.text, head, node, lines, cost)
 
 
-def _attachment_hint(text: str, head: Span, node: Node, lines: tuple[Line, ...], cost: FrameCost) -> Hint:
+def _attachment_hint(
+    text: str, head: Span, node: Node, lines: tuple[Line, ...], cost: FrameCost
+) -> Hint:
     whole = moved(lines, cost)
     resolved = moved((line for line in lines if line.action == "resolve"), cost)
-    share = f", {figure(resolved.total)} of it the resolve" if 0 < resolved.total < whole.total else " (resolve)" if resolved.total else ""
-    parts = [f"{line.action} {line.aspect} {figure(moved([line], cost).total)} MB/s" for line in lines]
+    share = (
+        f", {figure(resolved.total)} of it the resolve"
+        if 0 < resolved.total < whole.total
+        else " (resolve)"
+        if resolved.total
+        else ""
+    )
+    parts = [
+        f"{line.action} {line.aspect} {figure(moved([line], cost).total)} MB/s" for line in lines
+    ]
     at = node.end if "\n" not in text[head.start : node.end] else _after_key(text, head)
     return Hint(at, f"{figure(whole.total)} MB/s{share}", f"{_words(whole)}: {', '.join(parts)}")
 
@@ -67,9 +81,18 @@ def _after_key(text: str, head: Span) -> int:
 
 
 def _words(amount: Moved) -> str:
-    return f"{figure(amount.read)} MB/s read, {figure(amount.write)} MB/s written, {figure(amount.milliwatts)} mW"
+    return (
+        f"{figure(amount.read)} MB/s read, {figure(amount.write)} MB/s written, "
+        f"{figure(amount.milliwatts)} mW"
+    )
 
 
 def figure(value: float) -> str:
     """A number as people compare them: no decimals from 100, one from 10, else two."""
-    return f"{value:,.0f}" if abs(value) >= 100 else f"{value:.1f}" if abs(value) >= 10 else f"{value:.2f}"
+    return (
+        f"{value:,.0f}"
+        if abs(value) >= 100
+        else f"{value:.1f}"
+        if abs(value) >= 10
+        else f"{value:.2f}"
+    )

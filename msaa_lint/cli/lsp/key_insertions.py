@@ -44,11 +44,17 @@ class KeyInsertion(NamedTuple):
 
     def begins_on(self, source: Source, span: Span) -> bool:
         """Whether the structure begins on one of the lines of a place."""
-        return source.position(span.start).line <= source.position(self.structure.start).line <= source.position(span.end).line
+        return (
+            source.position(span.start).line
+            <= source.position(self.structure.start).line
+            <= source.position(span.end).line
+        )
 
 
 def key_insertions(result: FileResult) -> list[KeyInsertion]:
-    """The keys that the undecided rules of a description lack, each with one insertion for each of its few values, and one without."""
+    """The keys that the undecided rules of a description lack, each with one insertion for each of
+    its few values, and one without.
+    """
     documents = unmerged(result).documents
     rules: dict[tuple[int, MissingKey], list[str]] = {}
     for undecided in unmerged(result).undecided:
@@ -78,17 +84,23 @@ class _Editor:
         description = result.document.description
         self._root: Record = description.metal or description
         self._description = description
-        self._records: dict[str, Record] = {record.path: record for record in nested_records(self._root)}
+        self._records: dict[str, Record] = {
+            record.path: record for record in nested_records(self._root)
+        }
         self._editor = TextEditor(result.document)
         self._text = result.document.source.text
         self._quote = '"' if self._text.lstrip()[:1] == "{" else ""
 
     def insertions(self, key: MissingKey, rules: Sequence[str]) -> Iterator[KeyInsertion]:
-        """The insertions of a key: one for each of its values if they are few, and one for the user to write the value."""
+        """The insertions of a key: one for each of its values if they are few, and one for the user
+        to write the value.
+        """
         more = f", and {len(rules) - MAX_RULES} more" if len(rules) > MAX_RULES else ""
         to = f" to {key.structure}" if key.structure else ""
         about = f"{to}, to decide {', '.join(rules[:MAX_RULES])}{more}"
-        for value, text, edits in self._commands(key) if key.structure == "commands" else self._members(key):
+        for value, text, edits in (
+            self._commands(key) if key.structure == "commands" else self._members(key)
+        ):
             title = f"Add {key.name}: {value}{about}" if value else f"Add {key.name}{about}"
             yield KeyInsertion(key.span, title, edits, MARK in text)
 
@@ -104,17 +116,27 @@ class _Editor:
             for member in reversed(inner):
                 text = f"{{{self._quoted(member.removesuffix('[0]'))}: {_item(member, text)}}}"
             try:
-                yield value, text, self._editor.insertion(record, name.removesuffix("[0]"), _item(name, text))
+                yield (
+                    value,
+                    text,
+                    self._editor.insertion(record, name.removesuffix("[0]"), _item(name, text)),
+                )
             except NoFix:
                 continue
 
     def _values(self, key: MissingKey, record: Record, shape: Shape) -> list[tuple[str, str]]:
-        """A few values of a key, and their texts: the words that it may hold, the names that are defined, or what others state for it."""
+        """A few values of a key, and their texts: the words that it may hold, the names that are
+        defined, or what others state for it.
+        """
         if _CHOICES.fullmatch(key.values) and " or " in key.values:
             return [(word, self._scalar(word)) for word in re.split(r", | or ", key.values)]
         if shape[0] == "name":
             return [(name, quote_scalar(name, self._quote)) for name in self._names(shape[1])]
-        return [(text, text) for text in self._stated(key.name, type(record))] if "." not in key.name else []
+        return (
+            [(text, text) for text in self._stated(key.name, type(record))]
+            if "." not in key.name
+            else []
+        )
 
     def _names(self, section: str) -> list[str]:
         """The first names of a section, such as `images` or `metal.textures`."""
@@ -125,19 +147,33 @@ class _Editor:
 
     def _stated(self, name: str, kind: type[Record]) -> list[str]:
         """The texts that structures of one kind state for a member."""
-        nodes = (each.spelled[name][1] for each in self._records.values() if type(each) is kind and each.states(name))
+        nodes = (
+            each.spelled[name][1]
+            for each in self._records.values()
+            if type(each) is kind and each.states(name)
+        )
         texts = (self._text[node.start : node.end] for node in nodes if node.anchor is None)
-        return list(dict.fromkeys(text for text in texts if text and _PLAIN.fullmatch(text)))[:MAX_VALUES]
+        return list(dict.fromkeys(text for text in texts if text and _PLAIN.fullmatch(text)))[
+            :MAX_VALUES
+        ]
 
     def _commands(self, key: MissingKey) -> Iterator[tuple[str, str, tuple[Edit, ...]]]:
-        """The commands at the end of the frame that present one of its images. Where others belong depends on what they are for."""
+        """The commands at the end of the frame that present one of its images. Where others belong
+        depends on what they are for.
+        """
         if key.name != "present" or not self._root.states("commands"):
             return
         for name, image in self._description.images.items():
             if image.samples in (None, 1):
                 text = f"{{{self._quoted('image')}: {quote_scalar(name, self._quote)}}}"
                 try:
-                    yield name, text, self._editor.addition(self._root, "commands", f"{self._quoted('present')}: {text}")
+                    yield (
+                        name,
+                        text,
+                        self._editor.addition(
+                            self._root, "commands", f"{self._quoted('present')}: {text}"
+                        ),
+                    )
                 except NoFix:
                     continue
 
@@ -148,10 +184,18 @@ class _Editor:
             return f"[{MARK}]"
         if kind in ("record", "map", "numbered"):
             return f"{{{MARK}}}"
-        return MARK if kind in ("int", "number", "bool", "samples", "share", "null", "either") else f"{self._quote}{MARK}{self._quote}"
+        return (
+            MARK
+            if kind in ("int", "number", "bool", "samples", "share", "null", "either")
+            else f"{self._quote}{MARK}{self._quote}"
+        )
 
     def _scalar(self, word: str) -> str:
-        return word if not self._quote or word in ("true", "false") or word.isdecimal() else f'"{word}"'
+        return (
+            word
+            if not self._quote or word in ("true", "false") or word.isdecimal()
+            else f'"{word}"'
+        )
 
     def _quoted(self, name: str) -> str:
         return f"{self._quote}{name}{self._quote}"

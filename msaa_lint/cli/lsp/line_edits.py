@@ -1,4 +1,6 @@
-"""The edits between two texts, so that an editor keeps its cursor, marks, and folds outside of them."""
+"""The edits between two texts, so that an editor keeps its cursor, marks, and folds outside of
+them.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +10,9 @@ from itertools import accumulate
 from msaa_lint.core.text.span import Edit, Span
 
 MAX_LINES = 2000
-"""Lines between the first and the last difference up to which several edits are determined, in time that may grow with their square."""
+"""Lines between the first and the last difference up to which several edits are determined, in time
+that may grow with their square.
+"""
 
 
 def line_edits(before: str, after: str) -> list[Edit]:

@@ -37,8 +37,13 @@ class Link(NamedTuple):
 
 
 def links(view: View) -> list[Link]:
-    """The links of a text in order. A rule has one where the address of the documentation is set; a path, where its file exists."""
-    found = [*_rules(view), *(_in_configuration(view) if view.kind == "configuration" else _in_description(view))]
+    """The links of a text in order. A rule has one where the address of the documentation is set; a
+    path, where its file exists.
+    """
+    found = [
+        *_rules(view),
+        *(_in_configuration(view) if view.kind == "configuration" else _in_description(view)),
+    ]
     return sorted(set(found))[:MAX_LINKS]
 
 
@@ -46,7 +51,9 @@ def _rules(view: View) -> Iterator[Link]:
     """The rules that suppressions name."""
     for match in _SUPPRESSION.finditer(view.text):
         for word in _WORD.finditer(match[1]):
-            yield from _rule(view, word[0], Span(match.start(1) + word.start(), match.start(1) + word.end()))
+            yield from _rule(
+                view, word[0], Span(match.start(1) + word.start(), match.start(1) + word.end())
+            )
 
 
 def _rule(view: View, word: str, span: Span) -> Iterator[Link]:
@@ -60,9 +67,17 @@ def _in_description(view: View) -> Iterator[Link]:
     """The shader modules and the device report that a description names."""
     for root in descriptions(view.roots):
         for place in walk(root):
-            if place.record is ShaderStage and place.path[-1] == "module" and place.node.kind == "scalar":
+            if (
+                place.record is ShaderStage
+                and place.path[-1] == "module"
+                and place.node.kind == "scalar"
+            ):
                 yield from _file(view, place.node.text, inner(view.text, place.node))
-            elif place.path == ("device",) and place.node.kind == "scalar" and is_path(place.node.text):
+            elif (
+                place.path == ("device",)
+                and place.node.kind == "scalar"
+                and is_path(place.node.text)
+            ):
                 yield from _file(view, split(place.node.text)[0], inner(view.text, place.node))
 
 
@@ -75,7 +90,12 @@ def _in_configuration(view: View) -> Iterator[Link]:
             word = Span(span.start + quote, span.end - quote)
             text = view.text[word.start : word.end]
             yield from _rule(view, text, word)
-            if span == place.value and keys and keys[0] in _PATHS and (keys[0] != "profile" or is_path(text)):
+            if (
+                span == place.value
+                and keys
+                and keys[0] in _PATHS
+                and (keys[0] != "profile" or is_path(text))
+            ):
                 yield from _file(view, split(text)[0] if keys[0] == "profile" else text, word)
 
 

@@ -1,4 +1,6 @@
-"""Lints open documents as `check` lints their files, by the same run: of unsaved text, with the same settings and limits."""
+"""Lints open documents as `check` lints their files, by the same run: of unsaved text, with the
+same settings and limits.
+"""
 
 from __future__ import annotations
 
@@ -33,27 +35,43 @@ _RULE_KEYS = re.compile(r"(?m)^(?:code|when|subject)[ \t]*:")
 
 
 _FORMAT = "lsp"
-"""Not an output of `check`: prices are computed, and fixes are tried, only when they are asked for. So are keys that rules lack."""
+"""Not an output of `check`: prices are computed, and fixes are tried, only when they are asked for.
+So are keys that rules lack.
+"""
 
 
 def analyze(
-    document: OpenDocument, others: Sequence[OpenDocument], encoding: types.PositionEncodingKind, known: Kind | None = None
+    document: OpenDocument,
+    others: Sequence[OpenDocument],
+    encoding: types.PositionEncodingKind,
+    known: Kind | None = None,
 ) -> Analysis:
-    """Lints a document; `others` are those open beside it. One that was `known` as a description remains one while it is edited."""
+    """Lints a document; `others` are those open beside it. One that was `known` as a description
+    remains one while it is edited.
+    """
     if document.folder is not None and os.path.isdir(document.folder):
-        # Findings name files relative to the current folder, and its configuration has the settings of a run.
+        # Findings name files relative to the current folder, and its configuration has the settings
+        # of a run.
         os.chdir(document.folder)
-    buffers = {os.path.realpath(file): each.data for each in (*others, document) if (file := each.file) is not None}
+    buffers = {
+        os.path.realpath(file): each.data
+        for each in (*others, document)
+        if (file := each.file) is not None
+    }
     with with_buffers(buffers):
         return _analyze(document, encoding, known)
 
 
-def _analyze(document: OpenDocument, encoding: types.PositionEncodingKind, known: Kind | None) -> Analysis:
+def _analyze(
+    document: OpenDocument, encoding: types.PositionEncodingKind, known: Kind | None
+) -> Analysis:
     file = document.file
     path = shown(file) if file is not None else document.uri
     workspace = Workspace(Request([]))
     resolved = workspace.resolve(path if file is not None else os.curdir)
-    analysis = Analysis(document.uri, path, document.version, Kind.OTHER, document.text, encoding, resolved)
+    analysis = Analysis(
+        document.uri, path, document.version, Kind.OTHER, document.text, encoding, resolved
+    )
     try:
         kind = _kind(document, path, resolved, known)
         analysis = dataclasses.replace(analysis, kind=kind)
@@ -62,11 +80,15 @@ def _analyze(document: OpenDocument, encoding: types.PositionEncodingKind, known
         if kind in (Kind.CONFIGURATION, Kind.RULE):
             return dataclasses.replace(analysis, findings=_about_settings(workspace, analysis))
     except Exception as error:
-        return dataclasses.replace(analysis, findings=[diagnostic("MSAA941", internal_error(error), path)])
+        return dataclasses.replace(
+            analysis, findings=[diagnostic("MSAA941", internal_error(error), path)]
+        )
     return analysis
 
 
-def _kind(document: OpenDocument, path: str, resolved: ResolvedSettings, known: Kind | None) -> Kind:
+def _kind(
+    document: OpenDocument, path: str, resolved: ResolvedSettings, known: Kind | None
+) -> Kind:
     """What a document is, by its name, the settings, and its content."""
     name, settings = path.lower(), resolved.settings
     if os.path.basename(path) in NAMES:
@@ -79,10 +101,18 @@ def _kind(document: OpenDocument, path: str, resolved: ResolvedSettings, known: 
         return Kind.CODE if _reads_code() else Kind.OTHER
     if not (name.endswith(DATA) or document.language in ("yaml", "json", "jsonc")):
         return Kind.OTHER
-    if known is Kind.DESCRIPTION or name.endswith(DESCRIPTIONS) or (settings.include and excluding(path, settings.include) is not None):
+    if (
+        known is Kind.DESCRIPTION
+        or name.endswith(DESCRIPTIONS)
+        or (settings.include and excluding(path, settings.include) is not None)
+    ):
         return Kind.DESCRIPTION
     head = document.data[:MAX_BYTES]
-    is_input = capture_format(head[:HEAD_BYTES]) is None and own_output(head) is None and kind_of_text(head) == INPUT
+    is_input = (
+        capture_format(head[:HEAD_BYTES]) is None
+        and own_output(head) is None
+        and kind_of_text(head) == INPUT
+    )
     return Kind.DESCRIPTION if is_input else Kind.OTHER
 
 
@@ -104,10 +134,24 @@ def _lint_input(analysis: Analysis, document: OpenDocument) -> Analysis:
     request = (
         Request([analysis.path], formats=[_FORMAT], keys=0, edits=False)
         if exists
-        else Request([STDIN], formats=[_FORMAT], stdin_filename=analysis.path, data=document.data, keys=0, edits=False)
+        else Request(
+            [STDIN],
+            formats=[_FORMAT],
+            stdin_filename=analysis.path,
+            data=document.data,
+            keys=0,
+            edits=False,
+        )
     )
     result = run(request, results=lambda file, result: linted.append((file, result))).result
-    file, of_file = next(((file, result) for file, result in linted if analysis.path in (result.file, *result.sources)), (None, None))
+    file, of_file = next(
+        (
+            (file, result)
+            for file, result in linted
+            if analysis.path in (result.file, *result.sources)
+        ),
+        (None, None),
+    )
     return dataclasses.replace(
         analysis,
         findings=[found for found in result.findings if found.file == analysis.path],
@@ -120,14 +164,24 @@ def _lint_input(analysis: Analysis, document: OpenDocument) -> Analysis:
 
 
 def _about_settings(workspace: Workspace, analysis: Analysis) -> list[Finding]:
-    """The findings of `check` about a configuration, or about a rule page, which its configuration need not name."""
+    """The findings of `check` about a configuration, or about a rule page, which its configuration
+    need not name.
+    """
     if analysis.kind is Kind.RULE:
         real = os.path.realpath(analysis.path)
         if real in map(os.path.realpath, pages(folder())):
             return []
-        named = (os.path.realpath(page) for path in analysis.resolved.settings.rules for page in pages(path))
+        named = (
+            os.path.realpath(page)
+            for path in analysis.resolved.settings.rules
+            for page in pages(path)
+        )
         if real not in named:
             workspace = Workspace(Request([], overrides={"rules": [analysis.path]}))
     settle = workspace.current.selection.settle
-    findings = dict.fromkeys(found for found in map(settle, workspace.findings) if found is not None and found.file == analysis.path)
+    findings = dict.fromkeys(
+        found
+        for found in map(settle, workspace.findings)
+        if found is not None and found.file == analysis.path
+    )
     return sorted(findings, key=location_order)

@@ -14,17 +14,25 @@ from msaa_lint.frame.description.shapes import Shape
 
 from .places import content, descriptions, inner, members, shape_for
 
-SECTIONS = ("images", "renderPasses", "framebuffers", "pipelines", "metal.textures", "metal.renderPasses")
+SECTIONS = (
+    "images",
+    "renderPasses",
+    "framebuffers",
+    "pipelines",
+    "metal.textures",
+    "metal.renderPasses",
+)
 """The mappings whose entries other structures name."""
 
 ATTACHMENTS, SUBPASSES, ANCHORS = "attachments", "subpasses", "anchors"
 
 
 class Name(NamedTuple):
-    """What a name stands for: an entry of a section, or of the attachments or subpasses of a render pass.
+    """What a name stands for: an entry of a section, or of the attachments or subpasses of a render
+    pass.
 
-    `scope` has the number of the document, or -1 for the kinds of frame of one program, whose objects of one name are one object; and the
-    name of the render pass, if it is an entry of one.
+    `scope` has the number of the document, or -1 for the kinds of frame of one program, whose
+    objects of one name are one object; and the name of the render pass, if it is an entry of one.
     """
 
     section: str
@@ -44,11 +52,16 @@ Names = dict[Name, list[Occurrence]]
 
 
 def names_of(roots: Sequence[Node]) -> Names:
-    """All names of a text's descriptions, with their places in order. An anchored text belongs to all structures that share it."""
+    """All names of a text's descriptions, with their places in order. An anchored text belongs to
+    all structures that share it.
+    """
     found: Names = {}
     for number, root in enumerate(descriptions(roots)):
         _Reading(found, -1 if _is_frame_of_program(root) else number).read(root)
-    return {name: sorted(set(places), key=lambda place: place.node.start) for name, places in found.items()}
+    return {
+        name: sorted(set(places), key=lambda place: place.node.start)
+        for name, places in found.items()
+    }
 
 
 def _is_frame_of_program(root: Node) -> bool:
@@ -65,13 +78,23 @@ class _Reading:
         self.attachments: dict[str, list[str]] = {}
         """By render pass: the names of its attachments in order, if it names them."""
 
-    def add(self, section: str, owner: str, text: str, node: Node, is_definition: bool = False, is_index: bool = False) -> None:
+    def add(
+        self,
+        section: str,
+        owner: str,
+        text: str,
+        node: Node,
+        is_definition: bool = False,
+        is_index: bool = False,
+    ) -> None:
         name = Name(section, (self.number, owner), text)
         self.found.setdefault(name, []).append(Occurrence(node, is_definition, is_index))
 
     def read(self, root: Node) -> None:
         visited: set[tuple[int, str]] = set()
-        pending: list[tuple[Node, Shape, str, tuple[str, ...]]] = [(root, ("record", Description), "", ())]
+        pending: list[tuple[Node, Shape, str, tuple[str, ...]]] = [
+            (root, ("record", Description), "", ())
+        ]
         while pending:
             node, shape, owner, path = pending.pop()
             if node.kind == "scalar":
@@ -89,7 +112,14 @@ class _Reading:
             if shape == ("record", Pipeline) and node.kind == "mapping":
                 self.read_subpass_of(node)
             for text, _, value, stated, _ in members(shape, node):
-                pending.append((value, shape_for(stated, value), owner, (*path, text) if len(path) < 3 else path))
+                pending.append(
+                    (
+                        value,
+                        shape_for(stated, value),
+                        owner,
+                        (*path, text) if len(path) < 3 else path,
+                    )
+                )
 
     def define_parts(self, node: Node, owner: str) -> None:
         """Adds the attachments and subpasses of a render pass."""
@@ -132,7 +162,8 @@ def names_at(names: Names, text: str, offset: int) -> list[Name]:
         name
         for name, places in names.items()
         for node in (place.node for place in places)
-        if (node.kind == "scalar" and content(text, node).start <= offset <= node.end) or _is_head(node, offset)
+        if (node.kind == "scalar" and content(text, node).start <= offset <= node.end)
+        or _is_head(node, offset)
     ]
 
 
@@ -159,7 +190,9 @@ def connected(names: Names, first: Sequence[Name]) -> list[Name]:
 
 def occurrences(names: Names, of: Sequence[Name]) -> list[Occurrence]:
     """The places of some names, in order."""
-    return sorted({place for name in of for place in names[name]}, key=lambda place: place.node.start)
+    return sorted(
+        {place for name in of for place in names[name]}, key=lambda place: place.node.start
+    )
 
 
 def span_of(text: str, place: Occurrence) -> Span:

@@ -1,4 +1,6 @@
-"""Definitions and references of images, attachments, passes, framebuffers, pipelines, subpasses and anchors."""
+"""Definitions and references of images, attachments, passes, framebuffers, pipelines, subpasses and
+anchors.
+"""
 
 from __future__ import annotations
 
@@ -13,7 +15,9 @@ if TYPE_CHECKING:
 
 
 def definition(view: View, offset: int) -> list[Span]:
-    """Where what is named at an offset is defined; nothing where no name is. An alias leads to its anchor."""
+    """Where what is named at an offset is defined; nothing where no name is. An alias leads to its
+    anchor.
+    """
     anchored = anchor_at(view.text, offset)
     if anchored is not None:
         return [anchored[0].span]
@@ -29,4 +33,10 @@ def references(view: View, offset: int, with_definition: bool = True) -> list[Sp
         return anchor.spans if with_definition else anchor.aliases
     names = view.names
     places = occurrences(names, connected(names, names_at(names, view.text, offset)))
-    return list(dict.fromkeys(span_of(view.text, place) for place in places if with_definition or not place.is_definition))
+    return list(
+        dict.fromkeys(
+            span_of(view.text, place)
+            for place in places
+            if with_definition or not place.is_definition
+        )
+    )

@@ -1,4 +1,6 @@
-"""Places in a description's tree, with what the format says about each: the shape of its value and the structure it is a member of."""
+"""Places in a description's tree, with what the format says about each: the shape of its value and
+the structure it is a member of.
+"""
 
 from __future__ import annotations
 
@@ -25,8 +27,9 @@ _PROPERTIES = re.compile(r"(?:(?:&[^\s,\[\]{}]+|!<[^>\s]*>|![^\s,\[\]{}]*)[ \t\r
 class Place(NamedTuple):
     """A value in a description.
 
-    `shape` is the shape that the value has been matched to, `stated` the one that its structure declares. `key` is the node of its key,
-    `record` the structure whose member it is; both are None for an item of a list, `record` also for an entry of a mapping by name.
+    `shape` is the shape that the value has been matched to, `stated` the one that its structure
+    declares. `key` is the node of its key, `record` the structure whose member it is; both are None
+    for an item of a list, `record` also for an entry of a mapping by name.
     """
 
     node: Node
@@ -86,8 +89,12 @@ def alternatives(shape: Shape) -> list[Shape]:
     return [shape]
 
 
-def members(shape: Shape, node: Node) -> Iterator[tuple[str, Node | None, Node, Shape, type[Record] | None]]:
-    """The name, key, value and declared shape of what a value consists of, aliases and merge keys expanded; and its structure."""
+def members(
+    shape: Shape, node: Node
+) -> Iterator[tuple[str, Node | None, Node, Shape, type[Record] | None]]:
+    """The name, key, value and declared shape of what a value consists of, aliases and merge keys
+    expanded; and its structure.
+    """
     kind = shape[0]
     if node.kind == "mapping":
         record: type[Record] | None = shape[1] if kind in ("record", "command") else None
@@ -113,7 +120,9 @@ def children(place: Place) -> Iterator[Place]:
         return
     for name, key, value, stated, record in members(place.shape, node):
         if node.start <= (key or value).start <= node.end:
-            yield Place(value, shape_for(stated, value), stated, (*place.path, name), key, record, place)
+            yield Place(
+                value, shape_for(stated, value), stated, (*place.path, name), key, record, place
+            )
 
 
 def walk(root: Node) -> Iterator[Place]:
@@ -127,7 +136,9 @@ def walk(root: Node) -> Iterator[Place]:
 
 
 def place_at(roots: Sequence[Node], offset: int) -> tuple[Place, bool] | None:
-    """The innermost value, or the one with the key, at an offset; and whether the offset is in its key. None outside of descriptions."""
+    """The innermost value, or the one with the key, at an offset; and whether the offset is in its
+    key. None outside of descriptions.
+    """
     root = next((root for root in descriptions(roots) if root.start <= offset <= root.end), None)
     if root is None:
         return None
@@ -152,5 +163,10 @@ def content(text: str, node: Node) -> Span:
 def inner(text: str, node: Node) -> Span:
     """The span of a scalar without its anchor, tag and quotes."""
     start, end = content(text, node)
-    quoted = not node.plain and end - start >= 2 and text[start] in "\"'" and text[end - 1] == text[start]
+    quoted = (
+        not node.plain
+        and end - start >= 2
+        and text[start] in "\"'"
+        and text[end - 1] == text[start]
+    )
     return Span(start + 1, end - 1) if quoted else Span(start, end)

@@ -24,12 +24,18 @@ class Positions:
         self._codec, self._size = _UNITS[encoding]
 
     def offset(self, position: types.Position) -> int:
-        """The offset of a position in code points. One beyond the end of its line, or of the text, is at that end."""
+        """The offset of a position in code points. One beyond the end of its line, or of the text,
+        is at that end.
+        """
         source = self.source
         if position.line >= len(source.starts):
             return len(source.text)
         line = source.line(position.line + 1)
-        column = min(position.character, len(line)) if line.isascii() else self._count(line, position.character)
+        column = (
+            min(position.character, len(line))
+            if line.isascii()
+            else self._count(line, position.character)
+        )
         return source.starts[position.line] + column
 
     def position(self, offset: int) -> types.Position:
@@ -38,11 +44,20 @@ class Positions:
         offset = min(max(offset, 0), len(text))
         line = bisect_right(starts, offset) - 1
         start = starts[line]
-        return types.Position(line, offset - start if text.isascii() else self._units(text[start:offset]))
+        return types.Position(
+            line, offset - start if text.isascii() else self._units(text[start:offset])
+        )
 
     def _units(self, text: str) -> int:
-        return len(text) if text.isascii() else len(text.encode(self._codec, "surrogatepass")) // self._size
+        return (
+            len(text)
+            if text.isascii()
+            else len(text.encode(self._codec, "surrogatepass")) // self._size
+        )
 
     def _count(self, line: str, units: int) -> int:
         """The number of code points at the beginning of a line that a number of units holds."""
-        return bisect_right(range(len(line) + 1), units, key=lambda count: self._units(line[:count])) - 1
+        return (
+            bisect_right(range(len(line) + 1), units, key=lambda count: self._units(line[:count]))
+            - 1
+        )

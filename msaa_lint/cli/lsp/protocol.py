@@ -33,7 +33,8 @@ def serve() -> int:
     server = create()
     gc.freeze()
     with open(os.dup(0), "rb") as reader, open(os.dup(1), "wb") as writer:
-        # What else reads or prints, such as a program that is run, must not take part in the conversation.
+        # What else reads or prints, such as a program that is run, must not take part in the
+        # conversation.
         null = os.open(os.devnull, os.O_RDONLY)
         os.dup2(null, 0)
         os.close(null)
@@ -74,27 +75,42 @@ def _add_documents(server: Server) -> None:
 
 
 def _add_diagnostics(server: Server) -> None:
-    @server.feature(types.TEXT_DOCUMENT_DIAGNOSTIC, types.DiagnosticOptions(inter_file_dependencies=True, workspace_diagnostics=False))
+    @server.feature(
+        types.TEXT_DOCUMENT_DIAGNOSTIC,
+        types.DiagnosticOptions(inter_file_dependencies=True, workspace_diagnostics=False),
+    )
     async def diagnostic(params: types.DocumentDiagnosticParams) -> types.DocumentDiagnosticReport:
         analysis = await server.analysis(params.text_document.uri)
-        return types.RelatedFullDocumentDiagnosticReport(diagnostics(analysis) if analysis is not None else [])
+        return types.RelatedFullDocumentDiagnosticReport(
+            diagnostics(analysis) if analysis is not None else []
+        )
 
 
 def _add_code_actions(server: Server) -> None:
-    @server.feature(types.TEXT_DOCUMENT_CODE_ACTION, types.CodeActionOptions(KINDS, resolve_provider=True))
+    @server.feature(
+        types.TEXT_DOCUMENT_CODE_ACTION, types.CodeActionOptions(KINDS, resolve_provider=True)
+    )
     async def code_action(params: types.CodeActionParams) -> list[types.CodeAction]:
         analysis = await server.analysis(params.text_document.uri)
         if analysis is None:
             return []
         at, only = analysis.span(params.range), params.context.only
-        actions = await server.worker.call(lambda: code_actions(analysis, at, only, server.takes_snippet_edits))
+        actions = await server.worker.call(
+            lambda: code_actions(analysis, at, only, server.takes_snippet_edits)
+        )
         if server.resolves_edits:
             return actions
-        edited = await server.worker.call(lambda: [with_edit(analysis, action) for action in actions])
+        edited = await server.worker.call(
+            lambda: [with_edit(analysis, action) for action in actions]
+        )
         return [action for action in edited if action.edit is not None]
 
     @server.feature(types.CODE_ACTION_RESOLVE)
     async def resolve(action: types.CodeAction) -> types.CodeAction:
         uri = action.data.get("uri") if isinstance(action.data, dict) else None
         analysis = await server.analysis(uri) if isinstance(uri, str) else None
-        return await server.worker.call(lambda: with_edit(analysis, action)) if analysis is not None else action
+        return (
+            await server.worker.call(lambda: with_edit(analysis, action))
+            if analysis is not None
+            else action
+        )

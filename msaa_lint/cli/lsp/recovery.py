@@ -1,4 +1,6 @@
-"""The tree of a text while it is typed: lines that cannot be parsed are left out, and a mark stands for the word at the cursor."""
+"""The tree of a text while it is typed: lines that cannot be parsed are left out, and a mark stands
+for the word at the cursor.
+"""
 
 from __future__ import annotations
 
@@ -27,7 +29,9 @@ SYNTAX = ("MSAA901", "MSAA906")
 
 
 class Word(NamedTuple):
-    """The word at a cursor, quotes included: its place, the quote it begins with, and its part before the cursor."""
+    """The word at a cursor, quotes included: its place, the quote it begins with, and its part
+    before the cursor.
+    """
 
     start: int
     end: int
@@ -36,7 +40,9 @@ class Word(NamedTuple):
 
 
 class Marked(NamedTuple):
-    """A text with MARK in place of the word at the cursor, its documents, and the offset of the mark."""
+    """A text with MARK in place of the word at the cursor, its documents, and the offset of the
+    mark.
+    """
 
     text: str
     roots: list[Node]
@@ -44,13 +50,17 @@ class Marked(NamedTuple):
 
 
 def repaired(text: str, limits: Limits) -> list[Node]:
-    """The documents of a text; of one with errors of its syntax, without the lines that have them, as far as that helps."""
+    """The documents of a text; of one with errors of its syntax, without the lines that have them,
+    as far as that helps.
+    """
     text, roots = _without_errors(text, limits)
     return roots if roots is not None else beginning(text, limits)
 
 
 def _without_errors(text: str, limits: Limits) -> tuple[str, list[Node] | None]:
-    """The text with lines that have errors left blank, and its documents; None for them if it still cannot be read."""
+    """The text with lines that have errors left blank, and its documents; None for them if it still
+    cannot be read.
+    """
     for _ in range(MAX_REPAIRS):
         parsed = parse(Source("", text), limits)
         if not parsed.problems or parsed.problems[-1].code not in SYNTAX:
@@ -76,7 +86,8 @@ def word_at(text: str, offset: int) -> Word:
 
 
 def marked(text: str, word: Word, limits: Limits) -> Marked | None:
-    """The text with a mark for a word, completed in the way that needs the fewest changes; None if no way makes it readable.
+    """The text with a mark for a word, completed in the way that needs the fewest changes; None if
+    no way makes it readable.
 
     Lines are only left out if they have an error without the mark as well.
     """
@@ -116,7 +127,9 @@ def _completions(text: str, word: Word) -> Iterator[tuple[str, str]]:
     yield head, text[line_end:]
     brackets = outline(parser(readable(head + MARK)[0]), head + MARK, word.start).brackets
     if brackets:
-        everything = "".join("}" if text[bracket.start] == "{" else "]" for bracket in reversed(brackets))
+        everything = "".join(
+            "}" if text[bracket.start] == "{" else "]" for bracket in reversed(brackets)
+        )
         yield f"{head}, ", f":{tail}"
         yield head, everything
         yield f"{head}, ", everything
@@ -135,7 +148,12 @@ def _closers(line: str) -> str:
 
 def lead(text: str, word: Word) -> str:
     """The space that a word lacks after the `:` of a plain key."""
-    return " " if text[word.start - 1 : word.start] == ":" and text[word.start - 2 : word.start - 1] not in ("'", '"') else ""
+    return (
+        " "
+        if text[word.start - 1 : word.start] == ":"
+        and text[word.start - 2 : word.start - 1] not in ("'", '"')
+        else ""
+    )
 
 
 def _line(text: str, at: int) -> tuple[int, int]:

@@ -18,7 +18,9 @@ from .json_rpc import Protocol
 from .worker import Worker
 
 WATCHED = ("**/*.toml", "**/*.md", "**/*.spv")
-"""The files on which findings in other files may depend: configurations, rule pages, and shaders."""
+"""The files on which findings in other files may depend: configurations, rule pages, and
+shaders.
+"""
 
 REFRESH_ID = "msaa-lint-watched-files"
 
@@ -34,7 +36,9 @@ class Server(LanguageServer):
         self.documents: dict[str, OpenDocument] = {}
 
     def report_server_error(self, error: Exception, source: object) -> None:
-        """Answers what is not JSON; there is nothing to say about the rest, which has been answered."""
+        """Answers what is not JSON; there is nothing to say about the rest, which has been
+        answered.
+        """
         if source is JsonRpcException and isinstance(error, (ValueError, RecursionError)):
             self.protocol.answer_unreadable()
 
@@ -48,24 +52,40 @@ class Server(LanguageServer):
     def resolves_edits(self) -> bool:
         """Whether the editor asks for the edit of an action when it is chosen."""
         document = self.client_capabilities.text_document
-        support = document.code_action.resolve_support if document is not None and document.code_action is not None else None
+        support = (
+            document.code_action.resolve_support
+            if document is not None and document.code_action is not None
+            else None
+        )
         return support is not None and "edit" in support.properties
 
     @property
     def takes_snippet_edits(self) -> bool:
         """Whether edits may place the editor's cursor."""
         workspace = self.client_capabilities.workspace
-        return workspace is not None and workspace.workspace_edit is not None and bool(workspace.workspace_edit.snippet_edit_support)
+        return (
+            workspace is not None
+            and workspace.workspace_edit is not None
+            and bool(workspace.workspace_edit.snippet_edit_support)
+        )
 
     @property
     def encoding(self) -> types.PositionEncodingKind:
         """The encoding of positions that server and editor use."""
-        return types.PositionEncodingKind(self.workspace.position_encoding or types.PositionEncodingKind.Utf16)
+        return types.PositionEncodingKind(
+            self.workspace.position_encoding or types.PositionEncodingKind.Utf16
+        )
 
     def open(self, item: types.TextDocumentItem) -> None:
         """Adds a document, and lints it."""
-        folders = [folder.uri for folder in self.workspace.folders.values()] or [self.workspace.root_uri or ""]
-        self._put(OpenDocument(item.uri, item.version, item.text, item.language_id, folder_of(item.uri, folders)))
+        folders = [folder.uri for folder in self.workspace.folders.values()] or [
+            self.workspace.root_uri or ""
+        ]
+        self._put(
+            OpenDocument(
+                item.uri, item.version, item.text, item.language_id, folder_of(item.uri, folders)
+            )
+        )
 
     def change(self, params: types.DidChangeTextDocumentParams) -> None:
         """Changes a document, and lints it."""
@@ -81,7 +101,9 @@ class Server(LanguageServer):
             self.lint(other for other in self.documents.values() if other is not document)
 
     def close(self, uri: str) -> None:
-        """Drops a document and its diagnostics; what depends on its unsaved text is linted again."""
+        """Drops a document and its diagnostics; what depends on its unsaved text is linted
+        again.
+        """
         document = self.documents.pop(uri, None)
         self.worker.forget(uri)
         if not self.pulls:
@@ -99,15 +121,24 @@ class Server(LanguageServer):
         """Lints all documents, after something that they depend on has changed."""
         self.lint(self.documents.values())
         workspace = self.client_capabilities.workspace
-        if self.pulls and workspace is not None and workspace.diagnostics is not None and workspace.diagnostics.refresh_support:
+        if (
+            self.pulls
+            and workspace is not None
+            and workspace.diagnostics is not None
+            and workspace.diagnostics.refresh_support
+        ):
             self.workspace_diagnostic_refresh(None)
 
     def current(self, uri: str) -> Analysis | None:
-        """What is known at once of the newest version of a document: its text, and the rest from an older version; None if nothing is."""
+        """What is known at once of the newest version of a document: its text, and the rest from an
+        older version; None if nothing is.
+        """
         document, last = self.documents.get(uri), self.worker.results.get(uri)
         if document is None or last is None or last.version == document.version:
             return last if document is not None else None
-        return dataclasses.replace(last, version=document.version, text=document.text, findings=(), file=None, result=None)
+        return dataclasses.replace(
+            last, version=document.version, text=document.text, findings=(), file=None, result=None
+        )
 
     async def analysis(self, uri: str) -> Analysis | None:
         """The analysis of the newest version of a document; None if it is not open."""
@@ -119,13 +150,21 @@ class Server(LanguageServer):
         workspace = self.client_capabilities.workspace
         watched = workspace.did_change_watched_files if workspace is not None else None
         if watched is not None and watched.dynamic_registration:
-            options = types.DidChangeWatchedFilesRegistrationOptions([types.FileSystemWatcher(pattern) for pattern in WATCHED])
-            registration = types.Registration(REFRESH_ID, types.WORKSPACE_DID_CHANGE_WATCHED_FILES, options)
+            options = types.DidChangeWatchedFilesRegistrationOptions(
+                [types.FileSystemWatcher(pattern) for pattern in WATCHED]
+            )
+            registration = types.Registration(
+                REFRESH_ID, types.WORKSPACE_DID_CHANGE_WATCHED_FILES, options
+            )
             self.client_register_capability(types.RegistrationParams([registration]))
 
     def _done(self, analysis: Analysis) -> None:
-        """Sends the diagnostics of a document, unless the editor asks for them or has changed it."""
+        """Sends the diagnostics of a document, unless the editor asks for them or has changed
+        it.
+        """
         document = self.documents.get(analysis.uri)
         if document is not None and document.version == analysis.version and not self.pulls:
             found = diagnostics(analysis)
-            self.text_document_publish_diagnostics(types.PublishDiagnosticsParams(analysis.uri, found, analysis.version))
+            self.text_document_publish_diagnostics(
+                types.PublishDiagnosticsParams(analysis.uri, found, analysis.version)
+            )

@@ -19,15 +19,33 @@ _LINK = re.compile(r"\[([^\]]+)\]\((?!https?://)[^)\s]*\)")
 
 
 def setting_at(text: str, offset: int) -> tuple[str, Span] | None:
-    """What the key of a configuration means that is at an offset, or whose value is, and its place."""
+    """What the key of a configuration means that is at an offset, or whose value is, and its
+    place.
+    """
     found: tuple[str, Span] | None = None
     for path, place in places(text).items():
-        names = [part for part in (path[2:] if path[:2] == _PYPROJECT else path) if isinstance(part, str)]
-        words = next((words for n in range(len(names), 0, -1) if (words := documentation(".".join(names[:n])))), "")
+        names = [
+            part for part in (path[2:] if path[:2] == _PYPROJECT else path) if isinstance(part, str)
+        ]
+        words = next(
+            (
+                words
+                for n in range(len(names), 0, -1)
+                if (words := documentation(".".join(names[:n])))
+            ),
+            "",
+        )
         for span in (place.key, place.value):
-            if words and span.start <= offset <= span.end and (found is None or _length(span) <= _length(found[1])):
+            if (
+                words
+                and span.start <= offset <= span.end
+                and (found is None or _length(span) <= _length(found[1]))
+            ):
                 found = without_links(words), span
-    unfinished = next((match for match in _UNFINISHED.finditer(text) if match.start(1) <= offset <= match.end(1)), None)
+    unfinished = next(
+        (match for match in _UNFINISHED.finditer(text) if match.start(1) <= offset <= match.end(1)),
+        None,
+    )
     if found is None and unfinished is not None:
         table = ["", *TABLE.findall(text, 0, unfinished.start())][-1].strip()
         own = not table.startswith("tool.") or table.startswith(".".join(_PYPROJECT))
@@ -38,7 +56,12 @@ def setting_at(text: str, offset: int) -> tuple[str, Span] | None:
 
 def setting_text(name: str) -> str:
     """What a key means, or a key of one of the tables; empty if there is none of that name."""
-    return without_links(next(filter(None, (documentation(f"{table}{name}") for table in ("", "limits.", "source."))), ""))
+    return without_links(
+        next(
+            filter(None, (documentation(f"{table}{name}") for table in ("", "limits.", "source."))),
+            "",
+        )
+    )
 
 
 def _length(span: Span) -> int:

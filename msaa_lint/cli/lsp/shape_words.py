@@ -1,4 +1,6 @@
-"""Keys and values of a description in words: what documentation there is of them, and what they may hold."""
+"""Keys and values of a description in words: what documentation there is of them, and what they may
+hold.
+"""
 
 from __future__ import annotations
 
@@ -18,7 +20,8 @@ _SIMPLE = {
     "share": "a fraction above 0 and up to 1",
     "samples": "a sample count: 1, 2, 4, 8, 16, 32 or 64",
     "shading": f"{', '.join(SHADING_LEVELS)}, or a cost such as `200ops`, `500000ns` or `4.2ms`",
-    "slot": "an attachment of the render pass: its name, its index, `{attachment, layout}`, or `null` for VK_ATTACHMENT_UNUSED",
+    "slot": "an attachment of the render pass: its name, its index, `{attachment, layout}`, or "
+    "`null` for VK_ATTACHMENT_UNUSED",
     "subpass": "the index of a subpass, or `EXTERNAL`",
     "record": "a mapping",
     "command": "a command",
@@ -45,7 +48,10 @@ def shape_words(shape: Shape) -> str:
     if kind == "list":
         return f"a list, each item {shape_words(shape[1])}"
     if kind in ("map", "numbered"):
-        return f"a mapping by {'name' if kind == 'map' else 'number'}, each value {shape_words(shape[1])}"
+        return (
+            f"a mapping by {'name' if kind == 'map' else 'number'}, each value "
+            f"{shape_words(shape[1])}"
+        )
     if kind == "counted":
         return f"a mapping by name in index order, or a list, each entry {shape_words(shape[1])}"
     if kind == "null":
@@ -71,14 +77,24 @@ def value_documentation(place: Place) -> str:
         if name is not None:
             full = f"{PREFIXES[enum]}{name}" if enum in PREFIXES else f"{enum}.{name}"
             format = format_of(name) if enum == "VkFormat" else None
-            size = f", {format.bytes} bytes a {'texel' if format.block == (1, 1, 1) else 'block'}" if format is not None else ""
-            return "\n\n".join(filter(None, (f"`{full}`{size}", enumerant_documentation(enum, name))))
+            size = (
+                f", {format.bytes} bytes a {'texel' if format.block == (1, 1, 1) else 'block'}"
+                if format is not None
+                else ""
+            )
+            return "\n\n".join(
+                filter(None, (f"`{full}`{size}", enumerant_documentation(enum, name)))
+            )
     return ""
 
 
 def enumerant_documentation(enums: str, name: str) -> str:
-    """What a value of one of some enums, which `|` joins, means; empty if there is no text for it."""
-    return next((text for enum in enums.split("|") if enum and (text := enumerant_text(enum, name))), "")
+    """What a value of one of some enums, which `|` joins, means; empty if there is no text for
+    it.
+    """
+    return next(
+        (text for enum in enums.split("|") if enum and (text := enumerant_text(enum, name))), ""
+    )
 
 
 def device_documentation(name: str) -> str:
@@ -88,5 +104,9 @@ def device_documentation(name: str) -> str:
         return ""
     counts = ", ".join(map(str, profile.color_samples or ()))
     kind = {True: "tile-based", False: "immediate-mode", None: ""}[profile.tiler]
-    facts = [kind, f"color sample counts {counts}" if counts else "", f"Vulkan {profile.api_version}" if profile.api_version else ""]
+    facts = [
+        kind,
+        f"color sample counts {counts}" if counts else "",
+        f"Vulkan {profile.api_version}" if profile.api_version else "",
+    ]
     return f"**{profile.name}**: " + "; ".join(filter(None, facts))

@@ -21,7 +21,9 @@ REASON = "TODO: state why this is intended"
 
 
 def suppression_edit(analysis: Analysis, found: Finding) -> Edit | None:
-    """The edit that suppresses a finding, in a comment on the line before it; None where a comment there would not."""
+    """The edit that suppresses a finding, in a comment on the line before it; None where a comment
+    there would not.
+    """
     if found.span is None or found.fatal or analysis.kind not in (Kind.DESCRIPTION, Kind.CODE):
         return None
     source = analysis.source
@@ -39,9 +41,15 @@ def suppression_edit(analysis: Analysis, found: Finding) -> Edit | None:
 
 
 def _suppresses(analysis: Analysis, found: Finding, edit: Edit) -> bool:
-    """Whether a finding is suppressed after an edit: the text must still be read, and its new comment be one, and be about the finding."""
+    """Whether a finding is suppressed after an edit: the text must still be read, and its new
+    comment be one, and be about the finding.
+    """
     source = Source(found.file, edited(analysis.source.text, [edit]))
-    read = _description_comments(analysis, source) if analysis.kind is Kind.DESCRIPTION else _code_comments(analysis, edit)
+    read = (
+        _description_comments(analysis, source)
+        if analysis.kind is Kind.DESCRIPTION
+        else _code_comments(analysis, edit)
+    )
     if read is None or found.span is None:
         return False
     by = len(edit.text)
@@ -53,19 +61,31 @@ def _description_comments(analysis: Analysis, source: Source) -> tuple[list[Comm
     from msaa_lint.core.text.comments import comments
 
     parsed = parse(source, analysis.resolved.limits)
-    before = analysis.result.source.text if analysis.result is not None and analysis.result.source is not None else None
+    before = (
+        analysis.result.source.text
+        if analysis.result is not None and analysis.result.source is not None
+        else None
+    )
     if parsed.problems or before != analysis.source.text or analysis.path.lower().endswith(".json"):
         return None
     return comments(source, parsed.documents), None
 
 
-def _code_comments(analysis: Analysis, edit: Edit) -> tuple[tuple[Comment, ...], frozenset[int]] | None:
+def _code_comments(
+    analysis: Analysis, edit: Edit
+) -> tuple[tuple[Comment, ...], frozenset[int]] | None:
     from msaa_lint.input.code.comments import comments
 
     data = analysis.file.data if analysis.file is not None else None
-    part = next((each for each in data.files if each.source.name == analysis.path), None) if isinstance(data, SourceFile) else None
+    part = (
+        next((each for each in data.files if each.source.name == analysis.path), None)
+        if isinstance(data, SourceFile)
+        else None
+    )
     if part is None:
         return None
     at = edit.span.start
-    found = comments([code._replace(text=code.text[:at] + edit.text + code.text[at:]) for code in part.codes])
+    found = comments(
+        [code._replace(text=code.text[:at] + edit.text + code.text[at:]) for code in part.codes]
+    )
     return found.comments, found.alone

@@ -1,4 +1,6 @@
-"""The outline of a description: its images, passes with their attachments and subpasses, pipelines, and commands in their passes."""
+"""The outline of a description: its images, passes with their attachments and subpasses, pipelines,
+and commands in their passes.
+"""
 
 from __future__ import annotations
 
@@ -15,7 +17,10 @@ from .places import Place, children, content, descriptions, root_place
 if TYPE_CHECKING:
     from .view import View
 
-BEGINS, ENDS = frozenset({"beginRenderPass", "beginRendering"}), frozenset({"endRenderPass", "endRendering"})
+BEGINS, ENDS = (
+    frozenset({"beginRenderPass", "beginRendering"}),
+    frozenset({"endRenderPass", "endRendering"}),
+)
 
 _SECTIONS = frozenset({*SECTIONS, "renderTargets", "sampleCountChoices", "metal.renderPipelines"})
 """The sections whose entries have names."""
@@ -24,7 +29,9 @@ _PARTS_OF_PASSES = frozenset({"colorAttachments", "depthAttachment", "stencilAtt
 
 
 class Symbol(NamedTuple):
-    """An entry of the outline: its name, a few words, a section or the key that it stands for, its whole place, and that of its name."""
+    """An entry of the outline: its name, a few words, a section or the key that it stands for, its
+    whole place, and that of its name.
+    """
 
     name: str
     detail: str
@@ -41,7 +48,14 @@ def symbols(view: View) -> list[Symbol]:
     if len(documents) == 1:
         return list(documents[0])
     return [
-        Symbol(f"document {number}", "", "document", root.span, Span(root.start, min(root.start + 1, root.end)), parts)
+        Symbol(
+            f"document {number}",
+            "",
+            "document",
+            root.span,
+            Span(root.start, min(root.start + 1, root.end)),
+            parts,
+        )
         for number, (root, parts) in enumerate(zip(roots, documents, strict=True), 1)
     ]
 
@@ -61,7 +75,10 @@ def _entries(text: str, place: Place, section: str) -> tuple[Symbol, ...]:
         return _commands(text, list(children(place)))
     if section not in _SECTIONS:
         return ()
-    return tuple(_symbol(text, entry, entry.path[-1], section, _parts(text, entry)) for entry in children(place))
+    return tuple(
+        _symbol(text, entry, entry.path[-1], section, _parts(text, entry))
+        for entry in children(place)
+    )
 
 
 def _parts(text: str, entry: Place) -> tuple[Symbol, ...]:
@@ -70,9 +87,17 @@ def _parts(text: str, entry: Place) -> tuple[Symbol, ...]:
     for place in children(entry) if entry.path[-2] == "renderPasses" else ():
         member = place.path[-1]
         if member in ("attachments", "subpasses", "colorAttachments"):
-            label = member.removesuffix("s").removesuffix("e") if member == "subpasses" else member.removesuffix("s")
+            label = (
+                member.removesuffix("s").removesuffix("e")
+                if member == "subpasses"
+                else member.removesuffix("s")
+            )
             for item in children(place):
-                name = item.path[-1] if item.key is not None and member == "attachments" else f"{label} {item.path[-1]}"
+                name = (
+                    item.path[-1]
+                    if item.key is not None and member == "attachments"
+                    else f"{label} {item.path[-1]}"
+                )
                 found.append(_symbol(text, item, name, member))
         elif member in _PARTS_OF_PASSES:
             found.append(_symbol(text, place, member, member))
@@ -103,7 +128,9 @@ def _commands(text: str, places: Sequence[Place]) -> tuple[Symbol, ...]:
 
 def _enclosing(begun: Symbol, inside: Sequence[Symbol]) -> Symbol:
     end = max((symbol.span.end for symbol in inside), default=begun.span.end)
-    return begun._replace(span=Span(begun.span.start, max(end, begun.span.end)), children=(*begun.children, *inside))
+    return begun._replace(
+        span=Span(begun.span.start, max(end, begun.span.end)), children=(*begun.children, *inside)
+    )
 
 
 def _command(text: str, place: Place) -> Symbol:
@@ -114,11 +141,17 @@ def _command(text: str, place: Place) -> Symbol:
     if name == "beginRendering":
         body = next(iter(children(place)), None)
         members = children(body) if body is not None else ()
-        parts = tuple(_symbol(text, member, member.path[-1], member.path[-1]) for member in members if member.path[-1] in _PARTS_OF_PASSES)
+        parts = tuple(
+            _symbol(text, member, member.path[-1], member.path[-1])
+            for member in members
+            if member.path[-1] in _PARTS_OF_PASSES
+        )
     return _symbol(text, place, name or "command", "command", parts)
 
 
-def _symbol(text: str, place: Place, name: str, section: str, parts: tuple[Symbol, ...] = ()) -> Symbol:
+def _symbol(
+    text: str, place: Place, name: str, section: str, parts: tuple[Symbol, ...] = ()
+) -> Symbol:
     node, key = place.node, place.key
     head = content(text, key) if key is not None else _head(text, node)
     start = key.start if key is not None else node.start
@@ -154,7 +187,14 @@ def _detail(node: Node) -> str:
         return ""
     inner = next(iter(node.value.values())) if len(node.value) == 1 else node
     values = inner.value if inner.kind == "mapping" else node.value
-    stated = [(member, values[member]) for member in _TELLING if member in values and values[member].kind == "scalar"]
+    stated = [
+        (member, values[member])
+        for member in _TELLING
+        if member in values and values[member].kind == "scalar"
+    ]
     return " ".join(
-        f"{value.text}x" if member in ("samples", "sampleCount") and value.text.isdigit() else value.text for member, value in stated
+        f"{value.text}x"
+        if member in ("samples", "sampleCount") and value.text.isdigit()
+        else value.text
+        for member, value in stated
     )[:120]

@@ -1,4 +1,6 @@
-"""What parts of a description move between the GPU and memory: the lines of the cost model by the structures that state them."""
+"""What parts of a description move between the GPU and memory: the lines of the cost model by the
+structures that state them.
+"""
 
 from __future__ import annotations
 
@@ -40,7 +42,9 @@ def moved(lines: Iterable[Line], cost: FrameCost) -> Moved:
 
 
 class PassTraffic(NamedTuple):
-    """A pass, the key or structure that stands for it, and the heads, structures and lines of its attachments."""
+    """A pass, the key or structure that stands for it, and the heads, structures and lines of its
+    attachments.
+    """
 
     head: Span
     cost: PassCost
@@ -56,7 +60,10 @@ def passes(costs: Costs) -> Iterator[PassTraffic]:
         if cost is None:
             continue
         lines = _lines_by_attachment(each, cost)
-        attachments = tuple((one.record.head, _written(one.record), tuple(lines[n])) for n, one in enumerate(each.attachments))
+        attachments = tuple(
+            (one.record.head, _written(one.record), tuple(lines[n]))
+            for n, one in enumerate(each.attachments)
+        )
         yield PassTraffic(each.record.head, cost, attachments)
 
 
@@ -65,7 +72,9 @@ def _written(record: Record) -> Node:
 
 
 def _lines_by_attachment(each: Pass, cost: PassCost) -> list[list[Line]]:
-    """The lines of a pass by its attachments: by their names, or of a rendering, whose lines have those of images, by their places."""
+    """The lines of a pass by its attachments: by their names, or of a rendering, whose lines have
+    those of images, by their places.
+    """
     found: list[list[Line]] = [[] for _ in each.attachments]
     if each.kind != RENDERING:
         numbers = {one.name: n for n, one in enumerate(each.attachments)}
@@ -75,8 +84,16 @@ def _lines_by_attachment(each: Pass, cost: PassCost) -> list[list[Line]]:
         return found
     places = sorted((_written(one.record).start, n) for n, one in enumerate(each.attachments))
     for line in cost.lines:
-        at = bisect_right(places, (line.place.start, len(places))) - 1 if line.place is not None else -1
-        if at >= 0 and line.place is not None and line.place.start < _written(each.attachments[places[at][1]].record).end:
+        at = (
+            bisect_right(places, (line.place.start, len(places))) - 1
+            if line.place is not None
+            else -1
+        )
+        if (
+            at >= 0
+            and line.place is not None
+            and line.place.start < _written(each.attachments[places[at][1]].record).end
+        ):
             found[places[at][1]].append(line)
     return found
 

@@ -1,4 +1,6 @@
-"""What all questions about one version of a document need: its tree, its names, its costs. Each is made once, if asked for."""
+"""What all questions about one version of a document need: its tree, its names, its costs. Each is
+made once, if asked for.
+"""
 
 from __future__ import annotations
 
@@ -26,7 +28,9 @@ from .recovery import SYNTAX, repaired
 
 
 class Costs:
-    """The cost of one document as written, and after changes of its values. `root` is the document in the text."""
+    """The cost of one document as written, and after changes of its values. `root` is the document
+    in the text.
+    """
 
     def __init__(self, result: DocumentResult, root: Node) -> None:
         self.result = result
@@ -52,15 +56,18 @@ class Costs:
         parsed = parse(source, Limits())
         if parsed.problems or self.result.number >= len(parsed.documents):
             return None
-        document = readers.read(source, parsed.documents[self.result.number], self.result.document.format or None)
+        document = readers.read(
+            source, parsed.documents[self.result.number], self.result.document.format or None
+        )
         return frame_cost(Frame(document), self.result.device) if not document.problems else None
 
 
 class View:
     """One version of a text as the questions at a position see it. Offsets are in code points.
 
-    `kind` is `description`, `configuration`, `rule` or `code`; `result` is None where the text has not been linted. `docs_url` is
-    the address of the site with the pages of rules; empty if there is none. Paths in the text are relative to `folder`, None if unknown.
+    `kind` is `description`, `configuration`, `rule` or `code`; `result` is None where the text has
+    not been linted. `docs_url` is the address of the site with the pages of rules; empty if there
+    is none. Paths in the text are relative to `folder`, None if unknown.
     """
 
     def __init__(
@@ -107,12 +114,26 @@ class View:
     def costs(self) -> Sequence[Costs]:
         """The costs of the documents that were checked."""
         linted = [each for each in self._linted if each.number < len(self.roots)]
-        return [Costs(each, self.roots[each.number]) for each in linted if each.checked and not each.document.problems]
+        return [
+            Costs(each, self.roots[each.number])
+            for each in linted
+            if each.checked and not each.document.problems
+        ]
 
     @property
     def _linted(self) -> Sequence[DocumentResult]:
-        """The documents of the text, if it could be read as a whole: those of a capture are in another text."""
+        """The documents of the text, if it could be read as a whole: those of a capture are in
+        another text.
+        """
         result = self.result
-        if result is None or self.kind != "description" or any(found.code in SYNTAX for found in result.findings):
+        if (
+            result is None
+            or self.kind != "description"
+            or any(found.code in SYNTAX for found in result.findings)
+        ):
             return ()
-        return result.documents if all(each.document.source.text == self.text for each in result.documents) else ()
+        return (
+            result.documents
+            if all(each.document.source.text == self.text for each in result.documents)
+            else ()
+        )

@@ -1,4 +1,6 @@
-"""A thread that lints documents while the server answers: the newest version of each, and nothing that is superseded."""
+"""A thread that lints documents while the server answers: the newest version of each, and nothing
+that is superseded.
+"""
 
 from __future__ import annotations
 
@@ -19,18 +21,24 @@ from .linting import analyze
 T = TypeVar("T")
 
 IMMEDIATE = 0.25
-"""Seconds of processor time for linting a document up to which each of its versions is linted at once."""
+"""Seconds of processor time for linting a document up to which each of its versions is linted at
+once.
+"""
 
 MAX_DELAY = 1.0
 """Seconds without a change after which a document that takes longer is linted."""
 
 
 IDLE = 2.0
-"""Seconds without anything to do after which garbage is collected, which takes as long as linting. Linting leaves little of it."""
+"""Seconds without anything to do after which garbage is collected, which takes as long as linting.
+Linting leaves little of it.
+"""
 
 
 class _Job(NamedTuple):
-    """A document to lint, the ones open beside it, the number of the request, and when it is due."""
+    """A document to lint, the ones open beside it, the number of the request, and when it is
+    due.
+    """
 
     document: OpenDocument
     others: Sequence[OpenDocument]
@@ -60,15 +68,24 @@ class Worker:
         self.results: dict[str, Analysis] = {}
         """The last result of each document, perhaps of an older version."""
 
-    def lint(self, document: OpenDocument, others: Sequence[OpenDocument], encoding: types.PositionEncodingKind) -> None:
-        """Lints a document in place of older versions: at once, or without another change for as long as that takes."""
+    def lint(
+        self,
+        document: OpenDocument,
+        others: Sequence[OpenDocument],
+        encoding: types.PositionEncodingKind,
+    ) -> None:
+        """Lints a document in place of older versions: at once, or without another change for as
+        long as that takes.
+        """
         self._start()
         uri = document.uri
         self._requests[uri] = next(self._numbers)
         seconds = self._seconds.get(uri, 0.0)
         delay = 0.0 if seconds < IMMEDIATE else min(seconds, MAX_DELAY)
         with self._changed:
-            self._jobs[uri] = _Job(document, others, encoding, self._requests[uri], perf_counter() + delay)
+            self._jobs[uri] = _Job(
+                document, others, encoding, self._requests[uri], perf_counter() + delay
+            )
             self._changed.notify()
 
     def forget(self, uri: str) -> None:
@@ -80,7 +97,9 @@ class Worker:
         self._give_up(uri)
 
     async def result(self, uri: str) -> Analysis:
-        """The result of the last request for a document, which is then not delayed, or of a newer one."""
+        """The result of the last request for a document, which is then not delayed, or of a newer
+        one.
+        """
         number = self._requests[uri]
         while self._finished.get(uri, 0) < number or uri not in self.results:
             with self._changed:
@@ -143,9 +162,12 @@ class Worker:
         start = thread_time()
         last = self.results.get(job.document.uri)
         try:
-            analysis = analyze(job.document, job.others, job.encoding, last.kind if last is not None else None)
+            analysis = analyze(
+                job.document, job.others, job.encoding, last.kind if last is not None else None
+            )
         except Exception:
-            # What linting raises is a finding. The server outlives everything else, and the next change is linted again.
+            # What linting raises is a finding. The server outlives everything else, and the next
+            # change is linted again.
             self._post(self._give_up, job.document.uri)
         else:
             self._post(self._take, analysis, job.number, thread_time() - start)
@@ -168,7 +190,8 @@ class Worker:
         if uri not in self._requests:
             return
         self._seconds[uri], self._finished[uri] = seconds, number
-        # The older result is freed at the end, which takes milliseconds: the answer does not wait for it.
+        # The older result is freed at the end, which takes milliseconds: the answer does not wait
+        # for it.
         older = self.results.get(uri)
         self.results[uri] = analysis
         self._done(analysis)

@@ -1,7 +1,8 @@
 """Reports: one module per output format, each with `render(result, out, options)`.
 
-A reporter knows findings alone. It calls `out` with pieces of text, as `sys.stdout.write` is called; they depend on nothing but the result
-and the options, so the same run prints the same bytes.
+A reporter knows findings alone. It calls `out` with pieces of text, as `sys.stdout.write` is
+called; they depend on nothing but the result and the options, so the same run prints the same
+bytes.
 """
 
 from collections.abc import Callable
@@ -17,13 +18,16 @@ Write = Callable[[str], object]
 class Options(NamedTuple):
     """How to print.
 
-    `root` is the folder that paths are shown relative to (empty: as given). `width` is in terminal cells (0: lines are never cut).
-    `max_undecided` is the number of missing keys that a summary names, `max_unread` that of inputs without a pass to check.
-    `step_summary` is the file that the GitHub output appends a table to: None uses GITHUB_STEP_SUMMARY, empty writes none.
-    `fail_confidence` is the confidence that findings need to fail the run; summaries count those below it. `explain_undecided` lists the
-    keys that undecided rules lack. `quiet` leaves out summaries and remarks; `verbose` adds to the text of `confirm` what only msaa-lint
-    reports, and noise of the layer. `docs_url` is the address of the documentation, whose pages of rules are linked to (empty: none);
-    `hyperlinks` says that the stream is a terminal that shows text as a link (OSC 8).
+    `root` is the folder that paths are shown relative to (empty: as given). `width` is in terminal
+    cells (0: lines are never cut). `max_undecided` is the number of missing keys that a summary
+    names, `max_unread` that of inputs without a pass to check. `step_summary` is the file that the
+    GitHub output appends a table to: None uses GITHUB_STEP_SUMMARY, empty writes none.
+    `fail_confidence` is the confidence that findings need to fail the run; summaries count those
+    below it. `explain_undecided` lists the keys that undecided rules lack. `quiet` leaves out
+    summaries and remarks; `verbose` adds to the text of `confirm` what only msaa-lint reports, and
+    noise of the layer. `docs_url` is the address of the documentation, whose pages of rules are
+    linked to (empty: none); `hyperlinks` says that the stream is a terminal that shows text as a
+    link (OSC 8).
     """
 
     color: bool = False
@@ -45,7 +49,11 @@ class Options(NamedTuple):
 
 
 def render(name: str, result: Result, out: Write, options: Options) -> None:
-    """Prints `result` in the format called `name`, with the module of that name. ValueError for an unknown format."""
+    """Prints `result` in the format called `name`, with the module of that name. ValueError for an
+    unknown format.
+    """
     if name not in OUTPUT_FORMATS:
         raise ValueError(f"unknown output format {name!r}: use one of {', '.join(OUTPUT_FORMATS)}")
-    import_module(".html.check" if name == "html" else f".{name}", __name__).render(result, out, options)
+    import_module(".html.check" if name == "html" else f".{name}", __name__).render(
+        result, out, options
+    )

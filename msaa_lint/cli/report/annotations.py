@@ -1,4 +1,6 @@
-"""What annotations of lines say, in the log of a CI system or in a review: the findings to show, and the text of each."""
+"""What annotations of lines say, in the log of a CI system or in a review: the findings to show,
+and the text of each.
+"""
 
 from __future__ import annotations
 
@@ -17,7 +19,9 @@ from .summary import is_choice, price_text, usable_price
 
 
 def by_importance(findings: Iterable[Finding]) -> Iterator[Finding]:
-    """The most important first: by severity, then inputs that cannot be used, then power and memory."""
+    """The most important first: by severity, then inputs that cannot be used, then power and
+    memory.
+    """
     rows: SpooledSort[Finding] = SpooledSort(Spool(), 4)
     for finding in findings:
         rows.add(_importance(finding), [finding])
@@ -27,7 +31,9 @@ def by_importance(findings: Iterable[Finding]) -> Iterator[Finding]:
 
 def most_important(findings: Iterable[Finding], most: int) -> list[Finding]:
     """The first ones of each severity `by_importance`, at most so many."""
-    kept: dict[str, list[tuple[tuple[int, int, float, float], int, Finding]]] = {severity: [] for severity in reversed(SEVERITIES)}
+    kept: dict[str, list[tuple[tuple[int, int, float, float], int, Finding]]] = {
+        severity: [] for severity in reversed(SEVERITIES)
+    }
     for number, finding in enumerate(findings):
         of_severity = kept[finding.severity]
         insort(of_severity, (_importance(finding), number, finding))
@@ -38,17 +44,27 @@ def most_important(findings: Iterable[Finding], most: int) -> list[Finding]:
 def _importance(finding: Finding) -> tuple[int, int, float, float]:
     """A key to sort by."""
     price = usable_price(finding)
-    return (-rank(finding.severity), -finding.fatal, *((-price.milliwatts, -price.memory_mib) if price else (0.0, 0.0)))
+    return (
+        -rank(finding.severity),
+        -finding.fatal,
+        *((-price.milliwatts, -price.memory_mib) if price else (0.0, 0.0)),
+    )
 
 
 def unread_notes(result: Result) -> list[Finding]:
     """A note for each input that shows no pass to check."""
     pairs = [(each.file, each.unread) for each in unread_inputs(result)]
-    return [diagnostic("MSAA931", unread.message, file, unread.span)._replace(severity="note") for file, unread in pairs if unread]
+    return [
+        diagnostic("MSAA931", unread.message, file, unread.span)._replace(severity="note")
+        for file, unread in pairs
+        if unread
+    ]
 
 
 def annotation_lines(finding: Finding, options: Options) -> list[str]:
-    """The message, and as far as there are any the price, what to do, and the address of the rule's page."""
+    """The message, and as far as there are any the price, what to do, and the address of the rule's
+    page.
+    """
     remedy = finding.help or (finding.fix.title if finding.fix else "")
     remarks = (
         ("price" if is_choice(finding) else "cost", price_text(finding)),

@@ -14,8 +14,10 @@ from .place import place
 
 
 def render(result: Result, out: Write, options: Options) -> None:
-    """Prints a command per finding and per input that shows no pass to check, the most important first: the agent keeps ten errors and ten
-    warnings of a step as issues, and the others only in its log."""
+    """Prints a command per finding and per input that shows no pass to check, the most important
+    first: the agent keeps ten errors and ten warnings of a step as issues, and the others only in
+    its log.
+    """
     for finding in chain(by_importance(result.findings), unread_notes(result)):
         out(_command(finding, result, options) + "\n")
 
@@ -31,7 +33,10 @@ def _command(finding: Finding, result: Result, options: Options) -> str:
     properties["code"] = display(finding.code)
     joined = "".join(f"{name}={_property(str(value))};" for name, value in properties.items())
     text = "\n".join(annotation_lines(finding, options))
-    return f"##vso[task.logissue {joined}]{_data(('note: ' if note else '') + f'{display(finding.rule)}: {text}')}"
+    return (
+        f"##vso[task.logissue "
+        f"{joined}]{_data(('note: ' if note else '') + f'{display(finding.rule)}: {text}')}"
+    )
 
 
 def _data(text: str) -> str:

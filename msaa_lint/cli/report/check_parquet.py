@@ -17,15 +17,24 @@ _GROUP = 1 << 14
 
 
 def write(path: str, tables: Mapping[str, Iterable[Row]], version: str) -> None:
-    """Writes the table of findings to a file, and the others beside it. All are written before the first gets its name, and that of
-    findings gets it last. OSError if one cannot be written."""
+    """Writes the table of findings to a file, and the others beside it. All are written before the
+    first gets its name, and that of findings gets it last. OSError if one cannot be written.
+    """
     paths = parquet_paths(path)
     with ExitStack() as stack:
-        files = {table.name: stack.enter_context(atomic_write.new_binary(paths[table.name])) for table in TABLES}
+        files = {
+            table.name: stack.enter_context(atomic_write.new_binary(paths[table.name]))
+            for table in TABLES
+        }
         for table in TABLES:
-            schema = arrow_schema(table).with_metadata({"schema": SCHEMA, "version": version, "table": table.name})
+            schema = arrow_schema(table).with_metadata(
+                {"schema": SCHEMA, "version": version, "table": table.name}
+            )
             with pq.ParquetWriter(files[table.name], schema, compression="zstd") as writer:
                 for batch in batches(tables[table.name], _GROUP):
                     columns = zip(*batch, strict=True)
-                    arrays = [pa.array(values, field.type) for values, field in zip(columns, schema, strict=True)]
+                    arrays = [
+                        pa.array(values, field.type)
+                        for values, field in zip(columns, schema, strict=True)
+                    ]
                     writer.write_batch(pa.RecordBatch.from_arrays(arrays, schema=schema))

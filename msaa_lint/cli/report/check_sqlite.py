@@ -20,13 +20,20 @@ def write(path: str, tables: Mapping[str, Iterable[Row]], version: str) -> None:
         try:
             with closing(sqlite3.connect(new, isolation_level=None)) as connection:
                 # The file gets its name only when it is whole: a journal would protect nothing.
-                for setting in ("page_size = 4096", "journal_mode = OFF", "synchronous = OFF", "locking_mode = EXCLUSIVE"):
+                for setting in (
+                    "page_size = 4096",
+                    "journal_mode = OFF",
+                    "synchronous = OFF",
+                    "locking_mode = EXCLUSIVE",
+                ):
                     connection.execute(f"PRAGMA {setting}")
                 connection.execute("BEGIN")
                 for table in TABLES:
                     connection.execute(_creation(table))
                     marks = ", ".join("?" * len(table.columns))
-                    connection.executemany(f"INSERT INTO {table.name} VALUES ({marks})", tables[table.name])
+                    connection.executemany(
+                        f"INSERT INTO {table.name} VALUES ({marks})", tables[table.name]
+                    )
                 connection.execute("COMMIT")
         except sqlite3.Error as error:
             raise OSError(errno.EIO, str(error), path) from None

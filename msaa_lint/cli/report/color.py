@@ -13,5 +13,7 @@ def paint(text: str, style: str, color: bool) -> str:
 
 
 def hyperlink(text: str, address: str) -> str:
-    """`text` as a link, for a terminal that shows links; unchanged without an address, which must be printable ASCII."""
+    """`text` as a link, for a terminal that shows links; unchanged without an address, which must
+    be printable ASCII.
+    """
     return f"\x1b]8;;{address}\x1b\\{text}\x1b]8;;\x1b\\" if address else text

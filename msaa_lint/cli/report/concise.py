@@ -15,7 +15,9 @@ from .undecided import explanation
 
 
 def render(result: Result, out: Write, options: Options) -> None:
-    """Prints the findings, with `show_suppressed` the suppressed ones after them, then the summary."""
+    """Prints the findings, with `show_suppressed` the suppressed ones after them, then the
+    summary.
+    """
     for finding in result.findings:
         out(line(finding, result, options) + "\n")
     render_end(result, out, options)
@@ -24,17 +26,30 @@ def render(result: Result, out: Write, options: Options) -> None:
 def line(finding: Finding, result: Result, options: Options) -> str:
     """A finding on one line."""
     where = location(finding, result, options)
-    return f"{paint(where, BOLD, options.color)}: {kind(finding, options)} {display(finding.message)} ({display(finding.code)})"
+    return (
+        f"{paint(where, BOLD, options.color)}: {kind(finding, options)} "
+        f"{display(finding.message)} ({display(finding.code)})"
+    )
 
 
 def kind(finding: Finding, options: Options) -> str:
-    """The severity and the rule of a finding, as a link to the rule's page on a terminal that shows links."""
-    address = rule_address(options.docs_url, finding.code, finding.rule) if options.hyperlinks else ""
-    return paint(f"{finding.severity}[{hyperlink(display(finding.rule), address)}]", SEVERITY[finding.severity], options.color)
+    """The severity and the rule of a finding, as a link to the rule's page on a terminal that shows
+    links.
+    """
+    address = (
+        rule_address(options.docs_url, finding.code, finding.rule) if options.hyperlinks else ""
+    )
+    return paint(
+        f"{finding.severity}[{hyperlink(display(finding.rule), address)}]",
+        SEVERITY[finding.severity],
+        options.color,
+    )
 
 
 def location(finding: Finding, result: Result, options: Options) -> str:
-    """The path of a finding with its line and column, or for an input without text, with its subject."""
+    """The path of a finding with its line and column, or for an input without text, with its
+    subject.
+    """
     path = display_path(finding.file, options.root)
     at = place(result, finding.file, finding.span)
     if at:
@@ -43,7 +58,9 @@ def location(finding: Finding, result: Result, options: Options) -> str:
 
 
 def render_end(result: Result, out: Write, options: Options) -> None:
-    """Prints what follows the findings in both text outputs: the suppressed ones, the statistics, and unless `quiet` the summary."""
+    """Prints what follows the findings in both text outputs: the suppressed ones, the statistics,
+    and unless `quiet` the summary.
+    """
     if options.show_suppressed:
         for entry in result.suppressed:
             reason = f", {display(entry.reason)}" if entry.reason.strip() else ""

@@ -1,4 +1,5 @@
-"""The versioned JSON of `msaa-lint confirm`; `confirm_v1.schema.json` next to this file is its schema.
+"""The versioned JSON of `msaa-lint confirm`; `confirm_v1.schema.json` next to this file is its
+schema.
 
 With one device its members are at the top; with several they are in `devices`.
 """
@@ -16,13 +17,18 @@ from .data import Json, head, text, write_object
 SCHEMA = "msaa-lint/confirm-v1"
 
 
-def render(runs: Sequence[DeviceRun], errors: Sequence[Finding], out: Write, options: Options) -> None:
+def render(
+    runs: Sequence[DeviceRun], errors: Sequence[Finding], out: Write, options: Options
+) -> None:
     """Prints one JSON object; `errors` are findings about inputs that cannot be used."""
     devices = [_device(run) for run in runs]
     members: Json = {
         **head(SCHEMA, options.version),
         **(devices[0] if len(devices) == 1 else {"devices": devices}),
-        "errors": [{"file": text(error.file), "code": error.code, "message": text(error.message)} for error in errors],
+        "errors": [
+            {"file": text(error.file), "code": error.code, "message": text(error.message)}
+            for error in errors
+        ],
     }
     write_object(members, out)
 
@@ -39,7 +45,9 @@ def _device(run: DeviceRun) -> Json:
             "driver": text(device.driver),
             "software": device.software,
         },
-        "layer": None if run.layer is None else {str(key): _value(value) for key, value in run.layer.items()},
+        "layer": None
+        if run.layer is None
+        else {str(key): _value(value) for key, value in run.layer.items()},
         "unusable": text(run.unusable) or None,
         "passes": [_pass(verdict) for verdict in run.verdicts],
         "agreement": run.agreement,
@@ -57,7 +65,11 @@ def _pass(verdict: Verdict) -> Json:
         "reason": text(verdict.reason),
         "created": verdict.created,
         "messages": [_message(row) for row in verdict.agreement if row.verdict != "ours"],
-        "ours": [{"rule": text(row.rule), "reason": text(row.reason)} for row in verdict.agreement if row.verdict == "ours"],
+        "ours": [
+            {"rule": text(row.rule), "reason": text(row.reason)}
+            for row in verdict.agreement
+            if row.verdict == "ours"
+        ],
         "findings": [text(code) for code in verdict.findings],
         "agrees": verdict.agrees,
         "pixels_equal": verdict.pixels_equal,
@@ -100,7 +112,11 @@ def _times(times: Times | None) -> Json | None:
         "fixed": times.fixed.json() if times.fixed is not None else None,
         "difference": None
         if difference is None
-        else {"share": round(difference.share, 6), "real": difference.real, "says": difference.text},
+        else {
+            "share": round(difference.share, 6),
+            "real": difference.real,
+            "says": difference.text,
+        },
     }
 
 

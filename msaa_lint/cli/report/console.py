@@ -10,7 +10,8 @@ from .escape import display, escape_commands
 
 
 def open_console(out: Write, options: Options) -> Console:
-    """A console that prints to `out`, as wide and as colored as the options say, and interprets no markup.
+    """A console that prints to `out`, as wide and as colored as the options say, and interprets no
+    markup.
 
     No line begins with `::`, which CI runners obey, wherever a table breaks a name.
     """

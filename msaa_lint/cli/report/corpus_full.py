@@ -37,6 +37,11 @@ def render_query(result: Rows, out: Write, options: Options) -> None:
     if not table.rows:
         out("No rows\n")
         return
-    columns = [Column(title, NAME) for title in table.texts] + [Column(title, FIGURE) for title in table.figures]
-    rows = [("", [Text(clip(cell, MAX_NAME)) for cell in (*row.texts, *row.figures)]) for row in table.rows]
+    columns = [Column(title, NAME) for title in table.texts] + [
+        Column(title, FIGURE) for title in table.figures
+    ]
+    rows = [
+        ("", [Text(clip(cell, MAX_NAME)) for cell in (*row.texts, *row.figures)])
+        for row in table.rows
+    ]
     print_tables(out, options, [TextTable(columns, rows)], [TextTable(columns, rows, 1)])

@@ -1,4 +1,6 @@
-"""The versioned JSON of `msaa-lint corpus`; `corpus_v1.schema.json` next to this file is its schema. Figures have six decimals."""
+"""The versioned JSON of `msaa-lint corpus`; `corpus_v1.schema.json` next to this file is its
+schema. Figures have six decimals.
+"""
 
 from __future__ import annotations
 
@@ -17,10 +19,14 @@ SCHEMA = "msaa-lint/corpus-v1"
 
 
 def render(summary: Summary, out: Write, options: Options) -> None:
-    """Prints one JSON object: the runs, the groups, the inputs of which fixes save the most, and what has changed."""
+    """Prints one JSON object: the runs, the groups, the inputs of which fixes save the most, and
+    what has changed.
+    """
     members = {
         **head(SCHEMA, options.version),
-        "runs": [{name: _value(value) for name, value in run._asdict().items()} for run in summary.runs],
+        "runs": [
+            {name: _value(value) for name, value in run._asdict().items()} for run in summary.runs
+        ],
         "findings": summary.findings,
         "suppressed": summary.suppressed,
         "by": list(summary.keys),
@@ -37,7 +43,10 @@ def render(summary: Summary, out: Write, options: Options) -> None:
 def render_query(result: Rows, out: Write, options: Options) -> None:
     """Prints one JSON object: the names of the columns of a query, and its rows as lists."""
     rows = ([_value(value) for value in row] for row in result.rows)
-    write_object({**head(SCHEMA, options.version), "columns": list(map(text, result.columns)), "rows": rows}, out)
+    write_object(
+        {**head(SCHEMA, options.version), "columns": list(map(text, result.columns)), "rows": rows},
+        out,
+    )
 
 
 def _group(group: Group, keys: Sequence[str]) -> Json:
@@ -62,8 +71,14 @@ def _since(since: Since) -> Json:
         "new_inputs": since.new_inputs,
         "gone_inputs": since.gone_inputs,
         "moved_inputs": since.moved_inputs,
-        "rules": [{name: _value(value) for name, value in each._asdict().items()} for each in since.changes],
-        "new_findings": [{name: _value(value) for name, value in each._asdict().items()} for each in since.new_findings],
+        "rules": [
+            {name: _value(value) for name, value in each._asdict().items()}
+            for each in since.changes
+        ],
+        "new_findings": [
+            {name: _value(value) for name, value in each._asdict().items()}
+            for each in since.new_findings
+        ],
         "remarks": list(map(text, since.remarks)),
     }
 

@@ -16,10 +16,15 @@ HEAD = "<!-- msaa-lint corpus -->\n"
 
 
 def render(summary: Summary, out: Write, options: Options) -> None:
-    """Prints the runs, the tables, and what to know of them, as far as one comment can hold them."""
+    """Prints the runs, the tables, and what to know of them, as far as one comment can hold
+    them.
+    """
     comment = Comment(out)
     comment.add(f"{HEAD}### Findings of a corpus\n")
-    for line in [*heads(summary), *([since_line(summary.since)] if summary.since is not None else [])]:
+    for line in [
+        *heads(summary),
+        *([since_line(summary.since)] if summary.since is not None else []),
+    ]:
         comment.add(f"\n{escape_markdown(display(line))}\n")
     if not summary.groups:
         comment.add("\nNo findings\n")

@@ -35,23 +35,35 @@ def _head(run: Run) -> str:
 
 
 def _counts(runs: Sequence[Run]) -> str:
-    inputs, findings, passes = (sum(getattr(run, name) for run in runs) for name in ("inputs", "findings", "passes"))
+    inputs, findings, passes = (
+        sum(getattr(run, name) for run in runs) for name in ("inputs", "findings", "passes")
+    )
     return f"{plural(inputs, 'input')}, {plural(findings, 'finding')}, {plural(passes, 'pass')}"
 
 
 def remarks(summary: Summary) -> list[tuple[str, str]]:
     """What to know of the figures, each with a word before it."""
-    found = [("note", "what several fixes save of the same bytes counts for each of them")] if summary.groups else []
+    found = (
+        [("note", "what several fixes save of the same bytes counts for each of them")]
+        if summary.groups
+        else []
+    )
     if summary.suppressed:
         found.append(("note", f"{plural(summary.suppressed, 'suppressed finding')} not counted"))
-    return [*found, *(("since", remark) for remark in (summary.since.remarks if summary.since else ()))]
+    return [
+        *found,
+        *(("since", remark) for remark in (summary.since.remarks if summary.since else ())),
+    ]
 
 
 def tables(summary: Summary) -> list[Captioned]:
     """The tables, each with its caption; none of those that would be empty."""
     title = ", ".join(summary.keys)
     shown = _shown(len(summary.groups), summary.group_count)
-    caption = f"{summary.keys[0].capitalize()}s{' with their rules' if summary.wholes else ''}, most expensive first{shown}"
+    caption = (
+        f"{summary.keys[0].capitalize()}s{' with their rules' if summary.wholes else ''}, "
+        f"most expensive first{shown}"
+    )
     inputs = f"Inputs, most expensive first{_shown(len(summary.top_inputs), summary.input_count)}"
     groups = list(_nested(summary))
     found = [
@@ -59,7 +71,9 @@ def tables(summary: Summary) -> list[Captioned]:
         ("Prices of single findings in MB/s", _prices(groups, title)),
         (inputs, _sums([(LINE, group) for group in summary.top_inputs], "input", "rules")),
     ]
-    return [each for each in [*found, *(_since(summary.since) if summary.since else ())] if each[1].rows]
+    return [
+        each for each in [*found, *(_since(summary.since) if summary.since else ())] if each[1].rows
+    ]
 
 
 def _nested(summary: Summary) -> Iterator[tuple[str, Group]]:
@@ -76,18 +90,31 @@ def _shown(count: int, total: int) -> str:
 
 
 def _sums(groups: Iterable[tuple[str, Group]], title: str, counted: str) -> Table:
-    """The numbers of findings and of the inputs, or rules, that they are of, and what fixes save."""
+    """The numbers of findings and of the inputs, or rules, that they are of, and what fixes
+    save.
+    """
     rows = []
     for kind, group in groups:
         saved = (group.traffic_mb_per_s, group.memory_mib, group.milliwatts)
-        figures = (str(group.findings), str(getattr(group, counted)), *(figure(value, 1) for value in saved))
+        figures = (
+            str(group.findings),
+            str(getattr(group, counted)),
+            *(figure(value, 1) for value in saved),
+        )
         rows.append(Row(kind, (_name(group),), figures))
     return Table((title,), ("findings", counted, "MB/s", "MiB", "mW"), rows)
 
 
 def _prices(groups: Iterable[tuple[str, Group]], title: str) -> Table:
     rows = [
-        Row(kind, (_name(group),), (str(group.priced), *("" if value is None else figure(value, 1) for value in group.prices)))
+        Row(
+            kind,
+            (_name(group),),
+            (
+                str(group.priced),
+                *("" if value is None else figure(value, 1) for value in group.prices),
+            ),
+        )
         for kind, group in groups
         if group.prices.max
     ]
@@ -105,39 +132,71 @@ def _stated(name: str | None) -> str:
 
 def since_line(since: Since) -> str:
     """What is new and what is gone since an earlier run, in numbers."""
-    inputs = f"; {plural(since.new_inputs, 'new input')}, {since.gone_inputs} gone" if since.new_inputs or since.gone_inputs else ""
-    inputs += f"; {plural(since.moved_inputs, 'input')} moved or renamed" if since.moved_inputs else ""
-    return f"since {', '.join(file.name for file in since.files)}: {plural(since.new, 'new finding')}, {since.gone} gone{inputs}"
+    inputs = (
+        f"; {plural(since.new_inputs, 'new input')}, {since.gone_inputs} gone"
+        if since.new_inputs or since.gone_inputs
+        else ""
+    )
+    inputs += (
+        f"; {plural(since.moved_inputs, 'input')} moved or renamed" if since.moved_inputs else ""
+    )
+    return (
+        f"since {', '.join(file.name for file in since.files)}: "
+        f"{plural(since.new, 'new finding')}, {since.gone} gone{inputs}"
+    )
 
 
 def _since(since: Since) -> list[Captioned]:
     changes = [
-        Row(LINE, (_stated(each.rule),), (str(each.new), str(each.gone), figure(each.new_mb_per_s, 1), figure(each.gone_mb_per_s, 1)))
+        Row(
+            LINE,
+            (_stated(each.rule),),
+            (
+                str(each.new),
+                str(each.gone),
+                figure(each.new_mb_per_s, 1),
+                figure(each.gone_mb_per_s, 1),
+            ),
+        )
         for each in since.changes
     ]
     places = [
         Row(
             LINE,
-            (_stated(each.rule), _stated(each.input) + (f":{each.line}" if each.line is not None else "")),
+            (
+                _stated(each.rule),
+                _stated(each.input) + (f":{each.line}" if each.line is not None else ""),
+            ),
             ("" if each.traffic_mb_per_s is None else figure(each.traffic_mb_per_s, 1),),
         )
         for each in since.new_findings
     ]
     return [
-        ("What has changed by rule", Table(("rule",), ("new", "gone", "new MB/s", "gone MB/s"), changes)),
-        (f"New findings, most expensive first{_shown(len(places), since.new)}", Table(("rule", "place"), ("MB/s",), places)),
+        (
+            "What has changed by rule",
+            Table(("rule",), ("new", "gone", "new MB/s", "gone MB/s"), changes),
+        ),
+        (
+            f"New findings, most expensive first{_shown(len(places), since.new)}",
+            Table(("rule", "place"), ("MB/s",), places),
+        ),
     ]
 
 
 def query_table(result: Rows) -> Table:
-    """The rows of a query, as many as a person reads, and a last one that says that there are more. The numeric columns at the end are
-    figures."""
+    """The rows of a query, as many as a person reads, and a last one that says that there are more.
+    The numeric columns at the end are figures.
+    """
     width = len(result.columns)
     while width > 1 and result.numeric[width - 1]:
         width -= 1
     rows = []
     for number, values in enumerate(result.rows):
-        cells = [_cell(value) for value in values] if number < MAX_ROWS else [_MORE_ROWS, *[""] * (len(result.columns) - 1)]
+        cells = (
+            [_cell(value) for value in values]
+            if number < MAX_ROWS
+            else [_MORE_ROWS, *[""] * (len(result.columns) - 1)]
+        )
         rows.append(Row(LINE, tuple(cells[:width]), tuple(cells[width:])))
         if number == MAX_ROWS:
             break
@@ -146,4 +205,6 @@ def query_table(result: Rows) -> Table:
 
 
 def _cell(value: Any) -> str:
-    return "" if value is None else f"{value:.6g}" if isinstance(value, float) else display(str(value))
+    return (
+        "" if value is None else f"{value:.6g}" if isinstance(value, float) else display(str(value))
+    )

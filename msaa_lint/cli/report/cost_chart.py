@@ -1,4 +1,6 @@
-"""The chart of `cost --chart`: a frame as written, fixed, and with other sample counts, resolved inline and separately."""
+"""The chart of `cost --chart`: a frame as written, fixed, and with other sample counts, resolved
+inline and separately.
+"""
 
 from __future__ import annotations
 
@@ -12,14 +14,18 @@ from msaa_lint.frame.cost.variants import AS_WRITTEN, NONE, Variant
 from .figure import INK, Figure, Spec, title
 
 COLORS = {"read": "#56B4E9", "write": "#D55E00"}
-"""Sky blue and vermilion of Okabe and Ito's palette: distinct for all kinds of color blindness, and one lighter than the other."""
+"""Sky blue and vermilion of Okabe and Ito's palette: distinct for all kinds of color blindness, and
+one lighter than the other.
+"""
 
 _WIDTH, _STEP = 420, 20
 """The length of the longest bar, and the distance of bars, in pixels."""
 
 
 class Bar(NamedTuple):
-    """A frame's traffic in MB/s and power in mW; there is a gap between bars of different groups."""
+    """A frame's traffic in MB/s and power in mW; there is a gap between bars of different
+    groups.
+    """
 
     name: str
     group: str
@@ -31,13 +37,22 @@ class Bar(NamedTuple):
 def bars(frame: CostedFrame) -> list[Bar]:
     """The bars of a frame, from top to bottom."""
     after = "" if frame.fixed is None else ", same fixes"
-    return [*(_bar(title, "", cost) for title, cost in frame.states), *_variants(frame.counts, after)]
+    return [
+        *(_bar(title, "", cost) for title, cost in frame.states),
+        *_variants(frame.counts, after),
+    ]
 
 
 def compared_bars(comparison: CostComparison) -> list[Bar]:
-    """The bars of two inputs with one frame each: the old one as written, then all of the new one."""
+    """The bars of two inputs with one frame each: the old one as written, then all of the new
+    one.
+    """
     old = [_bar("old, as written", "", frame.cost) for frame in comparison.old]
-    new = [bar if bar.group else bar._replace(name=f"new, {bar.name}") for frame in comparison.new for bar in bars(frame)]
+    new = [
+        bar if bar.group else bar._replace(name=f"new, {bar.name}")
+        for frame in comparison.new
+        for bar in bars(frame)
+    ]
     return old + new
 
 
@@ -67,29 +82,55 @@ def chart(bars: Sequence[Bar], heading: str, subheading: str, cost: FrameCost) -
         for access, start, amount in (("read", 0.0, bar.read), ("write", bar.read, bar.write))
     ]
     texts = [
-        {"row": row, "start": 0.0, "end": bar.read + bar.write, "name": bar.name, "text": _text(bar, cost)}
+        {
+            "row": row,
+            "start": 0.0,
+            "end": bar.read + bar.write,
+            "name": bar.name,
+            "text": _text(bar, cost),
+        }
         for row, bar in zip(rows, bars, strict=True)
     ]
     longest = max((bar.read + bar.write for bar in bars), default=0.0) or 1.0
-    share = "" if cost.budget_milliwatts is None else f" (share of {cost.budget_milliwatts:g} mW in parentheses)"
+    share = (
+        ""
+        if cost.budget_milliwatts is None
+        else f" (share of {cost.budget_milliwatts:g} mW in parentheses)"
+    )
     units = f"traffic with external memory, MB/s{share}"
     # Names can be equal, so that the vertical axis is of rows.
-    y = altair.Y("row:O", axis=None, scale=altair.Scale(domain=list(range(rows[-1] + 1 if rows else 1)), paddingInner=0.25))
+    y = altair.Y(
+        "row:O",
+        axis=None,
+        scale=altair.Scale(domain=list(range(rows[-1] + 1 if rows else 1)), paddingInner=0.25),
+    )
 
     def x(field: str) -> Any:
         # The bars have figures beside them, which lines would cross.
         axis = altair.Axis(labelExpr="format(datum.value, ',~f')", tickCount=6, grid=False)
-        return altair.X(field, type="quantitative", title=units, scale=altair.Scale(domain=[0, longest], nice=False), axis=axis)
+        return altair.X(
+            field,
+            type="quantitative",
+            title=units,
+            scale=altair.Scale(domain=[0, longest], nice=False),
+            axis=axis,
+        )
 
     color = altair.Color(
-        "access:N", scale=altair.Scale(domain=list(COLORS), range=list(COLORS.values())), legend=altair.Legend(orient="top")
+        "access:N",
+        scale=altair.Scale(domain=list(COLORS), range=list(COLORS.values())),
+        legend=altair.Legend(orient="top"),
     )
     tooltip = [altair.Tooltip("access:N"), altair.Tooltip("amount:Q", title="MB/s", format=".1f")]
     figure = Figure()
     beside = figure.chart(texts)
     layers = [
-        figure.chart(amounts).mark_bar(stroke=INK, strokeWidth=0.6).encode(x("start"), y, x2="end", color=color, tooltip=tooltip),
-        beside.mark_text(align="right", dx=-6, limit=_WIDTH, aria=False).encode(x("start"), y, text="name:N", tooltip="name:N"),
+        figure.chart(amounts)
+        .mark_bar(stroke=INK, strokeWidth=0.6)
+        .encode(x("start"), y, x2="end", color=color, tooltip=tooltip),
+        beside.mark_text(align="right", dx=-6, limit=_WIDTH, aria=False).encode(
+            x("start"), y, text="name:N", tooltip="name:N"
+        ),
         beside.mark_text(align="left", dx=6, aria=False).encode(x("end"), y, text="text:N"),
     ]
     panel = altair.layer(*layers).properties(width=_WIDTH, height=altair.Step(_STEP))
@@ -98,7 +139,11 @@ def chart(bars: Sequence[Bar], heading: str, subheading: str, cost: FrameCost) -
 
 
 def _text(bar: Bar, cost: FrameCost) -> str:
-    share = "" if cost.budget_milliwatts is None else f" ({100 * bar.milliwatts / cost.budget_milliwatts:.1f} %)"
+    share = (
+        ""
+        if cost.budget_milliwatts is None
+        else f" ({100 * bar.milliwatts / cost.budget_milliwatts:.1f} %)"
+    )
     return f"{bar.read + bar.write:.0f} MB/s, {bar.milliwatts:.0f} mW{share}"
 
 

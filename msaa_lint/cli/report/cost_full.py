@@ -23,7 +23,9 @@ _STYLES = {cost_rows.PASS: "bold", cost_rows.LINE: "", cost_rows.TOTAL: "bold"}
 
 
 def render(frames: Sequence[CostedFrame], errors: Result, out: Write, options: Options) -> None:
-    """Prints the tables of each frame; for several frames, their totals as well. `errors` go to the standard error stream instead."""
+    """Prints the tables of each frame; for several frames, their totals as well. `errors` go to the
+    standard error stream instead.
+    """
     names = [frame_name(frame, options) for frame in frames]
     for number, (name, frame) in enumerate(zip(names, frames, strict=True)):
         out(("\n" if number else "") + f"{name}: {display(cost_rows.head(frame.cost))}\n")
@@ -35,12 +37,24 @@ def render(frames: Sequence[CostedFrame], errors: Result, out: Write, options: O
         print_table(cost_rows.totals(frames, names), out, options)
 
 
-def render_comparison(compared: CostComparison, errors: Result, out: Write, options: Options) -> None:
-    """Prints what the new input costs more than the old one, for passes that differ, and in total."""
+def render_comparison(
+    compared: CostComparison, errors: Result, out: Write, options: Options
+) -> None:
+    """Prints what the new input costs more than the old one, for passes that differ, and in
+    total.
+    """
     for number, comparison in enumerate(compared.frames):
         document = f", document {number + 1}" if len(compared.frames) > 1 else ""
-        names = " -> ".join(display_path(file, options.root) for file in (compared.old_file, compared.new_file)) + document
-        out(("\n" if number else "") + f"{names}\n{cost_rows.sentence(comparison, cost_rows.budget_of(compared))}\n")
+        names = (
+            " -> ".join(
+                display_path(file, options.root) for file in (compared.old_file, compared.new_file)
+            )
+            + document
+        )
+        out(
+            ("\n" if number else "")
+            + f"{names}\n{cost_rows.sentence(comparison, cost_rows.budget_of(compared))}\n"
+        )
         print_table(cost_rows.changes(comparison), out, options)
         if not options.quiet:
             _print_remarks(cost_rows.comparison_remarks(compared, number), out)
@@ -52,7 +66,9 @@ def _print_remarks(remarks: Sequence[tuple[str, str]], out: Write) -> None:
 
 
 def print_table(table: Table, out: Write, options: Options) -> None:
-    """Prints a table after an empty line. Where it is too wide, its texts share a column and its headings take several lines."""
+    """Prints a table after an empty line. Where it is too wide, its texts share a column and its
+    headings take several lines.
+    """
     if table.rows:
         table = cost_rows.limited(table)
         out("\n")
@@ -62,7 +78,9 @@ def print_table(table: Table, out: Write, options: Options) -> None:
 def _layout(table: Table, narrow: bool) -> TextTable:
     titles = table.texts[:1] if narrow else table.texts
     columns = [Column(title, NAME) for title in titles]
-    columns += [Column(title.replace(" ", "\n") if narrow else title, FIGURE) for title in table.figures]
+    columns += [
+        Column(title.replace(" ", "\n") if narrow else title, FIGURE) for title in table.figures
+    ]
     indent = "  " if any(row.kind == cost_rows.PASS for row in table.rows) else ""
     rows = []
     for row in table.rows:

@@ -1,4 +1,6 @@
-"""The versioned JSON of `msaa-lint cost`; `cost_v1.schema.json` next to this file is its schema. Figures have six decimals."""
+"""The versioned JSON of `msaa-lint cost`; `cost_v1.schema.json` next to this file is its schema.
+Figures have six decimals.
+"""
 
 from __future__ import annotations
 
@@ -20,15 +22,27 @@ SCHEMA = "msaa-lint/cost-v1"
 
 
 def render(frames: Sequence[CostedFrame], errors: Result, out: Write, options: Options) -> None:
-    """Prints one JSON object: `passes` of all frames and their `total`, `frames` with the details of each, `errors`.
+    """Prints one JSON object: `passes` of all frames and their `total`, `frames` with the details
+    of each, `errors`.
 
     The details of an only frame are at the top as well.
     """
-    write_object({**head(SCHEMA, options.version), **_inputs(frames, errors, options), "errors": _errors(errors, options)}, out)
+    write_object(
+        {
+            **head(SCHEMA, options.version),
+            **_inputs(frames, errors, options),
+            "errors": _errors(errors, options),
+        },
+        out,
+    )
 
 
-def render_comparison(comparison: CostComparison, errors: Result, out: Write, options: Options) -> None:
-    """Prints one JSON object: `old` and `new`, each with the members that `render` prints for frames, and their `difference`."""
+def render_comparison(
+    comparison: CostComparison, errors: Result, out: Write, options: Options
+) -> None:
+    """Prints one JSON object: `old` and `new`, each with the members that `render` prints for
+    frames, and their `difference`.
+    """
     passes = [
         {**_change(change), "document": number, "name": text(change.name), "kind": change.kind}
         for number, frame in enumerate(comparison.frames)
@@ -61,13 +75,18 @@ def _inputs(frames: Sequence[CostedFrame], errors: Result, options: Options) -> 
     )
     if len(frames) == 1:
         return {**_frame(frames[0], errors, options), "passes": passes, "frames": details}
-    total = {**_amount(inputs_total(frames)), **_corrected(*([getattr(frame.cost, name) for frame in frames] for name in CORRECTED))}
+    total = {
+        **_amount(inputs_total(frames)),
+        **_corrected(*([getattr(frame.cost, name) for frame in frames] for name in CORRECTED)),
+    }
     return {"passes": passes, "total": total, "frames": details}
 
 
 def _complete(members: Json) -> Json:
     """Members with lists in place of iterators."""
-    return {key: list(value) if isinstance(value, Iterator) else value for key, value in members.items()}
+    return {
+        key: list(value) if isinstance(value, Iterator) else value for key, value in members.items()
+    }
 
 
 def _file(frame: CostedFrame, options: Options) -> str:
@@ -91,14 +110,23 @@ def _frame(frame: CostedFrame, errors: Result, options: Options) -> Json:
         "variants": _variants(frame.variants),
         "fixed_variants": _variants(frame.fixed_variants),
         "images": [{**image._asdict(), "name": text(image.name)} for image in cost.images],
-        "assumed": [*(["the traffic is that on a tile-based GPU"] if cost.device is None else []), *map(text, cost.assumed)],
+        "assumed": [
+            *(["the traffic is that on a tile-based GPU"] if cost.device is None else []),
+            *map(text, cost.assumed),
+        ],
         "unknown": list(map(text, cost.unknown)),
     }
 
 
 def _variants(variants: Sequence[Variant]) -> list[Json]:
     return [
-        {"samples": variant.samples, "resolve": variant.resolve, "offered": variant.offered, **_total(variant.cost)} for variant in variants
+        {
+            "samples": variant.samples,
+            "resolve": variant.resolve,
+            "offered": variant.offered,
+            **_total(variant.cost),
+        }
+        for variant in variants
     ]
 
 
@@ -125,7 +153,8 @@ def _line(line: Line, rates: Rates, file: str, errors: Result) -> Json:
     read = line.direction == "read"
     amount = rates.amount(line.bytes if read else 0, 0 if read else line.bytes, 0)
     low, high = (
-        None if each is None else rounded(rates.amount(each, 0, 0).traffic_mb_per_s) for each in (line.corrected, line.corrected_most)
+        None if each is None else rounded(rates.amount(each, 0, 0).traffic_mb_per_s)
+        for each in (line.corrected, line.corrected_most)
     )
     return {
         "attachment": text(line.attachment),
@@ -144,7 +173,10 @@ def _line(line: Line, rates: Rates, file: str, errors: Result) -> Json:
 
 
 def _shading(shading: Shading) -> Json:
-    return {**shading._asdict(), "edges": [{"leg": leg, "factor": factor} for leg, factor in shading.edges]}
+    return {
+        **shading._asdict(),
+        "edges": [{"leg": leg, "factor": factor} for leg, factor in shading.edges],
+    }
 
 
 def _total(cost: FrameCost) -> Json:
@@ -179,7 +211,9 @@ def _optional(amounts: Sequence[Amount | None]) -> Json | None:
 
 
 def _sum(amounts: Iterable[Amount]) -> Amount:
-    return Amount(*(sum(column) for column in zip(Amount(0.0, 0.0, 0.0, 0.0), *amounts, strict=True)))
+    return Amount(
+        *(sum(column) for column in zip(Amount(0.0, 0.0, 0.0, 0.0), *amounts, strict=True))
+    )
 
 
 def _errors(errors: Result, options: Options) -> list[Json]:

@@ -39,7 +39,10 @@ class Comment:
         if not table.rows:
             return
         heads = [_cell(text) for text in (*table.texts, *table.figures)]
-        self.add(f"\n| {' | '.join(heads)} |\n|{' --- |' * len(table.texts)}{' ---: |' * len(table.figures)}\n")
+        self.add(
+            f"\n| {' | '.join(heads)} |\n"
+            f"|{' --- |' * len(table.texts)}{' ---: |' * len(table.figures)}\n"
+        )
         for row in table.rows:
             cells = [*(_cell(text) for text in row.texts), *row.figures]
             if row.kind != cost_rows.LINE:
@@ -59,7 +62,9 @@ class Comment:
 
 
 def render(frames: Sequence[CostedFrame], errors: Result, out: Write, options: Options) -> None:
-    """Prints inputs that cannot be used, then the tables of each frame; for several frames, their totals first."""
+    """Prints inputs that cannot be used, then the tables of each frame; for several frames, their
+    totals first.
+    """
     comment = Comment(out)
     comment.add(f"{HEAD}### Cost of the {'frame' if len(frames) == 1 else 'frames'}\n")
     comment.remarks([("error", line(finding, errors, options)) for finding in errors.findings])
@@ -74,15 +79,25 @@ def render(frames: Sequence[CostedFrame], errors: Result, out: Write, options: O
     comment.close()
 
 
-def render_comparison(compared: CostComparison, errors: Result, out: Write, options: Options) -> None:
-    """Prints what the new input costs more than the old one: the sum in a sentence, then the passes that differ."""
+def render_comparison(
+    compared: CostComparison, errors: Result, out: Write, options: Options
+) -> None:
+    """Prints what the new input costs more than the old one: the sum in a sentence, then the passes
+    that differ.
+    """
     comment = Comment(out)
     comment.add(f"{HEAD}### Cost of this change\n")
     comment.remarks([("error", line(finding, errors, options)) for finding in errors.findings])
-    names = " → ".join(escape_markdown(display_path(file, options.root)) for file in (compared.old_file, compared.new_file))
+    names = " → ".join(
+        escape_markdown(display_path(file, options.root))
+        for file in (compared.old_file, compared.new_file)
+    )
     for number, comparison in enumerate(compared.frames):
         document = f", document {number + 1}" if len(compared.frames) > 1 else ""
-        comment.add(f"\n{names}{document}\n\n**{escape_markdown(cost_rows.sentence(comparison, cost_rows.budget_of(compared)))}.**\n")
+        comment.add(
+            f"\n{names}{document}\n\n"
+            f"**{escape_markdown(cost_rows.sentence(comparison, cost_rows.budget_of(compared)))}.**\n"  # noqa: E501
+        )
         comment.table(cost_rows.changes(comparison))
         comment.remarks(cost_rows.comparison_remarks(compared, number))
     comment.close()

@@ -1,4 +1,6 @@
-"""The rows of the tables of `msaa-lint cost`, before layout: texts as the input has them, figures as text."""
+"""The rows of the tables of `msaa-lint cost`, before layout: texts as the input has them, figures
+as text.
+"""
 
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
@@ -27,7 +29,9 @@ MAX_ROWS = 1000
 
 
 class Row(NamedTuple):
-    """A row: its kind, the texts on its left, and the figures below `FIGURES` or `CHANGES`, empty if unknown or not applicable."""
+    """A row: its kind, the texts on its left, and the figures below `FIGURES` or `CHANGES`, empty
+    if unknown or not applicable.
+    """
 
     kind: str
     texts: tuple[str, ...]
@@ -44,11 +48,15 @@ class Table(NamedTuple):
 
 def frame_name(frame: CostedFrame, options: Options) -> str:
     """A frame's input, and its document if there are several."""
-    return display_path(frame.file, options.root) + (f", document {frame.number + 1}" if frame.documents > 1 else "")
+    return display_path(frame.file, options.root) + (
+        f", document {frame.number + 1}" if frame.documents > 1 else ""
+    )
 
 
 def frame_tables(frame: CostedFrame) -> list[Table]:
-    """The tables of a frame: what its passes cost, what it would cost otherwise, and the memory of its images."""
+    """The tables of a frame: what its passes cost, what it would cost otherwise, and the memory of
+    its images.
+    """
     return [
         Table(COLUMNS, FIGURES, list(rows(frame.cost))),
         Table(("the frame",), FIGURES, alternatives(frame)),
@@ -57,7 +65,9 @@ def frame_tables(frame: CostedFrame) -> list[Table]:
 
 
 def limited(table: Table) -> Table:
-    """A table with its first rows, its totals, and between them the number of rows that are left out."""
+    """A table with its first rows, its totals, and between them the number of rows that are left
+    out.
+    """
     rows = table.rows
     if len(rows) <= MAX_ROWS:
         return table
@@ -69,11 +79,20 @@ def limited(table: Table) -> Table:
 
 def totals(frames: Sequence[CostedFrame], names: Sequence[str]) -> Table:
     """The total of each frame, by name."""
-    return Table(("frame",), FIGURES, [Row(LINE, (name,), _of_frame(frame.cost)) for name, frame in zip(names, frames, strict=True)])
+    return Table(
+        ("frame",),
+        FIGURES,
+        [
+            Row(LINE, (name,), _of_frame(frame.cost))
+            for name, frame in zip(names, frames, strict=True)
+        ],
+    )
 
 
 def figure(value: float, digits: int = 2, sign: bool = False) -> str:
-    """A number with its decimals, none from a million; zero is `0.00` without a sign, and larger numbers have an exponent."""
+    """A number with its decimals, none from a million; zero is `0.00` without a sign, and larger
+    numbers have an exponent.
+    """
     if abs(value) >= 1e9:
         return f"{value:+.4g}" if sign else f"{value:.4g}"
     digits = digits if abs(value) < 1e6 else 0
@@ -88,7 +107,9 @@ def rows(cost: FrameCost) -> Iterator[Row]:
     for pass_cost in cost.passes:
         times = f", {pass_cost.times} times" if pass_cost.times != 1 else ""
         corrected = (pass_cost.corrected, pass_cost.corrected_most)
-        figures = _figures(pass_cost.amount, corrected, cost.budget_milliwatts, bool(pass_cost.unknown))
+        figures = _figures(
+            pass_cost.amount, corrected, cost.budget_milliwatts, bool(pass_cost.unknown)
+        )
         yield Row(PASS, (title(pass_cost) + times, "", "", ""), figures)
         images: set[str] = set()
         for line in pass_cost.lines:
@@ -101,7 +122,11 @@ def rows(cost: FrameCost) -> Iterator[Row]:
 def _line(line: Line, rates: Rates, committed: int | None, budget: float | None) -> Row:
     read = line.direction == "read"
     amount = rates.amount(line.bytes if read else 0, 0 if read else line.bytes, committed or 0)
-    corrected = [rates.amount(each, 0, 0).read_mb_per_s for each in (line.corrected, line.corrected_most) if each is not None]
+    corrected = [
+        rates.amount(each, 0, 0).read_mb_per_s
+        for each in (line.corrected, line.corrected_most)
+        if each is not None
+    ]
     figures = (
         figure(amount.read_mb_per_s) if read else "",
         "" if read else figure(amount.write_mb_per_s),
@@ -127,9 +152,13 @@ def _figures(
     unknown_traffic: bool = False,
     unknown_memory: bool = False,
 ) -> tuple[str, ...]:
-    """The figures of a pass or a frame, marked as lower bounds if some traffic or memory is unknown."""
+    """The figures of a pass or a frame, marked as lower bounds if some traffic or memory is
+    unknown.
+    """
     compressed = _range([each.traffic_mb_per_s for each in corrected if each is not None])
-    least, least_memory = (AT_LEAST if unknown else "" for unknown in (unknown_traffic, unknown_memory))
+    least, least_memory = (
+        AT_LEAST if unknown else "" for unknown in (unknown_traffic, unknown_memory)
+    )
     return (
         least + figure(amount.read_mb_per_s),
         least + figure(amount.write_mb_per_s),
@@ -150,28 +179,44 @@ def _share(amount: Amount, budget: float | None) -> str:
 
 
 def alternatives(frame: CostedFrame) -> list[Row]:
-    """The frame as written, after fixes, and with other sample counts after the same fixes; empty if there is no alternative."""
+    """The frame as written, after fixes, and with other sample counts after the same fixes; empty
+    if there is no alternative.
+    """
     if not frame.counts and frame.fixed is None:
         return []
     after = "" if frame.fixed is None else ", same fixes"
     rows = [(title, cost) for title, cost in frame.states]
-    rows += [(variant_title(variant) + after, variant.cost) for variant in frame.counts if not _is_repeated(variant, frame.counts)]
+    rows += [
+        (variant_title(variant) + after, variant.cost)
+        for variant in frame.counts
+        if not _is_repeated(variant, frame.counts)
+    ]
     return [Row(LINE, (name,), _of_frame(cost)) for name, cost in rows]
 
 
 def _is_repeated(variant: Variant, variants: Sequence[Variant]) -> bool:
     """Whether a variant that resolves as written equals another one with the same count."""
     return variant.resolve == AS_WRITTEN and any(
-        other.samples == variant.samples and other.resolve != AS_WRITTEN and other.cost.total == variant.cost.total for other in variants
+        other.samples == variant.samples
+        and other.resolve != AS_WRITTEN
+        and other.cost.total == variant.cost.total
+        for other in variants
     )
 
 
-_RESOLVES = {"as written": ", resolved as written", "inline": ", resolved inline", "separate": ", resolved separately", NONE: ""}
+_RESOLVES = {
+    "as written": ", resolved as written",
+    "inline": ", resolved inline",
+    "separate": ", resolved separately",
+    NONE: "",
+}
 
 
 def variant_title(variant: Variant) -> str:
     """`4x, resolved inline`, and whether the device does not support it."""
-    return f"{variant.samples}x{_RESOLVES[variant.resolve]}" + (" (not supported)" if variant.offered is False else "")
+    return f"{variant.samples}x{_RESOLVES[variant.resolve]}" + (
+        " (not supported)" if variant.offered is False else ""
+    )
 
 
 def images(cost: FrameCost) -> list[Row]:
@@ -192,14 +237,21 @@ def _mib(size: int | None) -> str:
 def details(cost: FrameCost) -> list[tuple[str, str]]:
     """How passes use the tile, and how often their fragment shaders run: word and sentence."""
     tiles = [("tile", f"{row.name}: {_tile(row)}") for row in cost.passes if row.tile is not None]
-    return tiles + [("shading", f"{row.name}: {_shading(row.shading)}") for row in cost.passes if row.shading is not None]
+    return tiles + [
+        ("shading", f"{row.name}: {_shading(row.shading)}")
+        for row in cost.passes
+        if row.shading is not None
+    ]
 
 
 def _tile(cost: PassCost) -> str:
     use = cost.tile
     assert use is not None
     spills = "; the tile is too small, and attachments spill to memory" if use.spills else ""
-    return f"{use.pixels} pixels per tile ({use.full} with one sample), {use.bytes_per_pixel} bytes per pixel{spills}"
+    return (
+        f"{use.pixels} pixels per tile ({use.full} with one sample), {use.bytes_per_pixel} "
+        f"bytes per pixel{spills}"
+    )
 
 
 SHOWN_LEG = 4
@@ -215,15 +267,28 @@ def _shading(shading: Shading) -> str:
     if shading.demanded is not None and shading.demanded != shading.msaa:
         text += f", {figure(shading.demanded)} as requested"
     factor = dict(shading.edges).get(SHOWN_LEG)
-    return text + (f"; {figure(factor)} times as many for triangles of {SHOWN_LEG} pixels)" if factor is not None else ")")
+    return text + (
+        f"; {figure(factor)} times as many for triangles of {SHOWN_LEG} pixels)"
+        if factor is not None
+        else ")"
+    )
 
 
 def changes(comparison: Comparison) -> Table:
-    """The changes of passes, except those that cost the same; of the total; and of the corrected total, if known."""
-    table = [_change(change) for change in (*comparison.passes, comparison.total) if change.status != SAME or change is comparison.total]
+    """The changes of passes, except those that cost the same; of the total; and of the corrected
+    total, if known.
+    """
+    table = [
+        _change(change)
+        for change in (*comparison.passes, comparison.total)
+        if change.status != SAME or change is comparison.total
+    ]
     corrected = comparison.total.corrected
     if corrected is not None:
-        signed = (*(figure(value, sign=True) for value in corrected[:3]), figure(corrected.milliwatts, 1, sign=True))
+        signed = (
+            *(figure(value, sign=True) for value in corrected[:3]),
+            figure(corrected.milliwatts, 1, sign=True),
+        )
         table.append(Row(TOTAL, ("total, corrected", ""), ("", "", *signed, "")))
     return Table(("pass", "change"), CHANGES, table)
 
@@ -246,11 +311,17 @@ def _change(change: Change) -> Row:
 
 
 def sentence(comparison: Comparison, budget: float | None) -> str:
-    """`This change: +2247.78 MB/s read, ..., +449.6 mW (+18.0 % of 2500 mW)`; without a budget, without the share."""
+    """`This change: +2247.78 MB/s read, ..., +449.6 mW (+18.0 % of 2500 mW)`; without a budget,
+    without the share.
+    """
     if comparison.total.status == SAME:
         return "This change costs nothing"
     difference = comparison.total.difference
-    share = "" if budget is None else f" ({figure(100 * difference.milliwatts / budget, 1, sign=True)} % of {budget:g} mW)"
+    share = (
+        ""
+        if budget is None
+        else f" ({figure(100 * difference.milliwatts / budget, 1, sign=True)} % of {budget:g} mW)"
+    )
     parts = (
         f"{figure(difference.read_mb_per_s, sign=True)} MB/s read",
         f"{figure(difference.write_mb_per_s, sign=True)} MB/s written",
@@ -261,25 +332,41 @@ def sentence(comparison: Comparison, budget: float | None) -> str:
 
 
 def head(cost: FrameCost) -> str:
-    """The terms of an estimate. A fixed word comes first, so that no line begins with text from an input."""
+    """The terms of an estimate. A fixed word comes first, so that no line begins with text from an
+    input.
+    """
     device = cost.device if cost.device is not None else "no device (on a tile-based GPU)"
     budget = "" if cost.budget_milliwatts is None else f", budget {cost.budget_milliwatts:g} mW"
-    return f"{cost.fps:g} frames per second on {device}, {cost.milliwatts_per_gbps:g} mW per GB/s{budget}"
+    return (
+        f"{cost.fps:g} frames per second on {device}, {cost.milliwatts_per_gbps:g} mW per "
+        f"GB/s{budget}"
+    )
 
 
 def remarks(cost: FrameCost) -> list[tuple[str, str]]:
     """Assumptions, and what could not be counted: word and text."""
-    return [*(("assumed", text) for text in cost.assumed), *(("unknown", text) for text in cost.unknown)]
+    return [
+        *(("assumed", text) for text in cost.assumed),
+        *(("unknown", text) for text in cost.unknown),
+    ]
 
 
 def comparison_remarks(compared: CostComparison, number: int) -> list[tuple[str, str]]:
-    """What makes a comparison uncertain: word and text. Remarks that apply to both sides appear once."""
+    """What makes a comparison uncertain: word and text. Remarks that apply to both sides appear
+    once.
+    """
     comparison = compared.frames[number]
     same = sum(change.status == SAME for change in comparison.passes)
-    lines = [("note", f"{same} {'pass costs' if same == 1 else 'passes cost'} the same")] if same else []
+    lines = (
+        [("note", f"{same} {'pass costs' if same == 1 else 'passes cost'} the same")]
+        if same
+        else []
+    )
     lines += [("note", text) for text in comparison.remarks]
     old, new = (
-        dict.fromkeys(remark for frame in side if frame.number == number for remark in remarks(frame.cost))
+        dict.fromkeys(
+            remark for frame in side if frame.number == number for remark in remarks(frame.cost)
+        )
         for side in (compared.old, compared.new)
     )
     lines += [remark for remark in old if remark in new]

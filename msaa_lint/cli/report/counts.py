@@ -22,7 +22,12 @@ def counts(result: Result) -> Counts:
         total.undecided.add((entry.code, "", ""))
         total.undecided.update((entry.code, "fact", fact) for fact in entry.missing)
         total.undecided.update((entry.code, "key", pattern(key)) for key in entry.keys)
-    numbers = {"suppressed": len(result.suppressed), "undecided": len(result.undecided), "unread": 0, **dict.fromkeys(COUNTS, 0)}
+    numbers = {
+        "suppressed": len(result.suppressed),
+        "undecided": len(result.undecided),
+        "unread": 0,
+        **dict.fromkeys(COUNTS, 0),
+    }
     for each in result.inputs:
         numbers["unread"] += each.unread is not None
         for name in COUNTS:
@@ -37,6 +42,8 @@ def undecided_rules(figures: Counts) -> int:
 
 
 def missing(figures: Counts, kind: str) -> list[tuple[str, int]]:
-    """The missing facts, or keys, with the number of rules that lack each, the largest number first."""
+    """The missing facts, or keys, with the number of rules that lack each, the largest number
+    first.
+    """
     found = Counter(name for _, of_kind, name in figures.undecided if of_kind == kind)
     return sorted(found.items(), key=lambda item: (-item[1], item[0]))

@@ -27,7 +27,9 @@ _ENCODER = json.JSONEncoder(ensure_ascii=True, allow_nan=False)
 
 
 def dump(value: object) -> str:
-    """`value` on one line. It is ASCII, so every encoding of an output stream can hold it, and no terminal and no CI runner acts on it."""
+    """`value` on one line. It is ASCII, so every encoding of an output stream can hold it, and no
+    terminal and no CI runner acts on it.
+    """
     return value if isinstance(value, Dumped) else escape_json(_ENCODER.encode(value))
 
 
@@ -37,7 +39,9 @@ def dump_indented(value: object) -> str:
 
 
 def text(value: str) -> str:
-    """Text of an input, a driver, or a layer: unchanged, except lone surrogates and what exceeds `escape.MAX_LENGTH`."""
+    """Text of an input, a driver, or a layer: unchanged, except lone surrogates and what exceeds
+    `escape.MAX_LENGTH`.
+    """
     # Nearly all of them are short and ASCII, and a large report has millions.
     return value if len(value) <= MAX_LENGTH and value.isascii() else escape_surrogates(clip(value))
 
@@ -48,8 +52,9 @@ def rounded(value: float | None) -> float | None:
 
 
 def write_object(members: Mapping[str, object], out: Write) -> None:
-    """A JSON object with one member per line. Lists and iterators have one element per line, so that a large report is neither built as a
-    whole nor one endless line."""
+    """A JSON object with one member per line. Lists and iterators have one element per line, so
+    that a large report is neither built as a whole nor one endless line.
+    """
     separator = "{\n"
     for key, value in members.items():
         out(f"{separator}  {dump(key)}: ")

@@ -1,7 +1,8 @@
 """Escapes text from an input for display.
 
-What a person reads in a terminal, a log, or a comment must be what is in the file: nothing may move the cursor, reorder the line
-(Trojan Source, CVE-2021-42574), be invisible, or command the program that reads the log.
+What a person reads in a terminal, a log, or a comment must be what is in the file: nothing may move
+the cursor, reorder the line (Trojan Source, CVE-2021-42574), be invisible, or command the program
+that reads the log.
 """
 
 from __future__ import annotations
@@ -11,7 +12,9 @@ import re
 from msaa_lint.core.visible import is_visible
 
 MAX_LENGTH = 4096
-"""Code points of a message, note, subject, or name; the rest is cut, so that one scalar cannot inflate a report."""
+"""Code points of a message, note, subject, or name; the rest is cut, so that one scalar cannot
+inflate a report.
+"""
 
 # CI runners obey `##[command]` and `##vso[command]` anywhere in a line of their log.
 _RUNNER_COMMAND = re.compile(r"#(?=#\w*\[)")
@@ -19,7 +22,9 @@ _SHORT_ESCAPES = {"\n": "\\n", "\r": "\\r", "\t": "\\t"}
 
 
 def escape_each(text: str) -> list[str]:
-    """The displayed form of each character of `text`: itself, or an escape such as `\\x1b` or `\\u202e`."""
+    """The displayed form of each character of `text`: itself, or an escape such as `\\x1b` or
+    `\\u202e`.
+    """
     parts = list(text)
     if not text.isprintable() or not text.isascii():
         parts = [c if is_visible(c) else _escape(c) for c in text]
@@ -41,18 +46,24 @@ def escape_json(text: str) -> str:
 
 
 def escape_commands(text: str) -> str:
-    """Lines to print, of which none begins with `::`, after spaces and colors: CI runners obey `::command::` there."""
+    """Lines to print, of which none begins with `::`, after spaces and colors: CI runners obey
+    `::command::` there.
+    """
     return re.sub(r"(?m)^((?:\x1b\[[0-9;]*m|[ \t])*):(?=:)", r"\1\\x3a", text)
 
 
 def escape_lines(text: str) -> str:
-    """A text of several lines, such as a page: line ends and tabs stay, and everything else is escaped."""
+    """A text of several lines, such as a page: line ends and tabs stay, and everything else is
+    escaped.
+    """
     lines = text.replace("\r\n", "\n").split("\n")
     return escape_commands("\n".join("\t".join(map(escape, line.split("\t"))) for line in lines))
 
 
 def display(text: str) -> str:
-    """A message, note, or subject as text outputs show it: trimmed, at most `MAX_LENGTH` code points, escaped."""
+    """A message, note, or subject as text outputs show it: trimmed, at most `MAX_LENGTH` code
+    points, escaped.
+    """
     return escape(clip(text.strip()))
 
 

@@ -41,9 +41,12 @@ class _Arm(NamedTuple):
     opens: bool
 
 
-def excerpt(source: Source, marks: Sequence[Mark], width: int, color: bool) -> tuple[int, list[str]]:
-    """The number of cells that line numbers take, and the lines with the `marks` (at least one). Without the texts of the marks, no line is
-    wider than `width` cells (0: no limit)."""
+def excerpt(
+    source: Source, marks: Sequence[Mark], width: int, color: bool
+) -> tuple[int, list[str]]:
+    """The number of cells that line numbers take, and the lines with the `marks` (at least one).
+    Without the texts of the marks, no line is wider than `width` cells (0: no limit).
+    """
     digits, rows = excerpt_rows(source, marks, width)
     return digits, ["".join(paint(text, style, color) for text, style in row) for row in rows]
 
@@ -56,7 +59,9 @@ def excerpt_rows(source: Source, marks: Sequence[Mark], width: int) -> tuple[int
     starts: dict[int, int] = {}
     bars = 0
     for mark in marks[:MAX_MARKS]:
-        mark = mark._replace(start=max(0, min(mark.start, len(text))), end=max(0, min(mark.end, len(text))))
+        mark = mark._replace(
+            start=max(0, min(mark.start, len(text))), end=max(0, min(mark.end, len(text)))
+        )
         line, column = source.position(mark.start)
         last = max(mark.start, mark.end - 1)
         last_line, last_column = source.position(last)
@@ -78,7 +83,16 @@ def excerpt_rows(source: Source, marks: Sequence[Mark], width: int) -> tuple[int
         if any(margin) and line > before + 1:
             rows.append([(f"{CUT:<{digits + 3}}", SECONDARY), *_bars(margin)])
         before = line
-        rows += _line(text, line, starts[line], singles.get(line, []), arms.get(line, []), digits, margin, room)
+        rows += _line(
+            text,
+            line,
+            starts[line],
+            singles.get(line, []),
+            arms.get(line, []),
+            digits,
+            margin,
+            room,
+        )
     return digits, list(map(_joined, rows))
 
 
@@ -95,11 +109,27 @@ def _add_between(text: str, first: int, last: int, starts: dict[int, int]) -> No
         starts[number] = offset
 
 
-def _line(text: str, number: int, start: int, marks: list[Mark], arms: list[_Arm], digits: int, margin: list[str], room: int) -> list[_Row]:
-    """One source line with its marks, repeated if one window cannot hold them all. Opens and closes the bars of `margin`."""
+def _line(
+    text: str,
+    number: int,
+    start: int,
+    marks: list[Mark],
+    arms: list[_Arm],
+    digits: int,
+    margin: list[str],
+    room: int,
+) -> list[_Row]:
+    """One source line with its marks, repeated if one window cannot hold them all. Opens and closes
+    the bars of `margin`.
+    """
     rows = []
     while True:
-        view = window(text, start, min([mark.start for mark in marks] + [arm.offset for arm in arms], default=start), room)
+        view = window(
+            text,
+            start,
+            min([mark.start for mark in marks] + [arm.offset for arm in arms], default=start),
+            room,
+        )
         inside = [mark for mark in marks if view.shows(mark.start)]
         here = [arm for arm in arms if view.shows(arm.offset)]
         # A mark that begins with the line opens its bar next to it.
@@ -109,7 +139,11 @@ def _line(text: str, number: int, start: int, marks: list[Mark], arms: list[_Arm
             bars[2 * arm.bar] = ("/", arm.mark.style)
             margin[arm.bar] = arm.mark.style
         rows.append([*_edge(digits, str(number)), *bars, (view.text, "")])
-        rows += [[*_edge(digits, "", margin), *row] for row in _underlines(view, inside)] if inside else []
+        rows += (
+            [[*_edge(digits, "", margin), *row] for row in _underlines(view, inside)]
+            if inside
+            else []
+        )
         for arm in sorted(here, key=lambda arm: (not arm.opens, arm.offset)):
             if arm not in simple:
                 rows.append([*_edge(digits, "", margin[: arm.bar]), *_arm(arm, view, len(margin))])
@@ -121,7 +155,9 @@ def _line(text: str, number: int, start: int, marks: list[Mark], arms: list[_Arm
 
 
 def _underlines(view: Window, marks: list[Mark]) -> list[_Row]:
-    """The row of `^` and `-` with the text of the rightmost mark, then a row for each other text, under its mark."""
+    """The row of `^` and `-` with the text of the rightmost mark, then a row for each other text,
+    under its mark.
+    """
     places = []
     for mark in marks:
         start = view.cell(mark.start)
@@ -129,12 +165,17 @@ def _underlines(view: Window, marks: list[Mark]) -> list[_Row]:
         places.append((start, max(end, start + 1), mark))
     row: _Row = [(" ", "")] * max(end for _, end, _ in places)
     # Of two marks on one cell, the shorter is drawn over the longer, which would hide it.
-    for start, end, mark in sorted(places, key=lambda place: (place[0] - place[1], place[2].primary)):
+    for start, end, mark in sorted(
+        places, key=lambda place: (place[0] - place[1], place[2].primary)
+    ):
         row[start:end] = [("^" if mark.primary else "-", mark.style)] * (end - start)
     inline = max(places, key=lambda place: (place[1], place[0], place[2].text))
     if inline[2].text:
         row = [*row, (" " + inline[2].text, inline[2].style)]
-    below = sorted((place for place in places if place is not inline and place[2].text), key=lambda place: (place[0], place[1]))
+    below = sorted(
+        (place for place in places if place is not inline and place[2].text),
+        key=lambda place: (place[0], place[1]),
+    )
     rows = [row]
     if below:
         rows.append(_connectors(below))
@@ -156,7 +197,12 @@ def _arm(arm: _Arm, view: Window, bars: int) -> _Row:
     """From the bar in the margin to the first or last character of the mark."""
     reach = 2 * (bars - arm.bar) - 1 + view.cell(arm.offset)
     text = "" if arm.opens or not arm.mark.text else " " + arm.mark.text
-    return [((" " if arm.opens else "|") + "_" * reach + ("^" if arm.mark.primary else "-") + text, arm.mark.style)]
+    return [
+        (
+            (" " if arm.opens else "|") + "_" * reach + ("^" if arm.mark.primary else "-") + text,
+            arm.mark.style,
+        )
+    ]
 
 
 def _begins_line(text: str, start: int, offset: int) -> bool:
@@ -176,4 +222,7 @@ def _joined(row: _Row) -> _Row:
     while row and not row[-1][0].rstrip():
         row = row[:-1]
     row[-1] = (row[-1][0].rstrip(), row[-1][1])
-    return [("".join(piece for piece, _ in pieces), style) for style, pieces in groupby(row, key=itemgetter(1))]
+    return [
+        ("".join(piece for piece, _ in pieces), style)
+        for style, pieces in groupby(row, key=itemgetter(1))
+    ]

@@ -1,4 +1,6 @@
-"""Identifiers of findings that survive edits: a mistake keeps its fingerprint when lines move, or entries before it."""
+"""Identifiers of findings that survive edits: a mistake keeps its fingerprint when lines move, or
+entries before it.
+"""
 
 from __future__ import annotations
 
@@ -15,8 +17,9 @@ _NUMBERS = re.compile(NUMBERS)
 
 
 def fingerprint(finding: Finding, n: int, root: str = "") -> str:
-    """32 hexadecimal digits from the rule, the file relative to `root`, the subject without `NUMBERS`, and `n`, the number of earlier
-    findings with the same three."""
+    """32 hexadecimal digits from the rule, the file relative to `root`, the subject without
+    `NUMBERS`, and `n`, the number of earlier findings with the same three.
+    """
     text = "\0".join((*_key(finding, root), str(n)))
     return sha256(text.encode("utf-8", "surrogatepass")).hexdigest()[:32]
 

@@ -26,7 +26,9 @@ def render(result: Result, out: Write, options: Options) -> None:
 
 
 def paragraph(finding: Finding, result: Result, options: Options, rules: Set[str]) -> str:
-    """One finding, without a line end after its last line. `rules` are the names that `msaa-lint rule` knows."""
+    """One finding, without a line end after its last line. `rules` are the names that `msaa-lint
+    rule` knows.
+    """
     head = f"{kind(finding, options)}{paint(': ' + display(finding.message), BOLD, options.color)}"
     digits, lines = 1, list[str]()
     source = result.sources.get(finding.file)
@@ -35,21 +37,37 @@ def paragraph(finding: Finding, result: Result, options: Options, rules: Set[str
     indent = " " * digits
     bar = paint(f"{indent} |", SECONDARY, options.color)
     equals = paint(f"{indent} =", SECONDARY, options.color)
-    notes = [f"{equals} {paint(f'{word}:', BOLD, options.color)} {text}" for word, text in remarks(finding, rules)]
+    notes = [
+        f"{equals} {paint(f'{word}:', BOLD, options.color)} {text}"
+        for word, text in remarks(finding, rules)
+    ]
     arrow = paint(f"{indent}-->", SECONDARY, options.color)
-    others = [line for file, labels in elsewhere(finding).items() for line in _excerpt_of(file, labels, digits, result, options)]
-    return "\n".join([head, f"{arrow} {location(finding, result, options)}", *lines, *others, bar, *notes])
+    others = [
+        line
+        for file, labels in elsewhere(finding).items()
+        for line in _excerpt_of(file, labels, digits, result, options)
+    ]
+    return "\n".join(
+        [head, f"{arrow} {location(finding, result, options)}", *lines, *others, bar, *notes]
+    )
 
 
 def marks(finding: Finding) -> list[Mark]:
-    """The primary mark, with the labels at the finding's own span, and a mark for each other label of its file."""
+    """The primary mark, with the labels at the finding's own span, and a mark for each other label
+    of its file.
+    """
     assert finding.span is not None
     texts: dict[tuple[int, int], list[str]] = {finding.span: []}
     for label in finding.labels:
         if label.file is None:
             texts.setdefault(label.span, []).append(display(label.text))
-    primary = Mark(*finding.span, "; ".join(texts.pop(finding.span)), SEVERITY[finding.severity], True)
-    return [primary, *(Mark(*span, "; ".join(parts), SECONDARY, False) for span, parts in texts.items())]
+    primary = Mark(
+        *finding.span, "; ".join(texts.pop(finding.span)), SEVERITY[finding.severity], True
+    )
+    return [
+        primary,
+        *(Mark(*span, "; ".join(parts), SECONDARY, False) for span, parts in texts.items()),
+    ]
 
 
 def elsewhere(finding: Finding) -> dict[str, list[Label]]:
@@ -61,7 +79,9 @@ def elsewhere(finding: Finding) -> dict[str, list[Label]]:
     return labels
 
 
-def _excerpt_of(file: str, labels: Sequence[Label], digits: int, result: Result, options: Options) -> Iterator[str]:
+def _excerpt_of(
+    file: str, labels: Sequence[Label], digits: int, result: Result, options: Options
+) -> Iterator[str]:
     """Yields the lines of another file that have labels."""
     source = result.sources.get(file)
     at = place(result, file, labels[0].span)
@@ -76,7 +96,11 @@ def _excerpt_of(file: str, labels: Sequence[Label], digits: int, result: Result,
 def capture_location(where: CaptureLocation) -> str:
     """Where in a capture a finding is from, in words."""
     call = where.by if where.call is None else f"{where.by}, call {where.call}"
-    return call if where.frames is None or where.of < 2 else f"{call}; in {where.frames} of {where.of} frames"
+    return (
+        call
+        if where.frames is None or where.of < 2
+        else f"{call}; in {where.frames} of {where.of} frames"
+    )
 
 
 def remarks(finding: Finding, rules: Set[str]) -> list[tuple[str, str]]:
@@ -84,7 +108,11 @@ def remarks(finding: Finding, rules: Set[str]) -> list[tuple[str, str]]:
     lines = [("note", f"{display(finding.code)}, confidence {finding.confidence}")]
     if finding.capture_location is not None:
         lines.append(
-            ("from", display(capture_location(finding.capture_location)) + " (line numbers are those of `msaa-lint convert` output)")
+            (
+                "from",
+                display(capture_location(finding.capture_location))
+                + " (line numbers are those of `msaa-lint convert` output)",
+            )
         )
     lines += [("note", display(note)) for note in finding.notes if note.strip()]
     places = len({label.span for label in finding.labels if label.file is None} | {finding.span})

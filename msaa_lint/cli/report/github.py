@@ -1,4 +1,6 @@
-"""GitHub Actions: findings as workflow commands, which become annotations, and a table in the step summary."""
+"""GitHub Actions: findings as workflow commands, which become annotations, and a table in the step
+summary.
+"""
 
 from __future__ import annotations
 
@@ -26,9 +28,14 @@ _LEVEL = {"error": "error", "warning": "warning", "note": "notice"}
 
 
 def render(result: Result, out: Write, options: Options) -> None:
-    """Prints at most ten commands per level, the most important first, and appends the summary to the file `options.step_summary`."""
+    """Prints at most ten commands per level, the most important first, and appends the summary to
+    the file `options.step_summary`.
+    """
     room = dict.fromkeys(_LEVEL, MAX_ANNOTATIONS)
-    if max(Counter(finding.severity for finding in result.findings).values(), default=0) > MAX_ANNOTATIONS:
+    if (
+        max(Counter(finding.severity for finding in result.findings).values(), default=0)
+        > MAX_ANNOTATIONS
+    ):
         room["note"] -= 1  # for the last one, which counts the others
     left_out = len(result.findings)
     for finding in most_important(result.findings, MAX_ANNOTATIONS):
@@ -38,13 +45,24 @@ def render(result: Result, out: Write, options: Options) -> None:
             out(_command(finding, result, options) + "\n")
     for finding in unread_notes(result)[: max(room["note"] - bool(left_out), 0)]:
         out(_command(finding, result, options) + "\n")
-    path = os.environ.get("GITHUB_STEP_SUMMARY", "") if options.step_summary is None else options.step_summary
+    path = (
+        os.environ.get("GITHUB_STEP_SUMMARY", "")
+        if options.step_summary is None
+        else options.step_summary
+    )
     problem = _append(path, result, options) if path else ""
     if left_out:
-        where = "see the summary of this step" if path and not problem else "GitHub shows at most ten per level and step"
+        where = (
+            "see the summary of this step"
+            if path and not problem
+            else "GitHub shows at most ten per level and step"
+        )
         out(f"::notice title=msaa-lint::{plural(left_out, 'more finding')}, {where}\n")
     if problem:
-        out(f"::warning title=msaa-lint::{_data('cannot write the summary of this step: ' + display(problem))}\n")
+        out(
+            f"::warning "
+            f"title=msaa-lint::{_data('cannot write the summary of this step: ' + display(problem))}\n"  # noqa: E501
+        )
 
 
 def _command(finding: Finding, result: Result, options: Options) -> str:
@@ -57,11 +75,16 @@ def _command(finding: Finding, result: Result, options: Options) -> str:
         properties |= _region(source, finding.span.start, finding.span.end)
     properties["title"] = f"{display(finding.rule)} ({display(finding.code)})"
     joined = ",".join(f"{name}={_property(str(value))}" for name, value in properties.items())
-    return f"::{_LEVEL[finding.severity]} {joined}::{_data(chr(10).join(annotation_lines(finding, options)))}"
+    return (
+        f"::{_LEVEL[finding.severity]} "
+        f"{joined}::{_data(chr(10).join(annotation_lines(finding, options)))}"
+    )
 
 
 def _region(source: Source, start: int, end: int) -> dict[str, str | int]:
-    """Lines, and columns if it is one line, in GitHub's terms; never below the last line with text, where it shows nothing."""
+    """Lines, and columns if it is one line, in GitHub's terms; never below the last line with text,
+    where it shows nothing.
+    """
     text = source.text
     start = min(start, len(text))
     end = max(start, min(end, len(text)))
@@ -76,7 +99,9 @@ def _region(source: Source, start: int, end: int) -> dict[str, str | int]:
 
 
 def _append(path: str, result: Result, options: Options) -> str:
-    """Appends the table to the summary, as far as it fits; returns the error, or an empty string."""
+    """Appends the table to the summary, as far as it fits; returns the error, or an empty
+    string.
+    """
     try:
         with open(path, "ab") as file:
             room = MAX_SUMMARY_BYTES - file.seek(0, os.SEEK_END)

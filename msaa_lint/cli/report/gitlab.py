@@ -19,7 +19,13 @@ _SEVERITY = {"note": "info", "warning": "minor", "error": "major"}
 def render(result: Result, out: Write, options: Options) -> None:
     """Prints the list, which is empty if there are no findings."""
     names = fingerprints(result.findings, options.root)
-    write_list((_issue(finding, name, result, options) for finding, name in zip(result.findings, names, strict=True)), out)
+    write_list(
+        (
+            _issue(finding, name, result, options)
+            for finding, name in zip(result.findings, names, strict=True)
+        ),
+        out,
+    )
     out("\n")
 
 
@@ -27,7 +33,10 @@ def _issue(finding: Finding, name: str, result: Result, options: Options) -> dic
     at = place(result, finding.file, finding.span)
     location: dict[str, object] = {"path": escape(relative(finding.file, options.root))}
     if at:
-        begin, end = {"line": at.line, "column": at.column}, {"line": at.end_line, "column": at.end_column}
+        begin, end = (
+            {"line": at.line, "column": at.column},
+            {"line": at.end_line, "column": at.end_column},
+        )
         location["positions"] = {"begin": begin, "end": end}
     else:
         location["lines"] = {"begin": 1}
@@ -35,7 +44,8 @@ def _issue(finding: Finding, name: str, result: Result, options: Options) -> dic
     address = rule_address(options.docs_url, finding.code, finding.rule)
     return {
         # GitLab does not show check_name.
-        "description": f"{display(finding.rule)}: {display(finding.message)}" + (f" ({price})" if price else ""),
+        "description": f"{display(finding.rule)}: {display(finding.message)}"
+        + (f" ({price})" if price else ""),
         "check_name": display(finding.rule),
         "fingerprint": name,
         "severity": _SEVERITY[finding.severity],

@@ -45,7 +45,9 @@ SOURCE = frozenset(LANGUAGES)
 
 
 def checked(inputs: Iterable[InputSummary]) -> str:
-    """`2 descriptions: 5 images, 3 passes; 1 C++ file: nothing read`; empty if nothing is known of the inputs."""
+    """`2 descriptions: 5 images, 3 passes; 1 C++ file: nothing read`; empty if nothing is known of
+    the inputs.
+    """
     by_format: dict[str, Counter[str]] = {}
     for each in inputs:
         totals = by_format.setdefault(each.format, Counter())
@@ -64,32 +66,62 @@ def _of_format(format: str, totals: Counter[str]) -> str:
     name = plural(totals["inputs"], _FORMATS[format])
     if not format:
         return name
-    parts = [plural(totals[count], noun) for count, noun in zip(COUNTS, _NOUNS, strict=True) if totals[count]]
-    for key, words in (("failed", "not checked because of errors"), ("failed in part", "checked in part because of errors")):
+    parts = [
+        plural(totals[count], noun)
+        for count, noun in zip(COUNTS, _NOUNS, strict=True)
+        if totals[count]
+    ]
+    for key, words in (
+        ("failed", "not checked because of errors"),
+        ("failed in part", "checked in part because of errors"),
+    ):
         if totals[key]:
             parts.append(f"{totals[key]} {words}")
     if format in SOURCE and totals["unread"] and parts:
         parts.append(f"{totals['unread']} not understood")
-    return f"{name}: {', '.join(parts) or ('nothing read' if format in SOURCE else 'nothing to check')}"
+    return (
+        f"{name}: "
+        f"{', '.join(parts) or ('nothing read' if format in SOURCE else 'nothing to check')}"
+    )
 
 
 def captured(result: Result, options: Options) -> list[str]:
-    """A line for each capture: the program, the device, the frames, and the passes; and what of it was left out.
+    """A line for each capture: the program, the device, the frames, and the passes; and what of it
+    was left out.
 
     None for a capture of which nothing was read: its error says why.
     """
-    inputs = [each for each in result.inputs if each.capture and (each.capture.frames or each.capture.passes or not each.failed)]
+    inputs = [
+        each
+        for each in result.inputs
+        if each.capture and (each.capture.frames or each.capture.passes or not each.failed)
+    ]
     lines = [_capture_line(each, options) for each in inputs[: options.max_unread]]
-    return [*lines, *([f"{plural(len(inputs) - len(lines), 'more capture')}"] if len(inputs) > len(lines) else [])]
+    return [
+        *lines,
+        *(
+            [f"{plural(len(inputs) - len(lines), 'more capture')}"]
+            if len(inputs) > len(lines)
+            else []
+        ),
+    ]
 
 
 def _capture_line(summary: InputSummary, options: Options) -> str:
     """`game.jsonl: glxgears (mesa zink) on llvmpipe: 10 frames of 2 kinds, 3 passes, 1 with 4x`."""
     capture = summary.capture
     assert capture is not None
-    program = f"{capture.program} ({capture.engine})" if capture.program and capture.engine else capture.program or capture.engine
-    origin = " on ".join(filter(None, (program or ("a program" if capture.device else ""), capture.device)))
-    multisampled = [f"{count} with {samples}x" for samples, count in capture.passes.items() if samples > 1]
+    program = (
+        f"{capture.program} ({capture.engine})"
+        if capture.program and capture.engine
+        else capture.program or capture.engine
+    )
+    origin = " on ".join(
+        filter(None, (program or ("a program" if capture.device else ""), capture.device))
+    )
+    multisampled = [
+        f"{count} with {samples}x" for samples, count in capture.passes.items() if samples > 1
+    ]
     passes = sum(capture.passes.values())
     kinds = f" of {capture.kinds} kinds" if capture.kinds > 1 else ""
     frames = f"{plural(capture.frames, 'frame')}{kinds}" if capture.frames else "no frames"
@@ -103,14 +135,21 @@ def _capture_line(summary: InputSummary, options: Options) -> str:
     else:
         parts.append("nothing is multisampled")
     if capture.dropped_frames:
-        parts.append(f"{plural(capture.dropped_frames, 'frame')} not checked, because there are too many kinds of frame")
+        parts.append(
+            f"{plural(capture.dropped_frames, 'frame')} not checked, because there are too many "
+            f"kinds of frame"
+        )
     if capture.left_out:
         parts.append(f"without {display(capture.left_out)}")
-    return ": ".join(filter(None, (display_path(summary.file, options.root), display(origin), ", ".join(parts))))
+    return ": ".join(
+        filter(None, (display_path(summary.file, options.root), display(origin), ", ".join(parts)))
+    )
 
 
 def unread_inputs(result: Result) -> list[InputSummary]:
-    """The inputs that create something multisampled of which no pass was checked, unless a finding says so."""
+    """The inputs that create something multisampled of which no pass was checked, unless a finding
+    says so.
+    """
     reported = {finding.file for finding in result.findings if finding.code == "MSAA931"}
     return [each for each in result.inputs if each.unread is not None and each.file not in reported]
 
@@ -130,5 +169,7 @@ def unread_line(summary: InputSummary, result: Result, options: Options) -> str:
     """`src/main.cpp:12:5: not checked: ...`."""
     assert summary.unread is not None
     at = place(result, summary.file, summary.unread.span)
-    where = display_path(summary.file, options.root) + (f":{at.line}:{at.column}" if at is not None else "")
+    where = display_path(summary.file, options.root) + (
+        f":{at.line}:{at.column}" if at is not None else ""
+    )
     return f"{where}: not checked: {display(summary.unread.message)}"

@@ -1,8 +1,20 @@
-"""The versioned JSON of `msaa-lint check`; `json_v1.schema.json` next to this file is its schema."""
+"""The versioned JSON of `msaa-lint check`; `json_v1.schema.json` next to this file is its
+schema.
+"""
 
 from __future__ import annotations
 
-from msaa_lint.core.finding import CaptureSummary, Finding, Fix, InputSummary, Result, Saving, Suppressed, Undecided, Unread
+from msaa_lint.core.finding import (
+    CaptureSummary,
+    Finding,
+    Fix,
+    InputSummary,
+    Result,
+    Saving,
+    Suppressed,
+    Undecided,
+    Unread,
+)
 from msaa_lint.core.rendered import RenderedFinding, RenderedPart
 from msaa_lint.core.text.span import Label, Span
 from msaa_lint.linter.rules.reference_links import rule_address
@@ -18,7 +30,8 @@ from .summary import converted_saving, notes_of, tally, usable_price
 
 SCHEMA = "msaa-lint/json-v1"
 _COUNTS = (
-    "findings", "errors", "warnings", "notes", "fixable", "suppressed", "files", "files_with_findings", "undecided", "undecided_rules",
+    "findings", "errors", "warnings", "notes", "fixable", "suppressed", "files",
+    "files_with_findings", "undecided", "undecided_rules",
 )  # fmt: skip
 
 
@@ -36,7 +49,10 @@ def render(result: Result, out: Write, options: Options) -> None:
             "inputs": (_input(entry, result, options) for entry in result.inputs),
         }
     else:
-        members |= {name: map(Dumped, getattr(rendered, name)) for name in ("findings", "suppressed", "undecided", "inputs")}
+        members |= {
+            name: map(Dumped, getattr(rendered, name))
+            for name in ("findings", "suppressed", "undecided", "inputs")
+        }
     members["summary"] = _summary(result)
     write_object(members, out)
 
@@ -44,7 +60,10 @@ def render(result: Result, out: Write, options: Options) -> None:
 def part(result: Result, options: Options) -> RenderedPart:
     """What one input adds to the lists of the object, and to its summary."""
     return RenderedPart(
-        [RenderedFinding(dump(_finding(each, result, options)), each.file, each.level) for each in result.findings],
+        [
+            RenderedFinding(dump(_finding(each, result, options)), each.file, each.level)
+            for each in result.findings
+        ],
         SEPARATOR.join(dump(_suppressed(entry, result, options)) for entry in result.suppressed),
         SEPARATOR.join(dump(_undecided(entry, result, options)) for entry in result.undecided),
         {entry.file: dump(_input(entry, result, options)) for entry in result.inputs},
@@ -70,7 +89,9 @@ def _finding(finding: Finding, result: Result, options: Options) -> Json:
         "labels": [_label(label, finding, result, options) for label in finding.labels],
         "notes": [text(note) for note in notes_of(finding)],
         "help": text(finding.help),
-        "seen": {**finding.capture_location._asdict(), "by": text(finding.capture_location.by)} if finding.capture_location else None,
+        "seen": {**finding.capture_location._asdict(), "by": text(finding.capture_location.by)}
+        if finding.capture_location
+        else None,
     }
 
 
@@ -94,7 +115,11 @@ def _fix(fix: Fix) -> Json:
 
 
 def _suppressed(entry: Suppressed, result: Result, options: Options) -> Json:
-    return {"how": entry.how, "reason": text(entry.reason), "finding": _finding(entry.finding, result, options)}
+    return {
+        "how": entry.how,
+        "reason": text(entry.reason),
+        "finding": _finding(entry.finding, result, options),
+    }
 
 
 def _undecided(entry: Undecided, result: Result, options: Options) -> Json:
@@ -105,7 +130,12 @@ def _undecided(entry: Undecided, result: Result, options: Options) -> Json:
         "subject": text(entry.subject),
         "missing": [text(fact) for fact in entry.missing],
         "keys": [
-            {"key": text(key.path), "values": text(key.values), "converted": key.converted, **_place(result, entry.file, key.span)}
+            {
+                "key": text(key.path),
+                "values": text(key.values),
+                "converted": key.converted,
+                **_place(result, entry.file, key.span),
+            }
             for key in entry.keys
         ],
     }
@@ -124,7 +154,11 @@ def _input(entry: InputSummary, result: Result, options: Options) -> Json:
 
 
 def _unread(unread: Unread, file: str, result: Result) -> Json:
-    return {**_place(result, file, unread.span), "message": text(unread.message), "unknown": text(unread.unknown) or None}
+    return {
+        **_place(result, file, unread.span),
+        "message": text(unread.message),
+        "unknown": text(unread.unknown) or None,
+    }
 
 
 def _capture(capture: CaptureSummary) -> Json:

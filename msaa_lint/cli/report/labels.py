@@ -1,4 +1,6 @@
-"""Places for the labels of marks in a panel: beside their marks, with nothing beneath them. All lengths are in pixels."""
+"""Places for the labels of marks in a panel: beside their marks, with nothing beneath them. All
+lengths are in pixels.
+"""
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
@@ -7,7 +9,9 @@ from typing import NamedTuple
 from .figure import FONT_SIZE
 
 LETTER = 0.65
-"""No technique's name takes more of the font's size per letter, in bold, in any of the usual fonts without serifs."""
+"""No technique's name takes more of the font's size per letter, in bold, in any of the usual fonts
+without serifs.
+"""
 
 HEIGHT = FONT_SIZE + 2.0
 """Of a label's box."""
@@ -16,12 +20,16 @@ _EDGE = 2.0
 """Between a label and the border of its panel."""
 
 _NEAR, _FAR = 8.0, 16.0
-"""How far a label is from the center of its mark at least; and where it needs a line that leads to it."""
+"""How far a label is from the center of its mark at least; and where it needs a line that leads to
+it.
+"""
 
 _ANGLES = 24
 _STEP = 4.0
 _RINGS = (_NEAR, _NEAR, 40.0, 80.0)
-"""How far from their mark labels begin where many marks are at one place, from attempt to attempt."""
+"""How far from their mark labels begin where many marks are at one place, from attempt to
+attempt.
+"""
 
 _MANY = 4
 
@@ -40,13 +48,21 @@ class Box(NamedTuple):
 
     def meets(self, other: "Box") -> bool:
         """Whether two rectangles have an area in common."""
-        return self.left < other.right and other.left < self.right and self.top < other.bottom and other.top < self.bottom
+        return (
+            self.left < other.right
+            and other.left < self.right
+            and self.top < other.bottom
+            and other.top < self.bottom
+        )
 
     def crossed_by(self, line: Line) -> bool:
         """Whether a line has a point inside (Liang and Barsky 1984)."""
         (x, y), (end_x, end_y) = line
         start, end = 0.0, 1.0
-        for at, step, low, high in ((x, end_x - x, self.left, self.right), (y, end_y - y, self.top, self.bottom)):
+        for at, step, low, high in (
+            (x, end_x - x, self.left, self.right),
+            (y, end_y - y, self.top, self.bottom),
+        ):
             if step == 0:
                 if not low < at < high:
                     return False
@@ -57,7 +73,9 @@ class Box(NamedTuple):
 
 
 class Label(NamedTuple):
-    """The box of a label, and the line that leads to it from its mark; None for a label beside its mark."""
+    """The box of a label, and the line that leads to it from its mark; None for a label beside its
+    mark.
+    """
 
     box: Box
     leader: Line | None
@@ -74,12 +92,19 @@ def around(place: Place, radius: float) -> Box:
 
 
 def place_labels(
-    places: Sequence[Place], names: Sequence[str], marks: Sequence[Box], lines: Sequence[Box], size: tuple[float, float], *, reach: float
+    places: Sequence[Place],
+    names: Sequence[str],
+    marks: Sequence[Box],
+    lines: Sequence[Box],
+    size: tuple[float, float],
+    *,
+    reach: float,
 ) -> list[Label | None]:
     """The labels of marks at `places`; None for one without room.
 
-    No label meets another, a box of `marks` or `lines`, a leader, or the border of the panel of this size. No leader is longer than
-    `reach`, crosses another one, or crosses a mark that is not its own. Earlier labels are the first to choose.
+    No label meets another, a box of `marks` or `lines`, a leader, or the border of the panel of
+    this size. No leader is longer than `reach`, crosses another one, or crosses a mark that is not
+    its own. Earlier labels are the first to choose.
     """
     order = list(range(len(places)))
     best: dict[int, Label] = {}
@@ -89,8 +114,12 @@ def place_labels(
         found: dict[int, Label] = {}
         for n in order:
             others = [mark for mark in marks if not mark.meets(around(places[n], _NEAR / 2))]
-            for label in _candidates(places[n], width_of(names[n]), size, ring if crowds[n] > _MANY else _NEAR, reach):
-                if not any(label.box.meets(box) for box in fixed) and _clear(label, others, found.values()):
+            for label in _candidates(
+                places[n], width_of(names[n]), size, ring if crowds[n] > _MANY else _NEAR, reach
+            ):
+                if not any(label.box.meets(box) for box in fixed) and _clear(
+                    label, others, found.values()
+                ):
                     found[n] = label
                     break
         best = max(best, found, key=len)
@@ -102,14 +131,21 @@ def place_labels(
 
 
 def _clear(label: Label, marks: Sequence[Box], others: Iterable[Label]) -> bool:
-    """Whether a label and its leader keep clear of others and theirs, and its leader of other marks."""
+    """Whether a label and its leader keep clear of others and theirs, and its leader of other
+    marks.
+    """
     leader = label.leader
     if leader is not None and any(mark.crossed_by(leader) for mark in marks):
         return False
     for other in others:
-        if label.box.meets(other.box) or (other.leader is not None and label.box.crossed_by(other.leader)):
+        if label.box.meets(other.box) or (
+            other.leader is not None and label.box.crossed_by(other.leader)
+        ):
             return False
-        if leader is not None and (other.box.crossed_by(leader) or (other.leader is not None and _cross(leader, other.leader))):
+        if leader is not None and (
+            other.box.crossed_by(leader)
+            or (other.leader is not None and _cross(leader, other.leader))
+        ):
             return False
     return True
 
@@ -121,10 +157,15 @@ def _cross(one: Line, other: Line) -> bool:
         (x, y), (end_x, end_y) = line
         return (end_x - x) * (place[1] - y) - (end_y - y) * (place[0] - x)
 
-    return side(one, other[0]) * side(one, other[1]) < 0 and side(other, one[0]) * side(other, one[1]) < 0
+    return (
+        side(one, other[0]) * side(one, other[1]) < 0
+        and side(other, one[0]) * side(other, one[1]) < 0
+    )
 
 
-def _candidates(place: Place, width: float, size: tuple[float, float], radius: float, reach: float) -> Iterator[Label]:
+def _candidates(
+    place: Place, width: float, size: tuple[float, float], radius: float, reach: float
+) -> Iterator[Label]:
     """The places for a label within a panel, from a radius outward, to the right first."""
     x, y = place
     while radius <= min(reach, math.hypot(*size)):
@@ -134,8 +175,18 @@ def _candidates(place: Place, width: float, size: tuple[float, float], radius: f
             toward_x, toward_y = math.cos(angle), -math.sin(angle)
             center_x = x + toward_x * (radius - _NEAR / 2 + width / 2)
             center_y = y + toward_y * (radius - _NEAR / 2 + HEIGHT / 2)
-            box = Box(center_x - width / 2, center_y - HEIGHT / 2, center_x + width / 2, center_y + HEIGHT / 2)
-            if box.left >= _EDGE and box.top >= _EDGE and box.right <= size[0] - _EDGE and box.bottom <= size[1] - _EDGE:
+            box = Box(
+                center_x - width / 2,
+                center_y - HEIGHT / 2,
+                center_x + width / 2,
+                center_y + HEIGHT / 2,
+            )
+            if (
+                box.left >= _EDGE
+                and box.top >= _EDGE
+                and box.right <= size[0] - _EDGE
+                and box.bottom <= size[1] - _EDGE
+            ):
                 yield Label(box, _leader(place, box) if radius > _FAR else None)
         radius += _STEP
 

@@ -21,15 +21,20 @@ MAX_COMMENT = 65_000
 _MAX_TABLE = 40_000
 _TABLE_HEAD = "| Severity | Rule | Place | Finding | Cost |\n| --- | --- | --- | --- | --- |\n"
 _SPECIAL = re.compile(r"[\\`*_{}\[\]()<>|~!#@$&%]")
-# A zero-width space, which hides mentions, references, and addresses from programs that look for them in the rendered page.
+# A zero-width space, which hides mentions, references, and addresses from programs that look for
+# them in the rendered page.
 _SEPARATOR = "&#8203;"
 _MARKERS = "@#!$~&%"
 _ADDRESS = re.compile(r"(?i)(?<=www)(?=\.)|(?<=:)(?=//)|(?<=gh)(?=-\d)")
 
 
 def render(result: Result, out: Write, options: Options) -> None:
-    """Prints the summary, a table of the findings, the most severe first, and the excerpt of each, as far as one comment can hold them."""
-    head = "<!-- msaa-lint -->\n### msaa-lint\n" + "".join(f"\n{escape_markdown(line)}\n" for line in summary(result, options))
+    """Prints the summary, a table of the findings, the most severe first, and the excerpt of each,
+    as far as one comment can hold them.
+    """
+    head = "<!-- msaa-lint -->\n### msaa-lint\n" + "".join(
+        f"\n{escape_markdown(line)}\n" for line in summary(result, options)
+    )
     out(head)
     if not result.findings:
         return
@@ -42,18 +47,29 @@ def render(result: Result, out: Write, options: Options) -> None:
     for done, finding in enumerate(_by_severity(result)):
         details = _details(finding, paragraph(finding, result, plain, rules), result, options)
         if len(details) > left:
-            out(f"\nThe details of {plural(len(result.findings) - done, 'more finding')} do not fit into this comment.\n")
+            out(
+                f"\nThe details of {plural(len(result.findings) - done, 'more finding')} do not "
+                f"fit into this comment.\n"
+            )
             return
         left -= len(details)
         out(details)
 
 
 def table(result: Result, options: Options, room: int, size: Callable[[str], int]) -> Iterator[str]:
-    """The lines of the table, the most severe findings first, in at most `room` as `size` counts; the last line counts the missing ones."""
+    """The lines of the table, the most severe findings first, in at most `room` as `size` counts;
+    the last line counts the missing ones.
+    """
     room -= size(_TABLE_HEAD) + 100
     yield _TABLE_HEAD
     for done, finding in enumerate(_by_severity(result)):
-        texts = (finding.severity, display(finding.rule), _where(finding, result, options), display(finding.message), price_text(finding))
+        texts = (
+            finding.severity,
+            display(finding.rule),
+            _where(finding, result, options),
+            display(finding.message),
+            price_text(finding),
+        )
         cells = list(map(escape_markdown, texts))
         address = rule_address(options.docs_url, finding.code, finding.rule)
         if address:
@@ -67,9 +83,13 @@ def table(result: Result, options: Options, room: int, size: Callable[[str], int
 
 
 def escape_markdown(text: str) -> str:
-    """`text`, already escaped by `escape`, so that Markdown, HTML, and a forge's links (`@name`, `#1`, addresses) leave it unchanged."""
+    """`text`, already escaped by `escape`, so that Markdown, HTML, and a forge's links (`@name`,
+    `#1`, addresses) leave it unchanged.
+    """
     text = _ADDRESS.sub("\u200b", text)
-    text = _SPECIAL.sub(lambda match: f"&#{ord(match[0])};" + (_SEPARATOR if match[0] in _MARKERS else ""), text)
+    text = _SPECIAL.sub(
+        lambda match: f"&#{ord(match[0])};" + (_SEPARATOR if match[0] in _MARKERS else ""), text
+    )
     return text.replace("\u200b", _SEPARATOR)
 
 

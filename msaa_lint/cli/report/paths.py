@@ -11,7 +11,8 @@ from .escape import escape
 
 
 def relative(file: str, root: str, resolve: bool = False) -> str:
-    """`file` relative to `root`, with `/` between folders; unchanged if it is not below `root` or not a file (`-`, `<stdin>`, a URL).
+    """`file` relative to `root`, with `/` between folders; unchanged if it is not below `root` or
+    not a file (`-`, `<stdin>`, a URL).
 
     `resolve` follows symbolic links first.
     """
@@ -30,14 +31,17 @@ def relative(file: str, root: str, resolve: bool = False) -> str:
 
 
 def display_path(file: str, root: str) -> str:
-    """`relative`, escaped for a text output. CI runners obey lines that begin with `::`, so a name that could begin such a line, together
-    with the colon that follows it, is prefixed with `./`."""
+    """`relative`, escaped for a text output. CI runners obey lines that begin with `::`, so a name
+    that could begin such a line, together with the colon that follows it, is prefixed with `./`.
+    """
     path = escape(relative(file, root))
     return "./" + path if path.lstrip().startswith((":", "##")) else path
 
 
 def uri(file: str, root: str) -> str:
-    """A URI reference relative to `root`, percent-encoded as UTF-8; a `file:` URI if the file is not below `root`; a URL as it is."""
+    """A URI reference relative to `root`, percent-encoded as UTF-8; a `file:` URI if the file is
+    not below `root`; a URL as it is.
+    """
     if is_url(file):
         scheme, _, rest = file.partition("://")
         return f"{scheme}://{_percent(rest)}"

@@ -1,4 +1,6 @@
-"""Lines and columns of findings: 1-based, in code points, the end column after the last character."""
+"""Lines and columns of findings: 1-based, in code points, the end column after the last
+character.
+"""
 
 from functools import lru_cache
 from typing import NamedTuple

@@ -12,7 +12,9 @@ from .escape import escape_lines
 
 
 class _Rendered:
-    """Markdown as rich renders it, escaped afterwards: a character reference such as `&#27;` is a character by then."""
+    """Markdown as rich renders it, escaped afterwards: a character reference such as `&#27;` is a
+    character by then.
+    """
 
     def __init__(self, markdown: str) -> None:
         # A link whose text is not its address would lead elsewhere than it says.

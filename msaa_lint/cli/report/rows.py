@@ -1,5 +1,6 @@
-"""The rows of the tables of a run, in the columns of `linter.corpus.tables`. Texts of inputs have their lone surrogates escaped, and
-figures six decimals."""
+"""The rows of the tables of a run, in the columns of `linter.corpus.tables`. Texts of inputs have
+their lone surrogates escaped, and figures six decimals.
+"""
 
 from __future__ import annotations
 
@@ -7,7 +8,14 @@ import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import chain
 
-from msaa_lint.core.finding import CaptureSummary, InputSummary, PassTraffic, Price, Result, Suppressed
+from msaa_lint.core.finding import (
+    CaptureSummary,
+    InputSummary,
+    PassTraffic,
+    Price,
+    Result,
+    Suppressed,
+)
 from msaa_lint.linter.corpus.tables import SCHEMA, Row
 from msaa_lint.linter.results import location_order
 
@@ -27,9 +35,15 @@ _LIMIT = 2**63 - 1
 
 
 def rows(
-    result: Result, passes: Sequence[PassTraffic], configuration: str, options: Options, owners: Mapping[str, Sequence[str]] = {}
+    result: Result,
+    passes: Sequence[PassTraffic],
+    configuration: str,
+    options: Options,
+    owners: Mapping[str, Sequence[str]] = {},
 ) -> dict[str, Iterable[Row]]:
-    """The rows of each table by its name, which are made as they are read. Findings in files with `owners` are about their passes."""
+    """The rows of each table by its name, which are made as they are read. Findings in files with
+    `owners` are about their passes.
+    """
     counts = (len(result.inputs), len(result.findings) + len(result.suppressed), len(passes))
     return {
         "findings": _findings(result, passes, owners, options),
@@ -39,19 +53,34 @@ def rows(
     }
 
 
-def _findings(result: Result, passes: Sequence[PassTraffic], owners: Mapping[str, Sequence[str]], options: Options) -> Iterator[Row]:
-    """The rows of the findings with those that are suppressed, by file and place, whatever order the run prints them in."""
+def _findings(
+    result: Result,
+    passes: Sequence[PassTraffic],
+    owners: Mapping[str, Sequence[str]],
+    options: Options,
+) -> Iterator[Row]:
+    """The rows of the findings with those that are suppressed, by file and place, whatever order
+    the run prints them in.
+    """
     # A long run has its findings in a file, in which they are looked up by number.
     count = len(result.findings)
     by_file: dict[str, list[int]] = {}
-    for number, found in enumerate(chain(result.findings, (entry.finding for entry in result.suppressed))):
+    for number, found in enumerate(
+        chain(result.findings, (entry.finding for entry in result.suppressed))
+    ):
         by_file.setdefault(found.file, []).append(number)
     numbers = _by_file(passes)
     order = {file: number for number, file in enumerate(result.files)}
     for file in sorted(by_file, key=lambda file: (order.get(file, -1), file)):
-        names = _names(passes, chain.from_iterable(numbers.get(owner, ()) for owner in owners.get(file, [file])))
+        names = _names(
+            passes,
+            chain.from_iterable(numbers.get(owner, ()) for owner in owners.get(file, [file])),
+        )
         entries = [
-            Suppressed(result.findings[number], "") if number < count else result.suppressed[number - count] for number in by_file.pop(file)
+            Suppressed(result.findings[number], "")
+            if number < count
+            else result.suppressed[number - count]
+            for number in by_file.pop(file)
         ]
         entries.sort(key=lambda entry: (location_order(entry.finding), entry.finding.subject))
         identifiers = fingerprints((entry.finding for entry in entries), options.root)
@@ -59,8 +88,12 @@ def _findings(result: Result, passes: Sequence[PassTraffic], owners: Mapping[str
             yield _finding(entry, identifier, names, result, options)
 
 
-def _names(passes: Sequence[PassTraffic], numbers: Iterable[int]) -> dict[tuple[int, str], str | None]:
-    """The names of passes by frame and path; None if they differ, since a file may be of several programs."""
+def _names(
+    passes: Sequence[PassTraffic], numbers: Iterable[int]
+) -> dict[tuple[int, str], str | None]:
+    """The names of passes by frame and path; None if they differ, since a file may be of several
+    programs.
+    """
     names: dict[tuple[int, str], str | None] = {}
     for each in map(passes.__getitem__, numbers):
         key = each.frame, each.path
@@ -72,15 +105,27 @@ def _by_file(passes: Sequence[PassTraffic]) -> dict[str, range]:
     """The places of the passes of each file, which are together."""
     numbers: dict[str, range] = {}
     for number, each in enumerate(passes):
-        numbers[each.file] = range(numbers[each.file].start if each.file in numbers else number, number + 1)
+        numbers[each.file] = range(
+            numbers[each.file].start if each.file in numbers else number, number + 1
+        )
     return numbers
 
 
-def _finding(entry: Suppressed, identifier: str, names: Mapping[tuple[int, str], str | None], result: Result, options: Options) -> Row:
+def _finding(
+    entry: Suppressed,
+    identifier: str,
+    names: Mapping[tuple[int, str], str | None],
+    result: Result,
+    options: Options,
+) -> Row:
     """The row of a finding, or of a suppressed one, of which it is said how."""
     found = entry.finding
     frame, subject = _frame(found.subject)
-    price, at, call = usable_price(found), place(result, found.file, found.span), found.capture_location
+    price, at, call = (
+        usable_price(found),
+        place(result, found.file, found.span),
+        found.capture_location,
+    )
     return (
         _file(found.file, options),
         frame,
@@ -108,7 +153,9 @@ def _figures(price: Price | None) -> Iterable[float | None]:
     """The figures of a price in the order of the columns."""
     if price is None:
         return (None,) * 4
-    return map(rounded, (price.read_mb_per_s, price.write_mb_per_s, price.memory_mib, price.milliwatts))
+    return map(
+        rounded, (price.read_mb_per_s, price.write_mb_per_s, price.memory_mib, price.milliwatts)
+    )
 
 
 def _frame(subject: str) -> tuple[int | None, str]:
@@ -120,7 +167,9 @@ def _frame(subject: str) -> tuple[int | None, str]:
 
 
 def _pass_of(frame: int, subject: str, names: Mapping[tuple[int, str], str | None]) -> str | None:
-    """The name of the pass that a subject belongs to: that of the longest path that it begins with."""
+    """The name of the pass that a subject belongs to: that of the longest path that it begins
+    with.
+    """
     if not names:
         return None
     ends = [len(subject), *reversed([match.start() for match in _PATH_END.finditer(subject)])]

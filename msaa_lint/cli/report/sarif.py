@@ -21,7 +21,9 @@ from .paths import uri
 from .place import place
 from .summary import files_saving, is_choice, notes_of, summary_line, usable_price
 
-SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
+SCHEMA = (
+    "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
+)
 
 MAX_RESULTS = 25_000
 MAX_LOCATIONS = 1_000
@@ -63,8 +65,18 @@ def render(result: Result, out: Write, options: Options) -> None:
     write_list((_descriptor(rule, options) for rule in rules), out)
     out("}},\n")
     out('"columnKind": "unicodeCodePoints",\n')
-    out(f'"invocations": [{dump(_invocation(result, options, max(levels.total() - MAX_RESULTS, 0)))}],\n"results": ')
-    write_list((_result(*pair, name, index, result, options) for pair, name in _most_severe(result, options, levels)), out)
+    out(
+        f'"invocations": '
+        f"[{dump(_invocation(result, options, max(levels.total() - MAX_RESULTS, 0)))}],\n"
+        f'"results": '
+    )
+    write_list(
+        (
+            _result(*pair, name, index, result, options)
+            for pair, name in _most_severe(result, options, levels)
+        ),
+        out,
+    )
     price = files_saving(result).all.price
     if price:
         out(f',\n"properties": {dump({"price": price._asdict()})}')
@@ -84,8 +96,12 @@ def _level(pair: _Pair) -> tuple[bool, int]:
     return (entry is not None, -rank(finding.severity))
 
 
-def _most_severe(result: Result, options: Options, levels: Counter[tuple[bool, int]]) -> Iterator[tuple[_Pair, str]]:
-    """As many as one run can hold, leaving out the least severe, in their order, with their fingerprints. `levels` counts them."""
+def _most_severe(
+    result: Result, options: Options, levels: Counter[tuple[bool, int]]
+) -> Iterator[tuple[_Pair, str]]:
+    """As many as one run can hold, leaving out the least severe, in their order, with their
+    fingerprints. `levels` counts them.
+    """
     room, left = {}, MAX_RESULTS
     for level, count in sorted(levels.items()):
         room[level] = min(count, left)
@@ -108,12 +124,22 @@ def _rules(result: Result, findings: Iterable[Finding]) -> list[RuleInfo]:
 
 
 def _descriptor(rule: RuleInfo, options: Options) -> dict[str, object]:
-    summary = display(rule.summary) or display(rule.name).replace("-", " ").capitalize() or display(rule.code)
+    summary = (
+        display(rule.summary)
+        or display(rule.name).replace("-", " ").capitalize()
+        or display(rule.code)
+    )
     page = escape_lines(rule.markdown.strip()) or summary
     address = rule_address(options.docs_url, rule.code, rule.name)
     links = [(display(reference), link(reference)) for reference in rule.references]
-    listed = [_linked(reference, page_address) for reference, page_address in links if reference not in page]
-    references = "\n".join(f"- {text}" for text in [*([f"[Documentation]({address})"] if address else []), *listed])
+    listed = [
+        _linked(reference, page_address)
+        for reference, page_address in links
+        if reference not in page
+    ]
+    references = "\n".join(
+        f"- {text}" for text in [*([f"[Documentation]({address})"] if address else []), *listed]
+    )
     tags = ["msaa", "vulkan", *_family(rule)]
     descriptor: dict[str, object] = {
         "id": display(rule.code),
@@ -121,7 +147,10 @@ def _descriptor(rule: RuleInfo, options: Options) -> dict[str, object]:
         "shortDescription": {"text": clip(summary, MAX_DESCRIPTION)},
         "fullDescription": {"text": clip(summary, MAX_DESCRIPTION)},
         # GitHub does not show helpUri, so the links are in the page, too.
-        "help": {"text": page, "markdown": f"{page}\n\nReferences:\n\n{references}" if references else page},
+        "help": {
+            "text": page,
+            "markdown": f"{page}\n\nReferences:\n\n{references}" if references else page,
+        },
         "defaultConfiguration": {"level": rule.severity},
         "properties": {
             "precision": rule.confidence,
@@ -137,7 +166,11 @@ def _descriptor(rule: RuleInfo, options: Options) -> dict[str, object]:
 
 def _linked(reference: str, address: str) -> str:
     """A reference in Markdown, as a link if it has an address that it does not state."""
-    return f"[{_bracketless(reference)}]({address})" if address and address not in reference else reference
+    return (
+        f"[{_bracketless(reference)}]({address})"
+        if address and address not in reference
+        else reference
+    )
 
 
 def _family(rule: RuleInfo) -> list[str]:
@@ -160,23 +193,35 @@ def _unread(entry: InputSummary, result: Result, options: Options) -> dict[str, 
 def _invocation(result: Result, options: Options, left_out: int) -> dict[str, object]:
     notifications: list[dict[str, object]] = []
     if left_out:
-        text = f"{left_out} results of the lowest severity are left out: code scanning accepts at most {MAX_RESULTS}."
+        text = (
+            f"{left_out} results of the lowest severity are left out: code scanning accepts at "
+            f"most {MAX_RESULTS}."
+        )
         notifications.append({"level": "warning", "message": {"text": text}})
     reasons = summary_line(result, options._replace(explain_undecided=True))
     if reasons:
         notifications.append({"level": "note", "message": {"text": _linkless(f"{reasons}.")}})
     if any(each.format for each in result.inputs):
-        notifications.append({"level": "note", "message": {"text": f"Checked {checked(result.inputs)}."}})
+        notifications.append(
+            {"level": "note", "message": {"text": f"Checked {checked(result.inputs)}."}}
+        )
     unread = (each for each in result.inputs if each.unread is not None)
     notifications += [_unread(entry, result, options) for entry in islice(unread, MAX_UNREAD)]
-    invocation: dict[str, object] = {"executionSuccessful": not any(finding.fatal for finding in result.findings)}
+    invocation: dict[str, object] = {
+        "executionSuccessful": not any(finding.fatal for finding in result.findings)
+    }
     if notifications:
         invocation["toolExecutionNotifications"] = notifications
     return invocation
 
 
 def _result(
-    finding: Finding, entry: Suppressed | None, name: str, index: dict[str, int], result: Result, options: Options
+    finding: Finding,
+    entry: Suppressed | None,
+    name: str,
+    index: dict[str, int],
+    result: Result,
+    options: Options,
 ) -> dict[str, object]:
     artifact = {"uri": uri(finding.file, options.root)}
     region = _region(result, finding.file, finding.span)
@@ -188,12 +233,17 @@ def _result(
         }
     }
     if finding.subject:
-        location["logicalLocations"] = [{"fullyQualifiedName": escape_surrogates(clip(finding.subject))}]
+        location["logicalLocations"] = [
+            {"fullyQualifiedName": escape_surrogates(clip(finding.subject))}
+        ]
     labels = _labels(finding, result)
     related = [
         {
             "id": n,
-            "physicalLocation": {"artifactLocation": {"uri": uri(file, options.root)}, "region": region},
+            "physicalLocation": {
+                "artifactLocation": {"uri": uri(file, options.root)},
+                "region": region,
+            },
             "message": {"text": text},
         }
         for n, (text, file, region) in enumerate(labels, 1)
@@ -211,7 +261,9 @@ def _result(
         "ruleId": display(finding.code),
         "ruleIndex": index[finding.code],
         # Code scanning fails a pull request on an error, which an uncertain finding must not do.
-        "level": "warning" if finding.confidence == "low" and finding.severity == "error" else finding.severity,
+        "level": "warning"
+        if finding.confidence == "low" and finding.severity == "error"
+        else finding.severity,
         "message": {"text": _message(finding, [text for text, _, _ in labels])},
         "locations": [location],
         "partialFingerprints": {"msaaLint/v1": name},
@@ -234,21 +286,34 @@ def _result(
 
 def _labels(finding: Finding, result: Result) -> list[tuple[str, str, dict[str, int]]]:
     """The texts, files, and regions of the labels, except those at the finding's own span."""
-    labels = [label for label in finding.labels if label.file is not None or label.span != finding.span][:MAX_LOCATIONS]
+    labels = [
+        label for label in finding.labels if label.file is not None or label.span != finding.span
+    ][:MAX_LOCATIONS]
     files = [label.file or finding.file for label in labels]
-    placed = [(_linkless(display(label.text)), file, _region(result, file, label.span)) for label, file in zip(labels, files, strict=True)]
+    placed = [
+        (_linkless(display(label.text)), file, _region(result, file, label.span))
+        for label, file in zip(labels, files, strict=True)
+    ]
     return [(text, file, region) for text, file, region in placed if region]
 
 
 def _message(finding: Finding, labels: list[str]) -> str:
-    """The message as the first sentence, which GitHub uses as the title, then the labels, as links, and the help text."""
+    """The message as the first sentence, which GitHub uses as the title, then the labels, as links,
+    and the help text.
+    """
     parts = [_linkless(display(finding.message))]
-    parts += [_linkless(display(label.text)) for label in finding.labels[:MAX_LINKS] if label.file is None and label.span == finding.span]
+    parts += [
+        _linkless(display(label.text))
+        for label in finding.labels[:MAX_LINKS]
+        if label.file is None and label.span == finding.span
+    ]
     for n, text in enumerate(labels[:MAX_LINKS], 1):
         if text:
             parts.append(f"[{_bracketless(text)}]({n})")
     parts.append(_linkless(display(finding.help)))
-    return " ".join(part if part.endswith((".", "!", "?")) else part + "." for part in parts if part)
+    return " ".join(
+        part if part.endswith((".", "!", "?")) else part + "." for part in parts if part
+    )
 
 
 def _bracketless(text: str) -> str:
@@ -265,16 +330,25 @@ def _region(result: Result, file: str, span: Span | None) -> dict[str, int] | No
     at = place(result, file, span)
     if at is None:
         return None
-    return {"startLine": at.line, "startColumn": at.column, "endLine": at.end_line, "endColumn": at.end_column}
+    return {
+        "startLine": at.line,
+        "startColumn": at.column,
+        "endLine": at.end_line,
+        "endColumn": at.end_column,
+    }
 
 
-def _fix(fix: Fix, file: str, artifact: dict[str, str], result: Result) -> Iterator[dict[str, object]]:
+def _fix(
+    fix: Fix, file: str, artifact: dict[str, str], result: Result
+) -> Iterator[dict[str, object]]:
     replacements = []
     for edit in fix.edits:
         region = _region(result, file, edit.span)
         if region is None:
             return
-        replacements.append({"deletedRegion": region, "insertedContent": {"text": escape_surrogates(edit.text)}})
+        replacements.append(
+            {"deletedRegion": region, "insertedContent": {"text": escape_surrogates(edit.text)}}
+        )
     if replacements:
         yield {
             "description": {"text": display(fix.title) or "Fix"},

@@ -1,4 +1,6 @@
-"""The scales of a figure's axes: where values are, as Vega-Lite computes it, and which of them have a tick."""
+"""The scales of a figure's axes: where values are, as Vega-Lite computes it, and which of them have
+a tick.
+"""
 
 import math
 from collections.abc import Iterator, Sequence
@@ -19,7 +21,9 @@ _LETTER = 0.6
 
 
 class Scale(NamedTuple):
-    """A scale whose ends are `low` and `high`. `constant` is the value about which a `symlog` scale turns from linear to logarithmic."""
+    """A scale whose ends are `low` and `high`. `constant` is the value about which a `symlog` scale
+    turns from linear to logarithmic.
+    """
 
     kind: str
     low: float
@@ -37,12 +41,20 @@ class Scale(NamedTuple):
         place = low + share * (high - low)
         if self.kind == LOG:
             return math.exp(place)
-        return math.copysign(math.expm1(abs(place)), place) * self.constant if self.kind == SYMLOG else place
+        return (
+            math.copysign(math.expm1(abs(place)), place) * self.constant
+            if self.kind == SYMLOG
+            else place
+        )
 
     def _transform(self, value: float) -> float:
         if self.kind == LOG:
             return math.log(value)
-        return math.copysign(math.log1p(abs(value / self.constant)), value) if self.kind == SYMLOG else value
+        return (
+            math.copysign(math.log1p(abs(value / self.constant)), value)
+            if self.kind == SYMLOG
+            else value
+        )
 
     def widened(self) -> "Scale":
         """The scale with a margin at both ends."""
@@ -56,19 +68,26 @@ class Scale(NamedTuple):
         return scale if self.kind == LOG else {**scale, "zero": False}
 
     def axis(self, length: float, *, upright: bool) -> dict[str, Any]:
-        """The ticks, for an axis of a length in pixels, in Vega-Lite's terms. Labels of `upright` axes are above each other."""
+        """The ticks, for an axis of a length in pixels, in Vega-Lite's terms. Labels of `upright`
+        axes are above each other.
+        """
         if self.kind == LINEAR:
             return {"tickCount": max(2, int(length // (30 if upright else 50)))}
         ticks: dict[float, tuple[float, float]] = {}
         for tick in self._round_values():
             at = self.share(tick) * length
             extent = (2.5 if upright else (len(f"{tick:g}") + 2) * _LETTER) * FONT_SIZE
-            if all(abs(at - other) >= (extent + other_extent) / 2 for other, other_extent in ticks.values()):
+            if all(
+                abs(at - other) >= (extent + other_extent) / 2
+                for other, other_extent in ticks.values()
+            ):
                 ticks[tick] = at, extent
         return {"labelOverlap": False, "values": sorted(ticks)}
 
     def _round_values(self) -> Iterator[float]:
-        """Zero, powers of ten, and their multiples, as far as the scale has them; those that matter most first."""
+        """Zero, powers of ten, and their multiples, as far as the scale has them; those that matter
+        most first.
+        """
         if self.low <= 0 <= self.high:
             yield 0.0
         least = self.low if self.kind == LOG else self.constant / 10
@@ -82,7 +101,9 @@ class Scale(NamedTuple):
 
 
 def linear_or_log(values: Sequence[float], narrow: float = 1.0) -> Scale:
-    """A logarithmic scale for values above zero of which the greatest is more than `narrow` times the least, else a linear one."""
+    """A logarithmic scale for values above zero of which the greatest is more than `narrow` times
+    the least, else a linear one.
+    """
     low, high = min(values, default=0.0), max(values, default=1.0)
     if low > _LEAST and high > narrow * low:
         return Scale(LOG, low, high).widened()
@@ -101,4 +122,8 @@ def _apart(scale: Scale) -> Scale:
     """The scale, with its ends apart if they are equal or next to each other."""
     size = max(abs(scale.low), abs(scale.high))
     size = size if size > _LEAST else 1.0
-    return scale if scale.high - scale.low > 1e-9 * size else scale._replace(low=scale.low - size / 2, high=scale.high + size / 2)
+    return (
+        scale
+        if scale.high - scale.low > 1e-9 * size
+        else scale._replace(low=scale.low - size / 2, high=scale.high + size / 2)
+    )

@@ -18,21 +18,36 @@ _KINDS = {"code": TEXT, "rule": NAME, "severity": TEXT}
 
 
 def render(result: Result, out: Write, options: Options) -> None:
-    """Prints the table, the most frequent rule first; nothing if there is no finding. A rule has a line for each severity of its findings.
+    """Prints the table, the most frequent rule first; nothing if there is no finding. A rule has a
+    line for each severity of its findings.
 
-    If findings have prices, more columns have their sums, without those of choices and of fixes that cannot be made. The last lines have
-    what `--fix` and `--fix --unsafe-fixes` save, which is less than the sums if findings are about the same bytes.
+    If findings have prices, more columns have their sums, without those of choices and of fixes
+    that cannot be made. The last lines have what `--fix` and `--fix --unsafe-fixes` save, which is
+    less than the sums if findings are about the same bytes.
     """
     groups: dict[tuple[str, str, str], _Group] = {}
     for finding in result.findings:
-        groups.setdefault((display(finding.code), display(finding.rule), finding.severity), _Group()).add(finding)
+        groups.setdefault(
+            (display(finding.code), display(finding.rule), finding.severity), _Group()
+        ).add(finding)
     if not groups:
         return
     rows = sorted(groups.items(), key=lambda item: (-item[1].findings, -rank(item[0][2]), item[0]))
     cells = [["count", "code", "rule", "severity", *UNITS]]
     for (code, rule, severity), group in rows:
-        cells.append([str(group.findings), code, rule, severity, *(_figures(group.price) if group.price else [""] * len(UNITS))])
-    for savings, words in ((files_saving(result), "saved by "), (converted_saving(result), "converted, by ")):
+        cells.append(
+            [
+                str(group.findings),
+                code,
+                rule,
+                severity,
+                *(_figures(group.price) if group.price else [""] * len(UNITS)),
+            ]
+        )
+    for savings, words in (
+        (files_saving(result), "saved by "),
+        (converted_saving(result), "converted, by "),
+    ):
         for saving, option in ((savings.safe, "--fix"), (savings.all, "--unsafe-fixes")):
             if saving.price is not None:
                 title = words + option + (ON_TILER if saving.assumes_tiler else "")
@@ -62,4 +77,11 @@ class _Group:
 
 def _figures(price: Price) -> list[str]:
     """Traffic, memory, and power."""
-    return [f"{value:.1f}" for value in (price.read_mb_per_s + price.write_mb_per_s, price.memory_mib, price.milliwatts)]
+    return [
+        f"{value:.1f}"
+        for value in (
+            price.read_mb_per_s + price.write_mb_per_s,
+            price.memory_mib,
+            price.milliwatts,
+        )
+    ]

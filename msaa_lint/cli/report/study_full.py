@@ -1,4 +1,6 @@
-"""The text report of `msaa-lint study`: each scene's tables, effects, and advice under each cost of shading; the origin of the figures."""
+"""The text report of `msaa-lint study`: each scene's tables, effects, and advice under each cost of
+shading; the origin of the figures.
+"""
 
 from __future__ import annotations
 
@@ -12,7 +14,16 @@ from . import Options, Write
 from .console import open_console
 from .escape import display
 from .study_tables import has_times, print_errors, print_times
-from .study_text import answer, answered, choices, compared, failures, notes, software_warning, summary
+from .study_text import (
+    answer,
+    answered,
+    choices,
+    compared,
+    failures,
+    notes,
+    software_warning,
+    summary,
+)
 
 
 def render(study: Study, out: Write, options: Options) -> None:
@@ -31,7 +42,9 @@ def render(study: Study, out: Write, options: Options) -> None:
         console.print(line, soft_wrap=True)
 
 
-def _scene(scene: SceneSummary, study: Study, console: Console, out: Write, options: Options) -> None:
+def _scene(
+    scene: SceneSummary, study: Study, console: Console, out: Write, options: Options
+) -> None:
     points = study.of(scene.name)
     console.print(display(scene.name), style="bold", soft_wrap=True)
     if scene.description:

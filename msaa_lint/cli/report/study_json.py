@@ -1,6 +1,7 @@
 """The versioned JSON of `msaa-lint study`; `study_v1.schema.json` next to this file is its schema.
 
-Numbers have nine significant digits; infinities and NaN are null. The duration of the simulation is left out: no GPU takes that long.
+Numbers have nine significant digits; infinities and NaN are null. The duration of the simulation is
+left out: no GPU takes that long.
 """
 
 from __future__ import annotations
@@ -18,8 +19,28 @@ from . import Options, Write
 from .data import Json, head, text, write_object
 
 SCHEMA = "msaa-lint/study-v1"
-_ERRORS = ("rmse", "rmse_all", "max_error", "bias", "psnr_db", "psnr_display_db", "ssim", "flip", "flicker")
-_COSTS = ("low_ms", "high_ms", "ratio", "fill_ms", "shading_ms", "resolve_ms", "bytes_per_frame", "milliwatts", "memory_mib")
+_ERRORS = (
+    "rmse",
+    "rmse_all",
+    "max_error",
+    "bias",
+    "psnr_db",
+    "psnr_display_db",
+    "ssim",
+    "flip",
+    "flicker",
+)
+_COSTS = (
+    "low_ms",
+    "high_ms",
+    "ratio",
+    "fill_ms",
+    "shading_ms",
+    "resolve_ms",
+    "bytes_per_frame",
+    "milliwatts",
+    "memory_mib",
+)
 
 
 def render(study: Study, out: Write, options: Options) -> None:
@@ -39,12 +60,25 @@ def render(study: Study, out: Write, options: Options) -> None:
         "points": [_point(point, study.software) for point in study.points],
         "steps": [_step(step) for step in study.steps],
         "recommendations": [_recommendation(choice) for choice in study.recommendations],
-        "advice": [{"scene": text(advice.scene), "says": text(advice.text), "because": text(advice.reason)} for advice in study.advice],
-        "untimed": [{"name": untimed.name, "reason": text(untimed.reason)} for untimed in study.untimed],
-        "failed": [
-            {"scene": text(failure.scene), "name": failure.technique.name, "reason": text(failure.reason)} for failure in study.failed
+        "advice": [
+            {"scene": text(advice.scene), "says": text(advice.text), "because": text(advice.reason)}
+            for advice in study.advice
         ],
-        "errors": [{"file": text(error.file), "code": error.code, "message": text(error.message)} for error in study.wrong],
+        "untimed": [
+            {"name": untimed.name, "reason": text(untimed.reason)} for untimed in study.untimed
+        ],
+        "failed": [
+            {
+                "scene": text(failure.scene),
+                "name": failure.technique.name,
+                "reason": text(failure.reason),
+            }
+            for failure in study.failed
+        ],
+        "errors": [
+            {"file": text(error.file), "code": error.code, "message": text(error.message)}
+            for error in study.wrong
+        ],
     }
     write_object(members, out)
 
@@ -80,21 +114,38 @@ def _model(model: TimeModel) -> Json:
         "residual": _number(model.residual),
         "rms_residual": _number(model.rms),
         "noise": _number(model.noise),
-        "coefficients": {name: _number(value) for name, value in zip(TERMS, model.coefficients, strict=True)},
+        "coefficients": {
+            name: _number(value) for name, value in zip(TERMS, model.coefficients, strict=True)
+        },
         "techniques": [
-            {**_technique(technique), **{name: _number(value) for name, value in terms._asdict().items()}}
+            {
+                **_technique(technique),
+                **{name: _number(value) for name, value in terms._asdict().items()},
+            }
             for technique, terms in model.terms.items()
         ],
     }
 
 
 def _technique(technique: Technique) -> Json:
-    return {"name": technique.name, "technique": technique.kind, "samples": technique.samples, "shaded": technique.shaded}
+    return {
+        "name": technique.name,
+        "technique": technique.kind,
+        "samples": technique.samples,
+        "shaded": technique.shaded,
+    }
 
 
 def _added(added: AddedTime | None) -> Json:
-    ms, low, high, share = (added.ms, added.low_ms, added.high_ms, added.share) if added is not None else (None,) * 4
-    return {"added_ms": _number(ms), "added_low_ms": _number(low), "added_high_ms": _number(high), "added_share": _number(share)}
+    ms, low, high, share = (
+        (added.ms, added.low_ms, added.high_ms, added.share) if added is not None else (None,) * 4
+    )
+    return {
+        "added_ms": _number(ms),
+        "added_low_ms": _number(low),
+        "added_high_ms": _number(high),
+        "added_share": _number(share),
+    }
 
 
 def _step(step: Step) -> Json:

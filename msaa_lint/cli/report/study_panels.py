@@ -1,4 +1,6 @@
-"""What the figures of a study show: a panel for each scene and cost of shading, with the points that have a place in it."""
+"""What the figures of a study show: a panel for each scene and cost of shading, with the points
+that have a place in it.
+"""
 
 import math
 from collections.abc import Iterable, Sequence
@@ -21,8 +23,10 @@ COLUMNS = {0: 1, 1: 1, 2: 2, 3: 3, 4: 2}
 
 
 class Panel(NamedTuple):
-    """The points of a scene under one cost of shading. `base` is the time of one sample, None if times do not refer to it; with `by_time`,
-    the Pareto-optimal points are those of error against time."""
+    """The points of a scene under one cost of shading. `base` is the time of one sample, None if
+    times do not refer to it; with `by_time`, the Pareto-optimal points are those of error against
+    time.
+    """
 
     scene: SceneSummary
     shading: Shading
@@ -32,18 +36,29 @@ class Panel(NamedTuple):
 
     @property
     def front(self) -> list[tuple[float, float]]:
-        """The places of the Pareto front, from its fastest point on; nothing if it is not of error against time."""
-        return sorted(self.place(point) for point in self.points if point.best) if self.by_time else []
+        """The places of the Pareto front, from its fastest point on; nothing if it is not of error
+        against time.
+        """
+        return (
+            sorted(self.place(point) for point in self.points if point.best) if self.by_time else []
+        )
 
     def is_optimal(self, point: Point) -> bool:
-        """Whether a point is Pareto-optimal, or has the error and, within the noise, the time of a point that is."""
+        """Whether a point is Pareto-optimal, or has the error and, within the noise, the time of a
+        point that is.
+        """
         rounded = self.scene.measure.rounded
         best = (other for other in self.points if other.best)
-        return any(other is point or (self.by_time and rounded(other) == rounded(point) and tie(other, point)) for other in best)
+        return any(
+            other is point
+            or (self.by_time and rounded(other) == rounded(point) and tie(other, point))
+            for other in best
+        )
 
     def place(self, point: Point) -> tuple[float, float]:
-        """What a point is drawn at: the time that it adds to that of one sample, or its time, or without times samples plus shader
-        invocations per pixel; and its error."""
+        """What a point is drawn at: the time that it adds to that of one sample, or its time, or
+        without times samples plus shader invocations per pixel; and its error.
+        """
         if point.time_ms is None:
             return float(point.technique.samples + point.technique.shaded), error(self.scene, point)
         return point.time_ms - (self.base or 0.0), error(self.scene, point)
@@ -63,31 +78,45 @@ class Panel(NamedTuple):
         return measure.name
 
     def heading(self, width: float) -> Any:
-        """The scene, the cost of shading as calibrated, and the time of one sample, as a title of a panel of this width."""
+        """The scene, the cost of shading as calibrated, and the time of one sample, as a title of a
+        panel of this width.
+        """
         lines = []
         if self.shading.name:
             screen = self.shading.full_screen_ms
             known = screen is not None and self.shading.name != NONE
-            lines.append(f"shading: {display(self.shading.name)}" + (f", {screen:.3g} ms a full screen" if known else ""))
+            lines.append(
+                f"shading: {display(self.shading.name)}"
+                + (f", {screen:.3g} ms a full screen" if known else "")
+            )
         if self.base is not None:
             lines.append(f"1x takes {self.base:.3g} ms")
         return title(display(self.scene.name), lines, width, size=11)
 
 
 def abbreviation(techniques: Iterable[Technique]) -> list[str]:
-    """What the short name of sample shading means, by the one of the techniques of which the fewest samples are shaded; nothing where none
-    has such a name."""
+    """What the short name of sample shading means, by the one of the techniques of which the fewest
+    samples are shaded; nothing where none has such a name.
+    """
     shaded = sorted(
-        (technique for technique in techniques if technique.kind == SAMPLE_SHADING), key=lambda each: each.shaded / each.samples
+        (technique for technique in techniques if technique.kind == SAMPLE_SHADING),
+        key=lambda each: each.shaded / each.samples,
     )
-    return [f"{short_name(each)}: {each.samples} samples, {each.shaded} of them shaded" for each in shaded[:1]]
+    return [
+        f"{short_name(each)}: {each.samples} samples, {each.shaded} of them shaded"
+        for each in shaded[:1]
+    ]
 
 
 def panels(study: Study) -> list[list[Panel]]:
-    """The panels by scene, each with one per cost of shading; nothing for a scene without a point that has a place."""
+    """The panels by scene, each with one per cost of shading; nothing for a scene without a point
+    that has a place.
+    """
     costs = {shading.name: shading for shading in study.shadings}
     points = {scene.name: plotted(scene, study.of(scene.name)) for scene in study.scenes}
-    names = list(dict.fromkeys(point.shading for scene in study.scenes for point in points[scene.name]))
+    names = list(
+        dict.fromkeys(point.shading for scene in study.scenes for point in points[scene.name])
+    )
     by_time = not study.software and any(point.time_ms is not None for point in study.points)
     rows = []
     for scene in study.scenes:
@@ -117,4 +146,8 @@ def plotted(scene: SceneSummary, points: Sequence[Point]) -> list[Point]:
     """The points of a scene that have a place: those with a time if there are any."""
     timed = any(point.time_ms is not None for point in points)
     with_time = [point for point in points if point.time_ms is not None] if timed else points
-    return [point for point in with_time if math.isfinite(error(scene, point)) and math.isfinite(point.time_ms or 0.0)]
+    return [
+        point
+        for point in with_time
+        if math.isfinite(error(scene, point)) and math.isfinite(point.time_ms or 0.0)
+    ]

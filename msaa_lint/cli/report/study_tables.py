@@ -1,4 +1,6 @@
-"""The tables of a study's text report: errors and work, which are the same under every cost of shading, and times."""
+"""The tables of a study's text report: errors and work, which are the same under every cost of
+shading, and times.
+"""
 
 from __future__ import annotations
 
@@ -56,7 +58,12 @@ _WORST = _Figures("worst", lambda point: figure(point.max_error, ".3f"))
 _BIAS = _Figures("bias", lambda point: figure(point.bias, "+.4f"))
 _PSNR = _Figures("PSNR dB\nlinear", lambda point: figure(point.psnr_db, ".1f"))
 _PSNR_DISPLAY = _Figures("PSNR dB\ndisplay", lambda point: figure(point.psnr_display_db, ".1f"))
-_BYTES = _Figures("MB per\nframe", lambda point: figure(point.bytes_per_frame / 1e6 if point.bytes_per_frame is not None else None, ".1f"))
+_BYTES = _Figures(
+    "MB per\nframe",
+    lambda point: figure(
+        point.bytes_per_frame / 1e6 if point.bytes_per_frame is not None else None, ".1f"
+    ),
+)
 _POWER = _Figures("mW", lambda point: figure(point.milliwatts, ".0f"))
 _MEMORY = _Figures("MiB", lambda point: figure(point.memory_mib, ".1f"))
 _COUNTED = _Figures("invocations\ncounted", lambda point: _count(point.invocations))
@@ -77,7 +84,18 @@ _ERRORS = (
     _COUNTED,
     _EXPECTED,
 )
-_LEFT_OUT = (_POWER, _MEMORY, _RMSE_ALL, _PSNR, _BIAS, _BYTES, _WORST, _EXPECTED, _COUNTED, _PSNR_DISPLAY)
+_LEFT_OUT = (
+    _POWER,
+    _MEMORY,
+    _RMSE_ALL,
+    _PSNR,
+    _BIAS,
+    _BYTES,
+    _WORST,
+    _EXPECTED,
+    _COUNTED,
+    _PSNR_DISPLAY,
+)
 """The columns that a narrow table is without, the first one first."""
 
 _Column = tuple[Column, Mapping[Technique, str]]
@@ -90,23 +108,37 @@ def row_name(technique: Technique) -> str:
 
 
 def print_errors(study: Study, scene: SceneSummary, out: Write, options: Options) -> list[str]:
-    """Prints the table of errors; returns the names of the columns for which the output is too narrow."""
+    """Prints the table of errors; returns the names of the columns for which the output is too
+    narrow.
+    """
     columns = _error_columns(study, scene)
     optional = [figures for figures in _LEFT_OUT if figures in columns]
-    layouts = ([error_table(study, scene, 1, optional[:number])] for number in range(len(optional) + 1))
+    layouts = (
+        [error_table(study, scene, 1, optional[:number])] for number in range(len(optional) + 1)
+    )
     chosen = print_tables(out, options, [error_table(study, scene)], *layouts)
     return [figures.title.replace("\n", " ") for figures in optional[: max(chosen - 1, 0)]]
 
 
-def error_table(study: Study, scene: SceneSummary, gap: int = 2, left_out: Sequence[_Figures] = ()) -> Table:
-    """The errors, traffic, memory, and invocations of a scene's techniques, which are the same under every cost of shading. Without times
-    of a GPU, the Pareto-optimal techniques are marked."""
+def error_table(
+    study: Study, scene: SceneSummary, gap: int = 2, left_out: Sequence[_Figures] = ()
+) -> Table:
+    """The errors, traffic, memory, and invocations of a scene's techniques, which are the same
+    under every cost of shading. Without times of a GPU, the Pareto-optimal techniques are
+    marked.
+    """
     points = study.of(scene.name, study.shading_names(scene.name)[0])
-    best = set() if has_times(points) and not study.software else {point.technique for point in points if point.best}
+    best = (
+        set()
+        if has_times(points) and not study.software
+        else {point.technique for point in points if point.best}
+    )
     marks = [(Column(""), dict.fromkeys(best, MARK))] if best else []
     shown = [figures for figures in _error_columns(study, scene) if figures not in left_out]
     if not scene.coverage:
-        shown = [figures._replace(title=figures.title.replace("edges", "color")) for figures in shown]
+        shown = [
+            figures._replace(title=figures.title.replace("edges", "color")) for figures in shown
+        ]
     return _table(points, [*marks, *_columns(shown, points)], gap, best)
 
 
@@ -116,40 +148,70 @@ def _error_columns(study: Study, scene: SceneSummary) -> list[_Figures]:
 
 
 def print_times(study: Study, scene: SceneSummary, out: Write, options: Options) -> bool:
-    """Prints the times of a scene's techniques, a group of columns for each cost of shading, and the parts of these times; returns whether
-    it shows what shading takes under each cost."""
+    """Prints the times of a scene's techniques, a group of columns for each cost of shading, and
+    the parts of these times; returns whether it shows what shading takes under each cost.
+    """
     groups, best = _timed_groups(study, scene)
 
     def table(gap: int, *parts: Sequence[_Column], kind: str = TEXT) -> Table:
         return _table(groups[0], [column for part in parts for column in part], gap, best, kind)
 
-    fill, shading = _fill_columns(groups), [column for points in groups for column in _shading_columns(points)]
+    fill, shading = (
+        _fill_columns(groups),
+        [column for points in groups for column in _shading_columns(points)],
+    )
     times = [_time_columns(points, _decimals(points)) for points in groups]
-    together = [[time_table(study, scene)], [time_table(study, scene, 1)], [table(1, *times, fill, shading)]]
+    together = [
+        [time_table(study, scene)],
+        [time_table(study, scene, 1)],
+        [table(1, *times, fill, shading)],
+    ]
     parts = [table(1, fill, shading)] if fill or shading else []
     apart = [
-        [*(table(1, *times[start : start + number]) for start in range(0, len(times), number)), *parts]
+        [
+            *(table(1, *times[start : start + number]) for start in range(0, len(times), number)),
+            *parts,
+        ]
         for number in range(len(times), 0, -1)
     ]
     folded = [table(1, *times, kind=SHORT), *parts]
-    chosen = print_tables(out, options, *together, [table(1, *times, fill)], apart[0], folded, *apart[1:])
+    chosen = print_tables(
+        out, options, *together, [table(1, *times, fill)], apart[0], folded, *apart[1:]
+    )
     return not shading or chosen != len(together)
 
 
 def time_table(study: Study, scene: SceneSummary, gap: int = 2) -> Table:
-    """The times of a scene's techniques in full: under each cost of shading with their intervals and ratios, and their parts."""
+    """The times of a scene's techniques in full: under each cost of shading with their intervals
+    and ratios, and their parts.
+    """
     groups, best = _timed_groups(study, scene)
-    related = [[*_time_columns(points, _decimals(points)), *_ratio_columns(points)] for points in groups]
+    related = [
+        [*_time_columns(points, _decimals(points)), *_ratio_columns(points)] for points in groups
+    ]
     columns = [*(column for of_cost in related for column in of_cost), *_fill_columns(groups)]
-    return _table(groups[0], [*columns, *(column for points in groups for column in _shading_columns(points))], gap, best)
+    return _table(
+        groups[0],
+        [*columns, *(column for points in groups for column in _shading_columns(points))],
+        gap,
+        best,
+    )
 
 
 def _timed_groups(study: Study, scene: SceneSummary) -> tuple[list[list[Point]], set[Technique]]:
-    """The points by cost of shading, and the Pareto-optimal techniques where there is a single one."""
-    groups = [points for name in study.shading_names(scene.name) if has_times(points := study.of(scene.name, name))]
+    """The points by cost of shading, and the Pareto-optimal techniques where there is a single
+    one.
+    """
+    groups = [
+        points
+        for name in study.shading_names(scene.name)
+        if has_times(points := study.of(scene.name, name))
+    ]
     if study.software:
         groups = [[point._replace(best=False) for point in points] for points in groups]
-    return groups, {point.technique for point in groups[0] if point.best} if len(groups) == 1 else set()
+    return groups, {point.technique for point in groups[0] if point.best} if len(
+        groups
+    ) == 1 else set()
 
 
 def has_times(points: Sequence[Point]) -> bool:
@@ -160,9 +222,13 @@ def has_times(points: Sequence[Point]) -> bool:
 def _time_columns(points: Sequence[Point], decimals: int) -> list[_Column]:
     """The marks, times, and half-widths of their intervals, under one cost of shading."""
     ties = _ties_with_shorter(points)
-    marks = {point.technique: MARK * point.best + TIE * (point.technique in ties) for point in points}
+    marks = {
+        point.technique: MARK * point.best + TIE * (point.technique in ties) for point in points
+    }
     figures = [
-        _Figures(_heading(points[0].shading, "ms"), lambda point: figure(point.time_ms, f".{decimals}f")),
+        _Figures(
+            _heading(points[0].shading, "ms"), lambda point: figure(point.time_ms, f".{decimals}f")
+        ),
         _Figures("±", lambda point: _interval(point, decimals)),
     ]
     known = _columns([each for each in figures if _is_known(each, points)], points)
@@ -176,12 +242,16 @@ def _ratio_columns(points: Sequence[Point]) -> list[_Column]:
 
 
 def _fill_columns(groups: Sequence[Sequence[Point]]) -> list[_Column]:
-    """The parts of the times that are the same under every cost of shading. A frame's own shaders are not timed apart from what they
-    fill."""
+    """The parts of the times that are the same under every cost of shading. A frame's own shaders
+    are not timed apart from what they fill.
+    """
     described = {points[0].shading for points in groups} == {AS_DESCRIBED}
     decimals = max(map(_decimals, groups))
     parts = (
-        _Figures("fill and\nshading\nms" if described else "fill\nms", lambda point: figure(point.fill_ms, f".{decimals}f")),
+        _Figures(
+            "fill and\nshading\nms" if described else "fill\nms",
+            lambda point: figure(point.fill_ms, f".{decimals}f"),
+        ),
         _Figures("resolve\nms", lambda point: figure(point.resolve_ms, f".{decimals}f")),
     )
     return _columns([part for part in parts if _is_known(part, groups[0])], groups[0])
@@ -192,7 +262,9 @@ def _shading_columns(points: Sequence[Point]) -> list[_Column]:
     if not any(point.shading_ms for point in points):
         return []
     decimals, name = _decimals(points), points[0].shading
-    part = _Figures(_heading(f"shading {name}", "ms"), lambda point: figure(point.shading_ms, f".{decimals}f"))
+    part = _Figures(
+        _heading(f"shading {name}", "ms"), lambda point: figure(point.shading_ms, f".{decimals}f")
+    )
     return _columns([part], points)
 
 
@@ -202,22 +274,30 @@ def _heading(name: str, unit: str) -> str:
 
 
 def _decimals(points: Sequence[Point]) -> int:
-    """The decimals with which the shortest of the times has three significant digits; two where all intervals are narrower than these
-    show."""
+    """The decimals with which the shortest of the times has three significant digits; two where all
+    intervals are narrower than these show.
+    """
     times = [point.time_ms for point in points if point.time_ms is not None and has_time(point)]
     widths = [_half_width(point) for point in points]
     exact = all(width is not None and width < _EXACT_MS for width in widths)
-    return min(max(2 - math.floor(math.log10(min(times, default=1.0))), 2 if exact else 0), _MAX_DECIMALS)
+    return min(
+        max(2 - math.floor(math.log10(min(times, default=1.0))), 2 if exact else 0), _MAX_DECIMALS
+    )
 
 
 def _ties_with_shorter(points: Sequence[Point]) -> set[Technique]:
     """The techniques whose time differs from the next shorter one by no more than the noise."""
-    ordered = sorted((point for point in points if point.time_ms is not None), key=lambda point: (point.time_ms or 0.0, point.technique))
+    ordered = sorted(
+        (point for point in points if point.time_ms is not None),
+        key=lambda point: (point.time_ms or 0.0, point.technique),
+    )
     return {longer.technique for shorter, longer in pairwise(ordered) if tie(shorter, longer)}
 
 
 def _half_width(point: Point) -> float | None:
-    """The distance from a time to the farther bound of its interval; None where that is not known."""
+    """The distance from a time to the farther bound of its interval; None where that is not
+    known.
+    """
     if point.time_ms is None or point.low_ms is None or point.high_ms is None:
         return None
     width = max(point.time_ms - point.low_ms, point.high_ms - point.time_ms)
@@ -227,7 +307,13 @@ def _half_width(point: Point) -> float | None:
 def _interval(point: Point, decimals: int) -> str:
     """The half-width of an interval; `<0.001` where that is less than the time's digits show."""
     width, least = _half_width(point), 10.0**-decimals
-    return "-" if width is None else f"<{least:.{decimals}f}" if 0 <= width < least else f"{width:.{decimals}f}"
+    return (
+        "-"
+        if width is None
+        else f"<{least:.{decimals}f}"
+        if 0 <= width < least
+        else f"{width:.{decimals}f}"
+    )
 
 
 def _is_known(figures: _Figures, points: Sequence[Point]) -> bool:
@@ -236,18 +322,33 @@ def _is_known(figures: _Figures, points: Sequence[Point]) -> bool:
 
 
 def _columns(figures: Sequence[_Figures], points: Sequence[Point]) -> list[_Column]:
-    return [(Column(each.title, FIGURE), {point.technique: each.cell(point) for point in points}) for each in figures]
+    return [
+        (Column(each.title, FIGURE), {point.technique: each.cell(point) for point in points})
+        for each in figures
+    ]
 
 
-def _table(points: Sequence[Point], columns: Sequence[_Column], gap: int, best: Set[Technique], kind: str = TEXT) -> Table:
+def _table(
+    points: Sequence[Point],
+    columns: Sequence[_Column],
+    gap: int,
+    best: Set[Technique],
+    kind: str = TEXT,
+) -> Table:
     """A row for each technique, with its name before the first column of figures."""
-    names = (Column("samples", kind), {point.technique: row_name(point.technique) for point in points})
+    names = (
+        Column("samples", kind),
+        {point.technique: row_name(point.technique) for point in points},
+    )
     place = 1 if columns and columns[0][0].kind != FIGURE else 0
     ordered = [*columns[:place], names, *columns[place:]]
     rows = [
         (
             "green" if point.technique in best else "",
-            [Text(cells.get(point.technique, "-" if column.kind == FIGURE else "")) for column, cells in ordered],
+            [
+                Text(cells.get(point.technique, "-" if column.kind == FIGURE else ""))
+                for column, cells in ordered
+            ],
         )
         for point in points
     ]

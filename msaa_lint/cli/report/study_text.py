@@ -1,4 +1,6 @@
-"""What the reports of a study say in sentences: what to take and why, what is assumed, and the origin of the figures."""
+"""What the reports of a study say in sentences: what to take and why, what is assumed, and the
+origin of the figures.
+"""
 
 from __future__ import annotations
 
@@ -16,12 +18,18 @@ from .summary import plural
 
 def software_warning(study: Study) -> str:
     """What holds for the times of a software driver."""
-    return f"{display(study.device)} is a software driver: its times say nothing about a GPU, and nothing is recommended from them"
+    return (
+        f"{display(study.device)} is a software driver: its times say nothing about a GPU, and "
+        f"nothing is recommended from them"
+    )
 
 
 def compared(scene: SceneSummary, study: Study) -> str:
     """How many pixels of a scene that has points the error is measured over."""
-    edges = f"{max(point.edge_pixels for point in study.of(scene.name)):,} of {study.size[0] * study.size[1]:,} pixels"
+    edges = (
+        f"{max(point.edge_pixels for point in study.of(scene.name)):,} of "
+        f"{study.size[0] * study.size[1]:,} pixels"
+    )
     return f"{edges} {'are crossed by an edge' if scene.coverage else 'are compared by color'}"
 
 
@@ -47,7 +55,9 @@ def choices(scene: SceneSummary, study: Study) -> Iterator[str]:
     limit = f" within {study.budget_ms:.4g} ms"
     if len(names) == 1:
         (technique,) = names
-        yield f"take {technique}{limit}" + (" under every cost of shading" if len(choices) > 1 else "")
+        yield f"take {technique}{limit}" + (
+            " under every cost of shading" if len(choices) > 1 else ""
+        )
     else:
         each = (f"{technique} ({', '.join(costs)})" for technique, costs in names.items())
         yield f"take{limit}, by cost of shading: {'; '.join(each)}"
@@ -72,30 +82,54 @@ def _effects(scene: SceneSummary, study: Study) -> Iterator[str]:
         for stage, time in point.stages:
             times[stage] = times.get(stage, 0.0) + time
     for name, reason in scene.effects:
-        share = f", {100 * times[name] / total:.0f} % of the simulation's time" if total > 0 and name in times else ""
+        share = (
+            f", {100 * times[name] / total:.0f} % of the simulation's time"
+            if total > 0 and name in times
+            else ""
+        )
         yield f"effect {display(name)}" + (f": {display(reason)}" if reason else "") + share
     ran = {name for name, _ in scene.effects}
     if not ran:
         yield "no effects: the scene needs none"
     elif times:
-        yield f"off, without taking any time: {', '.join(effect.name for effect in TABLE if effect.name not in ran)}"
+        yield (
+            f"off, without taking any time: "
+            f"{', '.join(effect.name for effect in TABLE if effect.name not in ran)}"
+        )
 
 
 def answer(scene: SceneSummary, name: str, study: Study) -> Iterator[str]:
     """What to take under one cost of shading and why, the steps up, and the front."""
-    choice = next((choice for choice in study.recommendations if (choice.scene, choice.shading) == (scene.name, name)), None)
+    choice = next(
+        (
+            choice
+            for choice in study.recommendations
+            if (choice.scene, choice.shading) == (scene.name, name)
+        ),
+        None,
+    )
     yield ""
     if name or choice is not None:
-        shading = next((shading for shading in study.shadings if shading.name == name), Shading(name))
+        shading = next(
+            (shading for shading in study.shadings if shading.name == name), Shading(name)
+        )
         of_cost = f"shading {display(name)}{_full_screen(shading)}" if name else ""
-        yield f"{of_cost}: {choice.text}" if of_cost and choice is not None else choice.text if choice is not None else f"{of_cost}:"
+        yield (
+            f"{of_cost}: {choice.text}"
+            if of_cost and choice is not None
+            else choice.text
+            if choice is not None
+            else f"{of_cost}:"
+        )
     if choice is not None:
         yield f"  {choice.reason}"
         yield f"  {choice.following}"
     for step in study.steps:
         if (step.scene, step.shading) == (scene.name, name):
             yield f"  {step.text}"
-    timed = [point for point in study.of(scene.name, name) if point.best and point.time_ms is not None]
+    timed = [
+        point for point in study.of(scene.name, name) if point.best and point.time_ms is not None
+    ]
     if timed and not study.software:
         by = "" if scene.measure == ERROR else f" of {scene.measure.name} and time"
         ordered = sorted(timed, key=lambda point: (point.time_ms or 0.0, point.technique))
@@ -103,26 +137,44 @@ def answer(scene: SceneSummary, name: str, study: Study) -> Iterator[str]:
 
 
 def _full_screen(shading: Shading) -> str:
-    return f" ({shading.full_screen_ms:.3g} ms a full screen at 1x)" if shading.full_screen_ms else ""
+    return (
+        f" ({shading.full_screen_ms:.3g} ms a full screen at 1x)" if shading.full_screen_ms else ""
+    )
 
 
 def summary(study: Study) -> Iterator[str]:
-    """The origin of the figures, the meaning of the marks, what was not timed, and what was written."""
+    """The origin of the figures, the meaning of the marks, what was not timed, and what was
+    written.
+    """
     if study.points:
-        times = f"times measured by the clock of {display(study.device)}" if study.device else "no times: --device NAME measures them"
+        times = (
+            f"times measured by the clock of {display(study.device)}"
+            if study.device
+            else "no times: --device NAME measures them"
+        )
         yield f"{study.size[0]}x{study.size[1]}, vertices snapped to {study.bits} bits; {times}"
         if study.device and not study.software:
             yield f"{MARK} Pareto-optimal: no other technique has less error in as little time"
         else:
-            yield f"{MARK} Pareto-optimal: no other technique has less error for as few samples, shader invocations, and bytes"
+            yield (
+                f"{MARK} Pareto-optimal: no other technique has less error for as few samples, "
+                f"shader invocations, and bytes"
+            )
         if study.device:
             yield from _timing(study)
         for scene in study.scenes:
             if scene.measure != ERROR:
-                yield f"{display(scene.name)} is about {', '.join(scene.about)}: its techniques are compared by {scene.measure.name}"
+                yield (
+                    f"{display(scene.name)} is about {', '.join(scene.about)}: its techniques "
+                    f"are compared by {scene.measure.name}"
+                )
         model = f" for {display(study.model)}" if study.model else ""
         # Only frames that are timed have assumptions.
-        own = "; those of a timed frame are of its own passes" if any(scene.assumed for scene in study.scenes) else ""
+        own = (
+            "; those of a timed frame are of its own passes"
+            if any(scene.assumed for scene in study.scenes)
+            else ""
+        )
         yield f"bytes, power, and memory: the cost model{model}, with samples kept on the tile{own}"
     names: dict[str, list[str]] = {}
     for untimed in study.untimed:
@@ -143,15 +195,25 @@ def _timing(study: Study) -> Iterator[str]:
     for shading in study.shadings:
         if shading.operations or shading.fetches:
             off = missed(shading)
-            yield f"{display(shading.name)}: {_work(shading)} per invocation{_full_screen(shading)}{'; ' if off else ''}{off}"
+            yield (
+                f"{display(shading.name)}: {_work(shading)} per "
+                f"invocation{_full_screen(shading)}{'; ' if off else ''}{off}"
+            )
         elif shading.full_screen_ms:
             yield f"{display(shading.name)}: {shading.full_screen_ms:.3g} ms a full screen at 1x"
     for model in study.models:
         residual, rms, noise = 100 * model.residual, 100 * model.rms, 100 * model.noise
-        yield f"model of the times of {display(model.scene)}: off by {rms:.1f} % (at most {residual:.1f} %); noise is up to {noise:.1f} %"
+        yield (
+            f"model of the times of {display(model.scene)}: off by {rms:.1f} % (at most "
+            f"{residual:.1f} %); noise is up to {noise:.1f} %"
+        )
 
 
 def _work(shading: Shading) -> str:
     operations = [plural(shading.operations, "operation")] if shading.operations else []
-    fetches = [f"{plural(shading.fetches, 'texture fetch')} from {shading.footprint / (1 << 20):.3g} MiB"] if shading.fetches else []
+    fetches = (
+        [f"{plural(shading.fetches, 'texture fetch')} from {shading.footprint / (1 << 20):.3g} MiB"]
+        if shading.fetches
+        else []
+    )
     return " and ".join([*operations, *fetches])

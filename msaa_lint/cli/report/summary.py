@@ -5,7 +5,15 @@ from collections.abc import Iterable
 from operator import add
 from typing import NamedTuple
 
-from msaa_lint.core.finding import CONFIDENCES, Finding, Price, Result, Saving, Savings, is_confident
+from msaa_lint.core.finding import (
+    CONFIDENCES,
+    Finding,
+    Price,
+    Result,
+    Saving,
+    Savings,
+    is_confident,
+)
 from msaa_lint.linter.settings.settings import COMMAND_LINE
 
 from . import Options
@@ -16,8 +24,8 @@ from .words import plural as plural
 
 
 class Tally(NamedTuple):
-    """Counts of a run. `missing` has each missing fact with the number of rules that need it, the largest number first. `savings` are what
-    fixes save of the inputs that they edit.
+    """Counts of a run. `missing` has each missing fact with the number of rules that need it, the
+    largest number first. `savings` are what fixes save of the inputs that they edit.
     """
 
     errors: int
@@ -62,28 +70,45 @@ def tally(result: Result) -> Tally:
 
 
 def summary(result: Result, options: Options) -> list[str]:
-    """The lines that end a report: the findings, what fixes do about them, and what was not checked."""
+    """The lines that end a report: the findings, what fixes do about them, and what was not
+    checked.
+    """
     lines = (sentence(result, options), *fixable(result), summary_line(result, options))
     return [*(line for line in lines if line), *captured(result, options), *unread(result, options)]
 
 
 def sentence(result: Result, options: Options) -> str:
-    """One line: the findings, the number of files, what of them was checked, and what is suppressed."""
+    """One line: the findings, the number of files, what of them was checked, and what is
+    suppressed.
+    """
     count = tally(result)
     if count.findings:
-        kinds = [plural(n, word) for n, word in ((count.errors, "error"), (count.warnings, "warning"), (count.notes, "note")) if n]
+        kinds = [
+            plural(n, word)
+            for n, word in (
+                (count.errors, "error"),
+                (count.warnings, "warning"),
+                (count.notes, "note"),
+            )
+            if n
+        ]
         files = plural(count.files, "file")
         if count.files_with_findings < count.files:
             files = f"{count.files_with_findings} of {files}"
         places = [files] if count.files_with_findings else []
         if any(finding.file == COMMAND_LINE for finding in result.findings):
             places.append("the command line")
-        text = f"Found {plural(count.findings, 'finding')} ({', '.join(kinds)}) in {' and '.join(places)}"
+        text = (
+            f"Found {plural(count.findings, 'finding')} ({', '.join(kinds)}) in "
+            f"{' and '.join(places)}"
+        )
     else:
         text = f"No findings in {plural(count.files, 'file')}"
     if any(each.format for each in result.inputs):
         text += f" ({checked(result.inputs)})"
-    unconfident = sum(not is_confident(finding, options.fail_confidence) for finding in result.findings)
+    unconfident = sum(
+        not is_confident(finding, options.fail_confidence) for finding in result.findings
+    )
     if unconfident:
         levels = " or ".join(CONFIDENCES[: CONFIDENCES.index(options.fail_confidence)])
         text += f"; {unconfident} of {levels} confidence, below --fail-confidence"
@@ -102,19 +127,29 @@ def summary_line(result: Result, options: Options) -> str:
     keys = [f"{display(key)} ({count})" for key, count in lacking[: options.max_undecided]]
     if len(lacking) > options.max_undecided:
         keys.append(f"and {len(lacking) - options.max_undecided} more")
-    text = f"{plural(rules, 'rule')} undecided" + (f", missing keys: {', '.join(keys)}" if keys else "")
+    text = f"{plural(rules, 'rule')} undecided" + (
+        f", missing keys: {', '.join(keys)}" if keys else ""
+    )
     return text if options.explain_undecided else f"{text}; --explain-undecided lists what to add"
 
 
 def fixable(result: Result) -> list[str]:
-    """How many findings fixes remove, and what that saves; empty if no finding has a fix that can be made."""
+    """How many findings fixes remove, and what that saves; empty if no finding has a fix that can
+    be made.
+    """
     files, converted = files_saving(result), converted_saving(result)
-    lines = [*_fixable(files, "fixable with"), *_fixable(converted, "fixable in the description that `msaa-lint convert` writes, with")]
+    lines = [
+        *_fixable(files, "fixable with"),
+        *_fixable(converted, "fixable in the description that `msaa-lint convert` writes, with"),
+    ]
     for is_converted, first in ((False, ""), (True, "`msaa-lint convert`, then ")):
         count = list(result.untried.values()).count(is_converted)
         if count:
             verb = "is" if count == 1 else "are"
-            lines.append(f"{plural(count, 'file')} {verb} too large to try fixes here; {first}`check --diff` tries them")
+            lines.append(
+                f"{plural(count, 'file')} {verb} too large to try fixes here; {first}`check "
+                f"--diff` tries them"
+            )
     return lines
 
 
@@ -132,21 +167,29 @@ ON_TILER = " on a tile-based GPU"
 
 
 def _saved(saving: Saving) -> str:
-    """`: saves 2248 MB/s written, 225 mW; adds 3 MiB of memory`; empty if there is no price or it is zero."""
+    """`: saves 2248 MB/s written, 225 mW; adds 3 MiB of memory`; empty if there is no price or it
+    is zero.
+    """
     figures = figures_of(saving.price)
     saved = ", ".join(f"{_number(value)} {unit}" for value, unit in figures if value > 0)
     added = ", ".join(f"{_number(-value)} {unit}" for value, unit in figures if value < 0)
-    text = "; ".join(f"{verb} {amounts}" for verb, amounts in (("saves", saved), ("adds", added)) if amounts)
+    text = "; ".join(
+        f"{verb} {amounts}" for verb, amounts in (("saves", saved), ("adds", added)) if amounts
+    )
     return f": {text}{ON_TILER if saving.assumes_tiler else ''}" if text else ""
 
 
 def files_saving(result: Result) -> Savings:
-    """What fixes save of the inputs that they edit. Files are separate frames, whose costs add up."""
+    """What fixes save of the inputs that they edit. Files are separate frames, whose costs add
+    up.
+    """
     return _sum(savings for savings in result.savings.values() if not savings.converted)
 
 
 def converted_saving(result: Result) -> Savings:
-    """What fixes save of captures and source code, in the descriptions that they are converted to."""
+    """What fixes save of captures and source code, in the descriptions that they are converted
+    to.
+    """
     return _sum(savings for savings in result.savings.values() if savings.converted)
 
 
@@ -165,14 +208,22 @@ def _both(one: Saving, other: Saving) -> Saving:
 
 
 def usable_price(finding: Finding) -> Price | None:
-    """The finding's price; None if a figure is out of range, which means nothing and cannot be written as JSON."""
+    """The finding's price; None if a figure is out of range, which means nothing and cannot be
+    written as JSON.
+    """
     price = finding.price
     return price if price is not None and _is_usable(price) else None
 
 
 def notes_of(finding: Finding) -> list[str]:
-    """The notes of a finding, and what its price assumes, for outputs that have the figures alone."""
-    return [*finding.notes, f"the price is that{ON_TILER}"] if finding.assumes_tiler else [*finding.notes]
+    """The notes of a finding, and what its price assumes, for outputs that have the figures
+    alone.
+    """
+    return (
+        [*finding.notes, f"the price is that{ON_TILER}"]
+        if finding.assumes_tiler
+        else [*finding.notes]
+    )
 
 
 def _is_usable(price: Price) -> bool:
@@ -181,13 +232,18 @@ def _is_usable(price: Price) -> bool:
 
 
 def price_text(finding: Finding) -> str:
-    """`+2248 MB/s written, +31.6 MiB of memory`, `on a tile-based GPU` if no device is named; empty if there is no price or it is zero.
+    """`+2248 MB/s written, +31.6 MiB of memory`, `on a tile-based GPU` if no device is named; empty
+    if there is no price or it is zero.
 
     The price of a choice begins with `if chosen: `, and has the signs of the change that it makes.
     """
     choice = is_choice(finding)
-    figures = [(-value if choice else value, unit) for value, unit in figures_of(usable_price(finding))]
-    text = ", ".join(f"{'+' if value > 0 else ''}{_number(value)} {unit}" for value, unit in figures)
+    figures = [
+        (-value if choice else value, unit) for value, unit in figures_of(usable_price(finding))
+    ]
+    text = ", ".join(
+        f"{'+' if value > 0 else ''}{_number(value)} {unit}" for value, unit in figures
+    )
     text += ON_TILER if text and finding.assumes_tiler else ""
     return f"if chosen: {text}" if text and choice else text
 
@@ -198,7 +254,9 @@ def is_choice(finding: Finding) -> bool:
 
 
 def is_summed(finding: Finding) -> bool:
-    """Whether the price of a finding counts: that of a choice, or of a fix that cannot be made, is nobody's saving."""
+    """Whether the price of a finding counts: that of a choice, or of a fix that cannot be made, is
+    nobody's saving.
+    """
     return finding.fix is not None and not finding.fix.choice and not finding.fix.refusal
 
 

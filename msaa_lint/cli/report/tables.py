@@ -1,4 +1,6 @@
-"""Tables of the text reports, laid out for the width of the output. A figure is never broken, and nothing is cut."""
+"""Tables of the text reports, laid out for the width of the output. A figure is never broken, and
+nothing is cut.
+"""
 
 from __future__ import annotations
 
@@ -24,15 +26,18 @@ _UNLIMITED = 10_000
 
 
 class Column(NamedTuple):
-    """A column: its heading, and what its cells hold. Figures are on the right and never broken, texts and short
-    ones are broken between words, and names anywhere."""
+    """A column: its heading, and what its cells hold. Figures are on the right and never broken,
+    texts and short ones are broken between words, and names anywhere.
+    """
 
     title: str
     kind: str = TEXT
 
 
 class Table(NamedTuple):
-    """The columns of a table, its rows with their styles, and the number of spaces between columns."""
+    """The columns of a table, its rows with their styles, and the number of spaces between
+    columns.
+    """
 
     columns: Sequence[Column]
     rows: Sequence[tuple[str, Sequence[Text]]]
@@ -40,9 +45,15 @@ class Table(NamedTuple):
 
 
 def print_tables(out: Write, options: Options, *layouts: Sequence[Table]) -> int:
-    """Prints the tables of the first layout that fits with long texts and names broken, else those of the last one; returns its place."""
+    """Prints the tables of the first layout that fits with long texts and names broken, else those
+    of the last one; returns its place.
+    """
     width = options.width or _UNLIMITED
-    fitting = (place for place, layout in enumerate(layouts) if all(_total(table, _good_widths(table)) <= width for table in layout))
+    fitting = (
+        place
+        for place, layout in enumerate(layouts)
+        if all(_total(table, _good_widths(table)) <= width for table in layout)
+    )
     chosen = next(fitting, len(layouts) - 1)
     for number, table in enumerate(layouts[chosen]):
         out(("\n" if number else "") + _rendered(table, width, options.color))
@@ -52,25 +63,47 @@ def print_tables(out: Write, options: Options, *layouts: Sequence[Table]) -> int
 def _rendered(table: Table, width: int, color: bool) -> str:
     widths = _shrunk(table, width)
     titled = any(column.title for column in table.columns)
-    layout = RichTable(box=None, pad_edge=False, padding=(0, table.gap, 0, 0), show_header=titled, header_style="underline")
+    layout = RichTable(
+        box=None,
+        pad_edge=False,
+        padding=(0, table.gap, 0, 0),
+        show_header=titled,
+        header_style="underline",
+    )
     for column, cells in zip(table.columns, widths, strict=True):
         is_figure = column.kind == FIGURE
-        layout.add_column(column.title, justify="right" if is_figure else "left", no_wrap=is_figure, overflow="fold", width=cells)
+        layout.add_column(
+            column.title,
+            justify="right" if is_figure else "left",
+            no_wrap=is_figure,
+            overflow="fold",
+            width=cells,
+        )
     for style, texts in table.rows:
         layout.add_row(*texts, style=style)
     buffer = io.StringIO()
     Console(
-        file=buffer, width=_total(table, widths), color_system="standard" if color else None, force_terminal=color, no_color=not color,
+        file=buffer, width=_total(table, widths), color_system="standard" if color else None,
+        force_terminal=color, no_color=not color,
         markup=False, highlight=False, emoji=False, legacy_windows=False, _environ={},
     ).print(layout)  # fmt: skip
-    return escape_commands(re.sub(r"(?m)(?:\x1b\[[0-9;]*m| )+$", lambda end: end[0].replace(" ", ""), buffer.getvalue()))
+    return escape_commands(
+        re.sub(
+            r"(?m)(?:\x1b\[[0-9;]*m| )+$", lambda end: end[0].replace(" ", ""), buffer.getvalue()
+        )
+    )
 
 
 def _shrunk(table: Table, width: int) -> list[int]:
-    """The widths of the columns in a table of a width, which only the least width of its columns can exceed."""
+    """The widths of the columns in a table of a width, which only the least width of its columns
+    can exceed.
+    """
     widths, least = _widths(table), _least_widths(table)
     while _total(table, widths) > width:
-        widest = max(range(len(widths)), key=lambda number: widths[number] if widths[number] > least[number] else 0)
+        widest = max(
+            range(len(widths)),
+            key=lambda number: widths[number] if widths[number] > least[number] else 0,
+        )
         if widths[widest] <= least[widest]:
             break
         widths[widest] -= 1
@@ -83,13 +116,19 @@ def _total(table: Table, widths: Sequence[int]) -> int:
 
 def _widths(table: Table) -> list[int]:
     """The widths of the columns if nothing is broken."""
-    return [max(cell_len(line) for text in texts for line in text.split("\n")) for texts in _columns(table)]
+    return [
+        max(cell_len(line) for text in texts for line in text.split("\n"))
+        for texts in _columns(table)
+    ]
 
 
 def _good_widths(table: Table) -> list[int]:
     """The widths of the columns if only long texts and names are broken."""
     widths = zip(table.columns, _widths(table), _least_widths(table), strict=True)
-    return [min(width, max(least, GOOD_WIDTHS.get(column.kind, width))) for column, width, least in widths]
+    return [
+        min(width, max(least, GOOD_WIDTHS.get(column.kind, width)))
+        for column, width, least in widths
+    ]
 
 
 def _least_widths(table: Table) -> list[int]:
@@ -100,10 +139,18 @@ def _least_widths(table: Table) -> list[int]:
             least.append(width)
         else:
             words = (column.title if column.kind == NAME else " ".join(texts)).split()
-            least.append(min(width, max([MIN_NAME_WIDTH if column.kind == NAME else 1, *map(cell_len, words)])))
+            least.append(
+                min(
+                    width,
+                    max([MIN_NAME_WIDTH if column.kind == NAME else 1, *map(cell_len, words)]),
+                )
+            )
     return least
 
 
 def _columns(table: Table) -> list[list[str]]:
     """The texts of each column, with its heading."""
-    return [[column.title, *(texts[number].plain for _, texts in table.rows)] for number, column in enumerate(table.columns)]
+    return [
+        [column.title, *(texts[number].plain for _, texts in table.rows)]
+        for number, column in enumerate(table.columns)
+    ]

@@ -25,17 +25,30 @@ _ESCAPES = {"|": "||", "'": "|'", "[": "|[", "]": "|]", "\n": "|n", "\r": "|r"}
 
 
 def render(result: Result, out: Write, options: Options) -> None:
-    """Prints a message per finding and per input that shows no pass to check, and before the first one of each rule what the rule is."""
+    """Prints a message per finding and per input that shows no pass to check, and before the first
+    one of each rule what the rule is.
+    """
     summaries = {rule.code: rule.summary for rule in (*DIAGNOSTICS.values(), *result.rules)}
     described: set[str] = set()
     for finding in chain(result.findings, unread_notes(result)):
         code = clip(display(finding.code), MAX_NAME)
         if code not in described:
             described.add(code)
-            # The code comes first: TeamCity displays a description that begins with `<html>` as a page.
-            description = clip(f"{code}: {display(summaries.get(finding.code) or finding.rule)}", MAX_TEXT)
+            # The code comes first: TeamCity displays a description that begins with `<html>` as a
+            # page.
+            description = clip(
+                f"{code}: {display(summaries.get(finding.code) or finding.rule)}", MAX_TEXT
+            )
             name = clip(display(finding.rule), MAX_NAME)
-            out(_message("inspectionType", id=code, name=name, category="msaa-lint", description=description))
+            out(
+                _message(
+                    "inspectionType",
+                    id=code,
+                    name=name,
+                    category="msaa-lint",
+                    description=description,
+                )
+            )
         out(_inspection(finding, code, result, options))
 
 

@@ -36,8 +36,12 @@ def _pattern(path: str) -> str:
 
 
 def explanation(result: Result, options: Options) -> Iterator[str]:
-    """For each undecided rule a line for each key that it lacks, with the places of the first structures that lack it."""
-    by_rule: dict[tuple[str, str], dict[tuple[str, str], list[tuple[Undecided, MissingKey | None]]]] = {}
+    """For each undecided rule a line for each key that it lacks, with the places of the first
+    structures that lack it.
+    """
+    by_rule: dict[
+        tuple[str, str], dict[tuple[str, str], list[tuple[Undecided, MissingKey | None]]]
+    ] = {}
     for entry in result.undecided:
         keys = by_rule.setdefault((entry.code, entry.rule), {})
         for key in entry.keys:
@@ -49,9 +53,15 @@ def explanation(result: Result, options: Options) -> Iterator[str]:
         for (file, _), entries in keys.items():
             lacking = list(dict.fromkeys(key for _, key in entries))
             name = f"{display(rule)} ({display(code)})"
-            lines = [_line(file, entries[0][0], key, name, result, options) for key in lacking[:MAX_SUBJECTS]]
+            lines = [
+                _line(file, entries[0][0], key, name, result, options)
+                for key in lacking[:MAX_SUBJECTS]
+            ]
             if len(lacking) > MAX_SUBJECTS:
-                lines.append(f"{display_path(file, options.root)}: undecided: {name}: the same for {len(lacking) - MAX_SUBJECTS} more")
+                lines.append(
+                    f"{display_path(file, options.root)}: undecided: {name}: the same for "
+                    f"{len(lacking) - MAX_SUBJECTS} more"
+                )
             room -= len(lines)
             if room >= 0:
                 yield from lines
@@ -60,13 +70,20 @@ def explanation(result: Result, options: Options) -> Iterator[str]:
     for each in result.inputs:
         if each.format in SOURCE:
             name = display_path(each.file, options.root)
-            yield f"{name}: undecided rules of source code are not listed; complete the description that `msaa-lint convert` writes"
+            yield (
+                f"{name}: undecided rules of source code are not listed; complete the "
+                f"description that `msaa-lint convert` writes"
+            )
 
 
-def _line(file: str, entry: Undecided, key: MissingKey | None, rule: str, result: Result, options: Options) -> str:
+def _line(
+    file: str, entry: Undecided, key: MissingKey | None, rule: str, result: Result, options: Options
+) -> str:
     where = display_path(file, options.root)
     if key is None:
-        return f"{where}: undecided: {rule}: no single key decides it for `{display(entry.subject)}`"
+        return (
+            f"{where}: undecided: {rule}: no single key decides it for `{display(entry.subject)}`"
+        )
     at = place(result, file, key.span)
     if at is not None:
         where += f":{at.line}:{at.column}"
@@ -75,4 +92,7 @@ def _line(file: str, entry: Undecided, key: MissingKey | None, rule: str, result
         structure += " (or use `--profile`)"
     elif key.converted:
         structure += " in what `msaa-lint convert` writes"
-    return f"{where}: undecided: {rule}: add `{display(key.name)}` to {structure}: {display(key.values)}"
+    return (
+        f"{where}: undecided: {rule}: add `{display(key.name)}` to {structure}: "
+        f"{display(key.values)}"
+    )

@@ -17,7 +17,8 @@ _MAX_COMBINING = 4
 
 
 class Window(NamedTuple):
-    """A displayed text. `cells[i]` is where the source character at offset `start + i` begins; the last entry is where the text ends.
+    """A displayed text. `cells[i]` is where the source character at offset `start + i` begins; the
+    last entry is where the text ends.
 
     `cut` means that the line continues after the window.
     """
@@ -42,7 +43,9 @@ class Window(NamedTuple):
 
 
 def line_end(text: str, offset: int, max_length: int) -> int | None:
-    """The end of the line that contains `offset`; None if it is more than `max_length` characters away."""
+    """The end of the line that contains `offset`; None if it is more than `max_length` characters
+    away.
+    """
     match = _LINE_END.search(text, offset, min(len(text), offset + max_length))
     if match:
         return match.start()
@@ -50,8 +53,9 @@ def line_end(text: str, offset: int, max_length: int) -> int | None:
 
 
 def window(text: str, line_start: int, focus: int, width: int) -> Window:
-    """The whole line from `line_start` if it fits into `width` cells (0: always), else the part around the character at `focus`, with `...`
-    where it is cut."""
+    """The whole line from `line_start` if it fits into `width` cells (0: always), else the part
+    around the character at `focus`, with `...` where it is cut.
+    """
     if not width:
         end = line_end(text, line_start, len(text))
         assert end is not None
@@ -65,7 +69,10 @@ def window(text: str, line_start: int, focus: int, width: int) -> Window:
             return whole
     room = width - len(CUT)
     start = line_start
-    if focus - line_start > reach or _lay(text, line_start, focus, 0, "", "").cells[-1] > room * 2 // 3:
+    if (
+        focus - line_start > reach
+        or _lay(text, line_start, focus, 0, "", "").cells[-1] > room * 2 // 3
+    ):
         start = _back(text, line_start, focus, room // 3)
     before = CUT if start > line_start else ""
     end = line_end(text, start, reach)
@@ -87,11 +94,18 @@ def _back(text: str, line_start: int, focus: int, room: int) -> int:
 
 
 def _lay(text: str, start: int, end: int, room: int, before: str, after: str) -> Window:
-    """The characters from `start` to `end`, or as many as fit before cell `room` (0: all), between `before` and `after`."""
+    """The characters from `start` to `end`, or as many as fit before cell `room` (0: all), between
+    `before` and `after`.
+    """
     raw = text[start:end]
     if raw.isascii() and raw == escape(raw):
         count = min(len(raw), room - len(before)) if room else len(raw)
-        return Window(start, before + raw[:count] + after, range(len(before), len(before) + count + 1), bool(after))
+        return Window(
+            start,
+            before + raw[:count] + after,
+            range(len(before), len(before) + count + 1),
+            bool(after),
+        )
     parts, widths = _measure(raw)
     cells = [len(before)]
     for width in widths:

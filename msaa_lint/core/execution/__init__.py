@@ -1,1 +1,3 @@
-"""Tasks that several processes do at the same time, on this machine or on a cluster, and the results as they finish."""
+"""Tasks that several processes do at the same time, on this machine or on a cluster, and the
+results as they finish.
+"""

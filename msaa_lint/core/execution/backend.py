@@ -1,4 +1,5 @@
-"""What does tasks: processes of this machine, or the workers of a cluster. Each yields the results of tasks as they finish.
+"""What does tasks: processes of this machine, or the workers of a cluster. Each yields the results
+of tasks as they finish.
 
 A task is repeated if the process that does it ends, so it must be safe to repeat.
 """
@@ -15,19 +16,27 @@ Result = TypeVar("Result")
 MAX_DEATHS = 2
 """The number of processes that a task may end before it counts as failed."""
 
-ENDED_WORKERS = "it ended the workers that read it: give them more memory; if that does not help, please report it with the input"
-"""Why a task failed that ended so many workers of a cluster, and what to do: the same with every cluster, which do not say how they
-ended."""
+ENDED_WORKERS = (
+    "it ended the workers that read it: give them more memory; if that does not help, "
+    "please report it with the input"
+)
+"""Why a task failed that ended so many workers of a cluster, and what to do: the same with every
+cluster, which do not say how they ended.
+"""
 
 Work = Callable[[Task], Result]
 """What is done with a task. It travels to other processes, as tasks and results do."""
 
 Split = Callable[[Task], Sequence[Task]]
-"""Returns the parts of a task that can be done one by one, to find the one that ends processes; a single one if it has none."""
+"""Returns the parts of a task that can be done one by one, to find the one that ends processes; a
+single one if it has none.
+"""
 
 
 class Failure(NamedTuple):
-    """Why a task has no result: `work` raised an exception, or the processes that did the task ended."""
+    """Why a task has no result: `work` raised an exception, or the processes that did the task
+    ended.
+    """
 
     reason: str
 
@@ -41,11 +50,13 @@ class Backend(Protocol):
 
     workers: int
 
-    def results(self, work: Work[Task, Result], tasks: Iterable[Task], split: Split[Task]) -> Iterator[tuple[Task, Result | Failure]]:
+    def results(
+        self, work: Work[Task, Result], tasks: Iterable[Task], split: Split[Task]
+    ) -> Iterator[tuple[Task, Result | Failure]]:
         """Yields tasks with their results as they finish.
 
-        Tasks are taken from the iterable when there is room for them, so that it may have any length. Closing the iterator ends the
-        tasks. Raises Unusable if no worker is left.
+        Tasks are taken from the iterable when there is room for them, so that it may have any
+        length. Closing the iterator ends the tasks. Raises Unusable if no worker is left.
         """
         ...
 
@@ -55,7 +66,9 @@ class Backend(Protocol):
 
 
 class Waiting(Generic[Task]):
-    """The tasks that are not being done: new ones, and before them those to repeat. `deaths` are the processes that a task has ended."""
+    """The tasks that are not being done: new ones, and before them those to repeat. `deaths` are
+    the processes that a task has ended.
+    """
 
     def __init__(self, tasks: Iterable[Task], split: Split[Task]) -> None:
         self._new = iter(tasks)
@@ -80,7 +93,9 @@ class Waiting(Generic[Task]):
         self._again.append((task, deaths))
 
     def died(self, task: Task, deaths: int) -> bool:
-        """Adds a task whose process ended while it did the task, or the parts of it; False if it has ended too many."""
+        """Adds a task whose process ended while it did the task, or the parts of it; False if it
+        has ended too many.
+        """
         parts = self._split(task)
         if len(parts) > 1:
             self._again.extend((part, 0) for part in parts)
@@ -98,4 +113,6 @@ def attempt(work: Work[Task, Result], task: Task) -> Result | Failure:
     except Unusable as error:
         return Failure(str(error))
     except Exception as error:
-        return Failure(f"{type(error).__name__}: {str(error)[:300]}" if str(error) else type(error).__name__)
+        return Failure(
+            f"{type(error).__name__}: {str(error)[:300]}" if str(error) else type(error).__name__
+        )

@@ -1,7 +1,7 @@
 """Tasks on a cluster of Dask, the package `distributed`.
 
-Each task is meant for one worker, so that it is known which tasks a worker that ended had, and in which order. Workers should have a single
-thread: the tasks of a process take turns in any case.
+Each task is meant for one worker, so that it is known which tasks a worker that ended had, and in
+which order. Workers should have a single thread: the tasks of a process take turns in any case.
 """
 
 from __future__ import annotations
@@ -28,8 +28,9 @@ JOIN_SECONDS = 60.0
 """How long a cluster may have no worker."""
 
 AHEAD_SECONDS = 0.1
-"""A worker has tasks for as long as this besides the one that it does: messages take some hundredths of a second. Those that it has are not
-moved to a worker that has none."""
+"""A worker has tasks for as long as this besides the one that it does: messages take some
+hundredths of a second. Those that it has are not moved to a worker that has none.
+"""
 
 MAX_AHEAD = 16
 
@@ -44,10 +45,11 @@ MAX_LOGGED = 1000
 
 
 class DaskCluster:
-    """The cluster whose scheduler is at an address, else at DASK_SCHEDULER_ADDRESS, else one of this machine that ends with `close`.
+    """The cluster whose scheduler is at an address, else at DASK_SCHEDULER_ADDRESS, else one of
+    this machine that ends with `close`.
 
-    `workers` is the number of processes to start, one per core by default; of a cluster that exists, so many workers get tasks, by default
-    all of them. Raises Unusable if there is none.
+    `workers` is the number of processes to start, one per core by default; of a cluster that
+    exists, so many workers get tasks, by default all of them. Raises Unusable if there is none.
     """
 
     def __init__(self, address: str | None = None, workers: int | None = None) -> None:
@@ -64,15 +66,20 @@ class DaskCluster:
                     self._cluster = _local_cluster(workers or cores())
                 else:
                     check_listening(address)
-                self._client: Any = distributed.Client(self._cluster or address, timeout=CONNECT_SECONDS, set_as_default=False)
+                self._client: Any = distributed.Client(
+                    self._cluster or address, timeout=CONNECT_SECONDS, set_as_default=False
+                )
             self.workers = min(len(self._client.nthreads()), workers or 1 << 30)
         except Exception as error:
             self.close()
             raise Unusable(f"no cluster: {type(error).__name__}: {error}") from None
 
-    def results(self, work: Work[Task, Result], tasks: Iterable[Task], split: Split[Task]) -> Iterator[tuple[Task, Result | Failure]]:
-        """Yields tasks with their results as they finish, as `Backend` says. A task that a worker does when the iterator is closed goes on
-        there."""
+    def results(
+        self, work: Work[Task, Result], tasks: Iterable[Task], split: Split[Task]
+    ) -> Iterator[tuple[Task, Result | Failure]]:
+        """Yields tasks with their results as they finish, as `Backend` says. A task that a worker
+        does when the iterator is closed goes on there.
+        """
         run: _Run[Task, Result] = _Run(self._client, self._max_workers, work, Waiting(tasks, split))
         try:
             yield from run.results()
@@ -97,11 +104,16 @@ def _local_cluster(workers: int) -> Any:
     import dask
     from distributed import LocalCluster
 
-    # Dask looks at this when a worker ends, and as long afterward gives up a worker that happens to be starting again just then.
+    # Dask looks at this when a worker ends, and as long afterward gives up a worker that happens to
+    # be starting again just then.
     dask.config.set({"distributed.deploy.lost-worker-timeout": "1000 days"})
     with dask.config.set({"distributed.admin.low-level-log-length": MAX_LOGGED}):
         return LocalCluster(
-            n_workers=workers, threads_per_worker=1, dashboard_address="127.0.0.1:0", memory_limit=0, silence_logs=logging.CRITICAL
+            n_workers=workers,
+            threads_per_worker=1,
+            dashboard_address="127.0.0.1:0",
+            memory_limit=0,
+            silence_logs=logging.CRITICAL,
         )
 
 
@@ -114,8 +126,9 @@ class _Sent(NamedTuple, Generic[Task]):
 
 
 class _Worker:
-    """A worker, and the keys of the tasks that it has, in the order in which it does them. One that is repeated is there alone: if the
-    worker ends, it is why."""
+    """A worker, and the keys of the tasks that it has, in the order in which it does them. One that
+    is repeated is there alone: if the worker ends, it is why.
+    """
 
     def __init__(self) -> None:
         self.doing: deque[str] = deque()
@@ -123,13 +136,19 @@ class _Worker:
 
 
 class _Run(Generic[Task, Result]):
-    """The tasks of one call of `results`. What happens comes through a queue, from the thread in which Dask's client has its event loop."""
+    """The tasks of one call of `results`. What happens comes through a queue, from the thread in
+    which Dask's client has its event loop.
+    """
 
-    def __init__(self, client: Any, max_workers: int | None, work: Work[Task, Result], waiting: Waiting[Task]) -> None:
+    def __init__(
+        self, client: Any, max_workers: int | None, work: Work[Task, Result], waiting: Waiting[Task]
+    ) -> None:
         self._client = client
         self._max_workers = max_workers
         self._waiting = waiting
-        self._happened: queue.SimpleQueue[Callable[[], Iterator[tuple[Task, Result | Failure]]]] = queue.SimpleQueue()
+        self._happened: queue.SimpleQueue[Callable[[], Iterator[tuple[Task, Result | Failure]]]] = (
+            queue.SimpleQueue()
+        )
         self._workers: dict[str, _Worker] = {}
         self._sent: dict[str, tuple[str, _Sent[Task]]] = {}
         self._name = f"msaa-lint-{uuid.uuid4().hex}"
@@ -152,7 +171,9 @@ class _Run(Generic[Task, Result]):
             except Exception as error:
                 # A worker may end meanwhile; to those that have it, it comes again.
                 if not attempts_left:
-                    raise Unusable(f"the workers do not take tasks: {type(error).__name__}: {error}") from None
+                    raise Unusable(
+                        f"the workers do not take tasks: {type(error).__name__}: {error}"
+                    ) from None
 
     def results(self) -> Iterator[tuple[Task, Result | Failure]]:
         since = time.monotonic()
@@ -176,13 +197,17 @@ class _Run(Generic[Task, Result]):
                     yield from self._happened.get_nowait()()
 
     def _look(self) -> Iterator[tuple[Task, Failure]]:
-        """Takes note of workers that have joined or ended, where the scheduler's messages were missed."""
+        """Takes note of workers that have joined or ended, where the scheduler's messages were
+        missed.
+        """
         if self._client.status != "running":
             raise Unusable("the connection to the scheduler is lost")
         try:
             there = self._client.nthreads()
         except Exception as error:
-            raise Unusable(f"the connection to the scheduler is lost: {type(error).__name__}") from None
+            raise Unusable(
+                f"the connection to the scheduler is lost: {type(error).__name__}"
+            ) from None
         for address in self._workers.keys() - there.keys():
             yield from self._leave(address, None, False)
         for address in there:
@@ -218,15 +243,17 @@ class _Run(Generic[Task, Result]):
         self._number += 1
         key = f"{self._name}-{self._number}"
         future = self._client.submit(
-            self._do, self._name, pickle.dumps(task), key=key, workers=[address], pure=False, fifo_timeout="0 ms"
+            self._do, self._name, pickle.dumps(task), key=key, workers=[address], pure=False,
+            fifo_timeout="0 ms"
         )  # fmt: skip
         asyncio.run_coroutine_threadsafe(self._fetch(key, future), self._client.loop.asyncio_loop)
         worker.doing.append(key)
         self._sent[key] = address, _Sent(task, deaths, future)
 
     async def _fetch(self, key: str, future: Any) -> None:
-        """Waits for a result, in the thread of the event loop, or until the task is canceled. It is not canceled itself: several may wait
-        for one message."""
+        """Waits for a result, in the thread of the event loop, or until the task is canceled. It is
+        not canceled itself: several may wait for one message.
+        """
         found: Any
         try:
             found = await future
@@ -240,7 +267,11 @@ class _Run(Generic[Task, Result]):
         if isinstance(what, dict) and what.get("action") == "add-worker":
             self._happened.put(lambda: self._join(what["worker"]))
         if isinstance(what, dict) and what.get("action") == "remove-worker":
-            self._happened.put(lambda: self._leave(what["worker"], what.get("processing-tasks"), what.get("expected", False)))
+            self._happened.put(
+                lambda: self._leave(
+                    what["worker"], what.get("processing-tasks"), what.get("expected", False)
+                )
+            )
 
     def _join(self, address: str) -> Iterator[tuple[Task, Failure]]:
         if self._max_workers is None or len(self._workers) < self._max_workers:
@@ -248,8 +279,12 @@ class _Run(Generic[Task, Result]):
             self._knock = None
         return iter(())
 
-    def _leave(self, address: str, processing: Iterable[str] | None, expected: bool) -> Iterator[tuple[Task, Failure]]:
-        """Repeats the tasks of a worker that ended. The first that it had not finished may be why, unless it ended in good order."""
+    def _leave(
+        self, address: str, processing: Iterable[str] | None, expected: bool
+    ) -> Iterator[tuple[Task, Failure]]:
+        """Repeats the tasks of a worker that ended. The first that it had not finished may be why,
+        unless it ended in good order.
+        """
         worker = self._workers.pop(address, None)
         if worker is None:
             return
@@ -292,7 +327,8 @@ class _Run(Generic[Task, Result]):
         return sent
 
 
-# What follows travels by value: the scheduler and workers without this package, or with another version of it, can load it.
+# What follows travels by value: the scheduler and workers without this package, or with another
+# version of it, can load it.
 
 
 def _nothing() -> Callable[[], None]:
@@ -315,7 +351,9 @@ def _plugin(work: bytes) -> Any:
 
 
 def _task_function(wanted: str) -> Callable[[str, bytes], bytes | str]:
-    """What a worker does: returns a pickled result, or a string that says why the worker cannot do tasks."""
+    """What a worker does: returns a pickled result, or a string that says why the worker cannot do
+    tasks.
+    """
 
     def do(run: str, task: bytes) -> bytes | str:
         from distributed import get_worker

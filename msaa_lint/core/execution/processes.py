@@ -1,7 +1,7 @@
 """Tasks on the cores of this machine.
 
-Where the system can, the processes are copies of this one, which know what it knows; elsewhere they import the package again, and `work`
-is pickled.
+Where the system can, the processes are copies of this one, which know what it knows; elsewhere they
+import the package again, and `work` is pickled.
 """
 
 from __future__ import annotations
@@ -27,14 +27,23 @@ if TYPE_CHECKING:
     from multiprocessing.process import BaseProcess
 
 PARENT_SECONDS = 0.5
-"""How often a process looks whether the one that it works for has ended, where the system does not tell it."""
+"""How often a process looks whether the one that it works for has ended, where the system does not
+tell it.
+"""
 
 MAX_AHEAD_BYTES = 16_384
-"""The size of a pickled task up to which a process gets it while it does another one: with more, both ends of a full pipe might wait for
-each other."""
+"""The size of a pickled task up to which a process gets it while it does another one: with more,
+both ends of a full pipe might wait for each other.
+"""
 
 
-THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "BLIS_NUM_THREADS", "VECLIB_MAXIMUM_THREADS")
+THREADS = (
+    "OMP_NUM_THREADS",
+    "OPENBLAS_NUM_THREADS",
+    "MKL_NUM_THREADS",
+    "BLIS_NUM_THREADS",
+    "VECLIB_MAXIMUM_THREADS",
+)
 """What libraries of linear algebra take their number of threads from."""
 
 
@@ -44,17 +53,23 @@ def cores() -> int:
 
 
 def can_copy() -> bool:
-    """Whether this process can be copied: it has no other threads, nor may have on macOS, whose libraries start some."""
+    """Whether this process can be copied: it has no other threads, nor may have on macOS, whose
+    libraries start some.
+    """
     return sys.platform != "darwin" and hasattr(os, "fork") and threading.active_count() == 1
 
 
 class Processes:
-    """As many processes as there are workers. They end with the iterator of results, and with this process."""
+    """As many processes as there are workers. They end with the iterator of results, and with this
+    process.
+    """
 
     def __init__(self, workers: int) -> None:
         self.workers = workers
 
-    def results(self, work: Work[Task, Result], tasks: Iterable[Task], split: Split[Task]) -> Iterator[tuple[Task, Result | Failure]]:
+    def results(
+        self, work: Work[Task, Result], tasks: Iterable[Task], split: Split[Task]
+    ) -> Iterator[tuple[Task, Result | Failure]]:
         """Yields tasks with their results as they finish, as `Backend` says."""
         from multiprocessing.connection import wait
 
@@ -107,13 +122,17 @@ class _Process(Generic[Task, Result]):
         self.doing: deque[tuple[Task, int]] = deque()
         self.connection: Connection[Any, Any]
         self.connection, other = context.Pipe()
-        self._process: BaseProcess = context.Process(target=_serve, args=(other, work, os.getpid()), daemon=True)
+        self._process: BaseProcess = context.Process(
+            target=_serve, args=(other, work, os.getpid()), daemon=True
+        )
         with interrupts_held(), _few_threads():
             self._process.start()
         other.close()
 
     def send(self, task: Task, deaths: int) -> bool:
-        """Gives the process a task; False if the process does another one, and the task is too large to wait in the pipe."""
+        """Gives the process a task; False if the process does another one, and the task is too
+        large to wait in the pipe.
+        """
         data = pickle.dumps(task)
         if self.doing and len(data) > MAX_AHEAD_BYTES:
             return False
@@ -147,8 +166,9 @@ class _Process(Generic[Task, Result]):
 
 @contextmanager
 def _few_threads() -> Iterator[None]:
-    """Lets the processes that start, and do not know NumPy yet, compute with one thread each, unless the user wants more: there are as many
-    processes as cores."""
+    """Lets the processes that start, and do not know NumPy yet, compute with one thread each,
+    unless the user wants more: there are as many processes as cores.
+    """
     stated = [name for name in THREADS if name not in os.environ]
     os.environ.update(dict.fromkeys(stated, "1"))
     try:
@@ -162,7 +182,11 @@ def _ended(code: int | None) -> str:
     """Why a task failed that ended its processes, and what to do."""
     reason = _reason(code)
     # The system kills processes when it runs out of memory.
-    advice = "memory probably ran out; use fewer `--jobs` or more memory" if reason == "SIGKILL" else "please report it with the input"
+    advice = (
+        "memory probably ran out; use fewer `--jobs` or more memory"
+        if reason == "SIGKILL"
+        else "please report it with the input"
+    )
     return f"it ended the process that read it ({reason}): {advice}"
 
 

@@ -1,4 +1,6 @@
-"""Tasks on a cluster of Ray. Ray itself distributes them: a process has one at a time, so that its end is that task's alone."""
+"""Tasks on a cluster of Ray. Ray itself distributes them: a process has one at a time, so that its
+end is that task's alone.
+"""
 
 from __future__ import annotations
 
@@ -23,19 +25,22 @@ JOIN_SECONDS = 60.0
 """How long a cluster may have no processors."""
 
 AHEAD = 4
-"""The number of tasks per worker that Ray has, so that it has one for a worker that has finished."""
+"""The number of tasks per worker that Ray has, so that it has one for a worker that has
+finished.
+"""
 
 POLL_SECONDS = 1.0
 """How often the processors of the cluster are looked at while nothing happens."""
 
 
 class RayCluster:
-    """The cluster at an address, else at RAY_ADDRESS, else one of this machine that ends with `close`; the one that this process is already
-    connected to in any case.
+    """The cluster at an address, else at RAY_ADDRESS, else one of this machine that ends with
+    `close`; the one that this process is already connected to in any case.
 
-    `workers` is the number of processes to start, one per core by default; of a cluster that exists, so many tasks are done at the same
-    time, by default as many as it has processors. Raises Unusable if there is none. Ray finds the token of a cluster itself, in
-    RAY_AUTH_TOKEN for example, with `RAY_AUTH_MODE=token`.
+    `workers` is the number of processes to start, one per core by default; of a cluster that
+    exists, so many tasks are done at the same time, by default as many as it has processors. Raises
+    Unusable if there is none. Ray finds the token of a cluster itself, in RAY_AUTH_TOKEN for
+    example, with `RAY_AUTH_MODE=token`.
     """
 
     def __init__(self, address: str | None = None, workers: int | None = None) -> None:
@@ -50,22 +55,34 @@ class RayCluster:
         address = address or os.environ.get("RAY_ADDRESS")
         settings: dict[str, Any] = {"logging_level": "ERROR", "log_to_driver": False}
         if address is None:
-            settings |= {"address": "local", "num_cpus": workers or cores(), "include_dashboard": False}
+            settings |= {
+                "address": "local",
+                "num_cpus": workers or cores(),
+                "include_dashboard": False,
+            }
         try:
             if self._is_connected_here:
                 if address is not None:
                     check_listening(address)
                 _silence(ray)
                 # Ray prints to standard output, which is for the report.
-                with contextlib.redirect_stdout(sys.stderr), outside_the_working_folder(), interrupts_held():
+                with (
+                    contextlib.redirect_stdout(sys.stderr),
+                    outside_the_working_folder(),
+                    interrupts_held(),
+                ):
                     ray.init(**{"address": address, **settings})
             self.workers = min(self._processors(), workers or 1 << 30)
         except Exception as error:
             self.close()
             raise Unusable(f"no cluster: {type(error).__name__}: {error}") from None
 
-    def results(self, work: Work[Task, Result], tasks: Iterable[Task], split: Split[Task]) -> Iterator[tuple[Task, Result | Failure]]:
-        """Yields tasks with their results as they finish, as `Backend` says. Closing the iterator ends the processes that do tasks."""
+    def results(
+        self, work: Work[Task, Result], tasks: Iterable[Task], split: Split[Task]
+    ) -> Iterator[tuple[Task, Result | Failure]]:
+        """Yields tasks with their results as they finish, as `Backend` says. Closing the iterator
+        ends the processes that do tasks.
+        """
         run: _Run[Task, Result] = _Run(self, work, Waiting(tasks, split))
         try:
             yield from run.results()
@@ -75,7 +92,11 @@ class RayCluster:
     def ahead(self) -> int:
         """How many tasks Ray should have."""
         self.workers = self._processors()
-        return self._max_tasks if self._max_tasks is not None and self._max_tasks < self.workers else AHEAD * max(self.workers, 1)
+        return (
+            self._max_tasks
+            if self._max_tasks is not None and self._max_tasks < self.workers
+            else AHEAD * max(self.workers, 1)
+        )
 
     def close(self) -> None:
         """Disconnects; ends the cluster if it was started here."""
@@ -90,21 +111,27 @@ class RayCluster:
 class _Run(Generic[Task, Result]):
     """The tasks of one call of `results`."""
 
-    def __init__(self, cluster: RayCluster, work: Work[Task, Result], waiting: Waiting[Task]) -> None:
+    def __init__(
+        self, cluster: RayCluster, work: Work[Task, Result], waiting: Waiting[Task]
+    ) -> None:
         self._cluster = cluster
         self._ray = cluster._ray
         self._waiting = waiting
         self._name = uuid.uuid4().hex
         # In a list, the reference is passed on as it is, and not the object.
         self._work = [self._ray.put(pickle.dumps(work))]
-        self._do = self._ray.remote(max_retries=0, num_cpus=1)(_task_function(VERSION)).options(name="msaa-lint")
+        self._do = self._ray.remote(max_retries=0, num_cpus=1)(_task_function(VERSION)).options(
+            name="msaa-lint"
+        )
         self._sent: dict[Any, tuple[Task, int]] = {}
 
     def results(self) -> Iterator[tuple[Task, Result | Failure]]:
         ahead, since, looked = self._cluster.ahead(), time.monotonic(), time.monotonic()
         while True:
             while len(self._sent) < ahead and (following := self._waiting.next()) is not None:
-                self._sent[self._do.remote(self._name, self._work, pickle.dumps(following[0]))] = following
+                self._sent[self._do.remote(self._name, self._work, pickle.dumps(following[0]))] = (
+                    following
+                )
             if not self._sent:
                 return
             ready, _ = self._ray.wait(list(self._sent), num_returns=1, timeout=POLL_SECONDS)
@@ -132,9 +159,16 @@ class _Run(Generic[Task, Result]):
         try:
             found = self._ray.get(reference)
         except errors.RayTaskError as error:
-            yield task, Failure(_one_line(error.cause if isinstance(error.cause, Exception) else error))
+            yield (
+                task,
+                Failure(_one_line(error.cause if isinstance(error.cause, Exception) else error)),
+            )
             return
-        except (errors.RuntimeEnvSetupError, errors.TaskUnschedulableError, errors.AuthenticationError) as error:
+        except (
+            errors.RuntimeEnvSetupError,
+            errors.TaskUnschedulableError,
+            errors.AuthenticationError,
+        ) as error:
             raise Unusable(f"the cluster cannot do tasks: {_one_line(error)}") from None
         except errors.RayError:
             # The process or its machine ended, or the result was lost with it.
@@ -157,8 +191,10 @@ def _one_line(error: Exception) -> str:
 
 
 def _task_function(wanted: str) -> Callable[[str, list[Any], bytes], bytes | str]:
-    """What a worker does: returns a pickled result, or a string that says why the worker cannot do tasks. It travels by value, so that
-    workers without this package, or with another version of it, can load it."""
+    """What a worker does: returns a pickled result, or a string that says why the worker cannot do
+    tasks. It travels by value, so that workers without this package, or with another version of it,
+    can load it.
+    """
 
     def do(run: str, work: list[Any], task: bytes) -> bytes | str:
         import ray
@@ -166,9 +202,15 @@ def _task_function(wanted: str) -> Callable[[str, list[Any], bytes], bytes | str
         try:
             from msaa_lint.core.package import VERSION as found
         except ImportError:
-            return f"at {ray.util.get_node_ip_address()} has no msaa-lint; install {wanted} there, as here"
+            return (
+                f"at {ray.util.get_node_ip_address()} has no msaa-lint; install {wanted} there, "
+                f"as here"
+            )
         if found != wanted:
-            return f"at {ray.util.get_node_ip_address()} has msaa-lint {found}, and this process {wanted}; install the same version"
+            return (
+                f"at {ray.util.get_node_ip_address()} has msaa-lint {found}, and this process "
+                f"{wanted}; install the same version"
+            )
         from msaa_lint.core.execution.worker import perform
 
         done = perform(run, lambda: ray.get(work[0]), task)  # type: ignore[no-any-return, unused-ignore]

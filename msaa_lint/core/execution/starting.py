@@ -25,8 +25,9 @@ def outside_the_working_folder() -> contextlib.AbstractContextManager[None]:
 
 @contextlib.contextmanager
 def interrupts_held() -> Iterator[None]:
-    """Holds interrupts back while processes start, which inherit that: an interrupt of the terminal is for this process, which ends
-    them."""
+    """Holds interrupts back while processes start, which inherit that: an interrupt of the terminal
+    is for this process, which ends them.
+    """
     if not hasattr(signal, "pthread_sigmask"):
         yield
         return

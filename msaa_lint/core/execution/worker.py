@@ -13,15 +13,18 @@ from msaa_lint.core.garbage import collect_garbage, not_collecting
 from .backend import Failure, Work, attempt
 
 _LOCK = threading.Lock()
-"""Tasks of one process take turns: `work` may not be safe to do in several threads, which Dask's workers have unless told otherwise."""
+"""Tasks of one process take turns: `work` may not be safe to do in several threads, which Dask's
+workers have unless told otherwise.
+"""
 
 _loaded: tuple[str, Work[Any, Any]] | None = None
 """The last work with the name of its run."""
 
 
 def perform(run: str, load: Callable[[], bytes], task: bytes) -> bytes | str:
-    """The pickled result of a pickled task, with the seconds that it took; a string says why this worker can do none. `load` returns the
-    pickled work, and is called once per run."""
+    """The pickled result of a pickled task, with the seconds that it took; a string says why this
+    worker can do none. `load` returns the pickled work, and is called once per run.
+    """
     global _loaded
     with _LOCK:
         if _loaded is None or _loaded[0] != run:

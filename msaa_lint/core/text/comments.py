@@ -32,20 +32,30 @@ class Comment(NamedTuple):
 
 _COMMENT = re.compile(r"#[^\r\n]*")
 _HEADER = re.compile(r"[|>][-+0-9]*[ \t]*(?=#)")
-_OUTSIDE = (StreamStartToken, StreamEndToken, DirectiveToken, DocumentStartToken, DocumentEndToken, BlockEndToken)
+_OUTSIDE = (
+    StreamStartToken,
+    StreamEndToken,
+    DirectiveToken,
+    DocumentStartToken,
+    DocumentEndToken,
+    BlockEndToken,
+)
 """Tokens outside the content of a document."""
 
 
 def comments(source: Source, roots: Iterable[Node]) -> list[Comment]:
     """Every comment of a text in order, also before and after its documents.
 
-    `roots` are the documents that could be read. Comments cannot be told apart in one that could not: the search ends where it begins.
+    `roots` are the documents that could be read. Comments cannot be told apart in one that could
+    not: the search ends where it begins.
     """
     return list(_comments(source.text, max((root.end for root in roots), default=0)))
 
 
 def comments_within(source: Source, start: int, end: int) -> list[Comment]:
-    """The comments between two places of a text, which are outside scalars and have a whole document between them. Nothing else is read."""
+    """The comments between two places of a text, which are outside scalars and have a whole
+    document between them. Nothing else is read.
+    """
     return list(_comments(source.text[start:end], end - start, start))
 
 
@@ -56,7 +66,9 @@ def _comments(text: str, known: int, offset: int = 0) -> Iterator[Comment]:
 
 
 def _between(text: str, known: int) -> Iterator[tuple[int, int]]:
-    """The spans between scalars, and the line ends after the headers of block scalars, up to the first document after `known`."""
+    """The spans between scalars, and the line ends after the headers of block scalars, up to the
+    first document after `known`.
+    """
     position = 0
     try:
         for token in iter(parser(readable(text)[0]).get_token, None):
@@ -74,7 +86,9 @@ def _between(text: str, known: int) -> Iterator[tuple[int, int]]:
                 return
         yield position, len(text)
     except MarkedYAMLError as error:
-        marks = [mark.index for mark in (error.context_mark, error.problem_mark) if mark is not None]
+        marks = [
+            mark.index for mark in (error.context_mark, error.problem_mark) if mark is not None
+        ]
         yield position, min(marks, default=position)
     except (*ERRORS, Stop):
         return

@@ -14,8 +14,8 @@ class Overlap(ValueError):
 def apply(text: str, edits: Iterable[Edit]) -> str:
     """The text with the edits applied; their order does not matter.
 
-    An insertion where another edit begins or ends goes before or after that edit's text. Raises Overlap if two edits replace the same text,
-    and ValueError if one is not within the text.
+    An insertion where another edit begins or ends goes before or after that edit's text. Raises
+    Overlap if two edits replace the same text, and ValueError if one is not within the text.
     """
     out: list[str] = []
     done = 0

@@ -1,4 +1,6 @@
-"""A tree as YAML that reads back as the same tree. Short structures take one line, others several."""
+"""A tree as YAML that reads back as the same tree. Short structures take one line, others
+several.
+"""
 
 from __future__ import annotations
 
@@ -60,8 +62,9 @@ def emit(root: Node) -> str:
 
 
 def _sizes(root: Node) -> dict[int, tuple[int, int, bool]]:
-    """For each structure by identity: its length on one line (cut off above WIDTH), how deep structures nest in it, and whether it contains
-    a mapping."""
+    """For each structure by identity: its length on one line (cut off above WIDTH), how deep
+    structures nest in it, and whether it contains a mapping.
+    """
     order: list[Node] = []
     pending = [root]
     while pending:
@@ -72,7 +75,9 @@ def _sizes(root: Node) -> dict[int, tuple[int, int, bool]]:
     sizes: dict[int, tuple[int, int, bool]] = {}
     for node in reversed(order):
         length, depth, nested = 2, 1, False
-        inner = node.value.items() if node.kind == "mapping" else ((None, item) for item in node.value)
+        inner = (
+            node.value.items() if node.kind == "mapping" else ((None, item) for item in node.value)
+        )
         for key, value in inner:
             length += 2 + (len(key) + 2 if key is not None else 0)
             if value.kind == "scalar":
@@ -89,20 +94,30 @@ def _sizes(root: Node) -> dict[int, tuple[int, int, bool]]:
 
 
 def _in_line(head: str, node: Node, sizes: dict[int, tuple[int, int, bool]], top: bool) -> bool:
-    """Whether a structure may continue the line before it. Sections (which contain mappings), list items with one member and lists of
-    several mappings may not."""
+    """Whether a structure may continue the line before it. Sections (which contain mappings), list
+    items with one member and lists of several mappings may not.
+    """
     length, depth, nested = sizes[id(node)]
     section = node.kind == "mapping" and nested and not head.startswith(" ")
     section = section or (node.kind == "mapping" and len(node.value) == 1 and head.endswith("-"))
-    section = section or (node.kind == "sequence" and sum(item.kind == "mapping" for item in node.value) > 1)
+    section = section or (
+        node.kind == "sequence" and sum(item.kind == "mapping" for item in node.value) > 1
+    )
     # The length counts neither quotes nor escapes.
-    return not (top or section or depth > 2 or length > WIDTH) and len(head) + 1 + len(_flow(node)) <= WIDTH
+    return (
+        not (top or section or depth > 2 or length > WIDTH)
+        and len(head) + 1 + len(_flow(node)) <= WIDTH
+    )
 
 
 def _flow(node: Node) -> str:
     """A value on one line."""
     if node.kind == "mapping":
-        return "{" + ", ".join(f"{_key(key)}: {_flow(value)}" for key, value in node.value.items()) + "}"
+        return (
+            "{"
+            + ", ".join(f"{_key(key)}: {_flow(value)}" for key, value in node.value.items())
+            + "}"
+        )
     if node.kind == "sequence":
         return "[" + ", ".join(map(_flow, node.value)) + "]"
     return _scalar(node)
@@ -112,12 +127,21 @@ def _scalar(node: Node) -> str:
     """The text that reads back as the value of a scalar."""
     value = node.value
     if isinstance(value, str):
-        return value if _PLAIN.fullmatch(value) and value.lower() not in _WORDS and resolve(value) == value else _quoted(value)
+        return (
+            value
+            if _PLAIN.fullmatch(value) and value.lower() not in _WORDS and resolve(value) == value
+            else _quoted(value)
+        )
     if value is None:
         return "null"
     if isinstance(value, bool):
         return "true" if value else "false"
-    if node.text and type(resolve(node.text)) is type(value) and repr(resolve(node.text)) == repr(value) and node.text.isprintable():
+    if (
+        node.text
+        and type(resolve(node.text)) is type(value)
+        and repr(resolve(node.text)) == repr(value)
+        and node.text.isprintable()
+    ):
         return node.text
     if isinstance(value, float) and (value != value or value in (float("inf"), float("-inf"))):
         return ".nan" if value != value else ".inf" if value > 0 else "-.inf"
@@ -129,7 +153,9 @@ def _key(text: str) -> str:
 
 
 def _quoted(text: str) -> str:
-    """The text in double quotes, with the characters escaped that YAML forbids in a stream or that cannot be seen."""
+    """The text in double quotes, with the characters escaped that YAML forbids in a stream or that
+    cannot be seen.
+    """
     return '"' + "".join(_escaped(character) for character in text) + '"'
 
 
@@ -139,4 +165,10 @@ def _escaped(character: str) -> str:
     if is_visible(character):
         return character
     code = ord(character)
-    return f"\\x{code:02X}" if code < 0x100 else f"\\u{code:04X}" if code < 0x10000 else f"\\U{code:08X}"
+    return (
+        f"\\x{code:02X}"
+        if code < 0x100
+        else f"\\u{code:04X}"
+        if code < 0x10000
+        else f"\\U{code:08X}"
+    )

@@ -1,8 +1,9 @@
 """The parser's events of a text, and its errors as problems.
 
-libyaml reads YAML 1.1. Where YAML 1.2 and JSON differ, characters of the text are replaced before it is parsed, one by one so that offsets
-stay valid: the additional line breaks of 1.1 (U+0085, U+2028, U+2029) and JSON's escaped surrogates become characters that the text does
-not use, and are replaced back in the events; tabs around a JSON text become spaces.
+libyaml reads YAML 1.1. Where YAML 1.2 and JSON differ, characters of the text are replaced before
+it is parsed, one by one so that offsets stay valid: the additional line breaks of 1.1 (U+0085,
+U+2028, U+2029) and JSON's escaped surrogates become characters that the text does not use, and are
+replaced back in the events; tabs around a JSON text become spaces.
 """
 
 from __future__ import annotations
@@ -30,7 +31,8 @@ _BREAKS = "\x85\u2028\u2029"
 
 
 def readable(text: str) -> tuple[str, str]:
-    """The text for the parser, and the characters in it that stand for the `\\u` of a surrogate and for _BREAKS; empty if it has neither.
+    """The text for the parser, and the characters in it that stand for the `\\u` of a surrogate and
+    for _BREAKS; empty if it has neither.
 
     Raises Stop if parsing would take too long.
     """
@@ -38,12 +40,16 @@ def readable(text: str) -> tuple[str, str]:
     if "%" in text and text.count("%TAG") > MAX_TAG_DIRECTIVES:
         directives = list(re.finditer(_TAG_DIRECTIVE, text))[MAX_TAG_DIRECTIVES:]
         if directives:
-            raise Stop("MSAA906", f"more than {MAX_TAG_DIRECTIVES} %TAG directives", *directives[0].span())
+            raise Stop(
+                "MSAA906", f"more than {MAX_TAG_DIRECTIVES} %TAG directives", *directives[0].span()
+            )
     if text.startswith("\ufeff"):
         text = "\n" + text[1:]
     if "\t" in text:
         text = _without_outer_tabs(text)
-    if ("\\" in text and ("\\ud" in text or "\\uD" in text)) or (not text.isascii() and any(mark in text for mark in _BREAKS)):
+    if ("\\" in text and ("\\ud" in text or "\\uD" in text)) or (
+        not text.isascii() and any(mark in text for mark in _BREAKS)
+    ):
         return _marked(text)
     return text, ""
 
@@ -60,7 +66,9 @@ def parser(text: str) -> Any:
 
 
 def events(text: str) -> Get:
-    """A function that returns the next event. Raises Stop as `readable` does; the function raises it for half of a surrogate pair."""
+    """A function that returns the next event. Raises Stop as `readable` does; the function raises
+    it for half of a surrogate pair.
+    """
     text, marks = readable(text)
     get: Get = parser(text).get_event
     return _unmarked(get, text, marks) if marks else get
@@ -71,13 +79,16 @@ def problem_of(error: Exception, text: str, max_depth: int) -> Problem:
     if not isinstance(error, MarkedYAMLError) or error.problem_mark is None:
         return Problem("MSAA901", "the text cannot be read as YAML or JSON", Span(0, 0))
     if error.problem == "exceeded maximum nesting depth":
-        # libyaml from 0.2.6 on reads ahead to its own limit, 1000, before it gives the event that exceeds ours.
+        # libyaml from 0.2.6 on reads ahead to its own limit, 1000, before it gives the event that
+        # exceeds ours.
         at = error.problem_mark.index
         return Problem("MSAA906", f"the nesting exceeds the limit of {max_depth}", Span(at, at + 1))
     from .outline import outline
     from .syntax_errors import syntax_problem
 
-    problem = syntax_problem(error, text, outline(parser(readable(text)[0]), text, error.problem_mark.index))
+    problem = syntax_problem(
+        error, text, outline(parser(readable(text)[0]), text, error.problem_mark.index)
+    )
     start, end = problem.span
     return problem._replace(span=Span(min(start, len(text)), min(end, len(text))))
 
@@ -117,11 +128,14 @@ def _unmarked(get: Get, text: str, marks: str) -> Get:
         return chr(0x10000 + ((int(match[1], 16) - 0xD800) << 10) + int(match[2], 16) - 0xDC00)
 
     def lone_half(start: int, end: int) -> Stop:
-        # Pairs are replaced by as many other characters, so that the first lone half keeps its offset.
+        # Pairs are replaced by as many other characters, so that the first lone half keeps its
+        # offset.
         match = half.search(pair.sub(12 * "_", text[start:end]))
         at = start + match.start() if match is not None else start
         escaped = text[at : at + 6].replace(escape, "\\u")
-        return Stop("MSAA901", f"`{escaped}` is half of a surrogate pair, not a character", at, at + 6)
+        return Stop(
+            "MSAA901", f"`{escaped}` is half of a surrogate pair, not a character", at, at + 6
+        )
 
     def unmarked() -> Any:
         event = get()

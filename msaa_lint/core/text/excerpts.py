@@ -53,4 +53,6 @@ def place(text: str, at: int) -> str:
 
 def unclosed_quote(text: str, begin: int) -> Problem:
     """A text in quotes that begins at an offset and does not end on its line."""
-    return syntax(f"the quote {shown(text, begin)} is never closed; add the closing `{text[begin]}`", begin)
+    return syntax(
+        f"the quote {shown(text, begin)} is never closed; add the closing `{text[begin]}`", begin
+    )

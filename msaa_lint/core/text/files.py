@@ -1,6 +1,8 @@
-"""Opens files: as named by the command line, or as named by content, which may come from a stranger.
+"""Opens files: as named by the command line, or as named by content, which may come from a
+stranger.
 
-An editor has texts that are not yet saved: within `with_buffers`, they take the place of their files.
+An editor has texts that are not yet saved: within `with_buffers`, they take the place of their
+files.
 """
 
 from __future__ import annotations
@@ -14,7 +16,16 @@ from contextvars import ContextVar
 from typing import BinaryIO
 
 from msaa_lint.core.project import Outside, real_path
-from msaa_lint.core.urls import ABSENT, inside, is_url, keep_version, normalized, open_listed, open_object, version_read
+from msaa_lint.core.urls import (
+    ABSENT,
+    inside,
+    is_url,
+    keep_version,
+    normalized,
+    open_listed,
+    open_object,
+    version_read,
+)
 
 from .source import Unreadable
 
@@ -33,11 +44,18 @@ _KINDS = {
 }
 
 # O_NONBLOCK: opening a pipe must not wait for a writer.
-_FLAGS = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_CLOEXEC", 0) | getattr(os, "O_BINARY", 0)
+_FLAGS = (
+    os.O_RDONLY
+    | getattr(os, "O_NONBLOCK", 0)
+    | getattr(os, "O_CLOEXEC", 0)
+    | getattr(os, "O_BINARY", 0)
+)
 _NO_LINK = getattr(os, "O_NOFOLLOW", 0)
 _buffers: ContextVar[Mapping[str, bytes]] = ContextVar("buffers")
 _opened: ContextVar[Opened] = ContextVar("opened")
-_FOLDER = getattr(os, "O_PATH", os.O_RDONLY) | getattr(os, "O_DIRECTORY", 0) | getattr(os, "O_CLOEXEC", 0)
+_FOLDER = (
+    getattr(os, "O_PATH", os.O_RDONLY) | getattr(os, "O_DIRECTORY", 0) | getattr(os, "O_CLOEXEC", 0)
+)
 
 
 @contextmanager
@@ -51,8 +69,10 @@ def with_buffers(buffers: Mapping[str, bytes]) -> Iterator[None]:
 
 
 class Opened:
-    """The absolute paths of the files that were opened, or that something tried to open, each with the project that it must be in, None if
-    the command line names it; the names of programs that were looked up; and URLs with the versions that their storage stated."""
+    """The absolute paths of the files that were opened, or that something tried to open, each with
+    the project that it must be in, None if the command line names it; the names of programs that
+    were looked up; and URLs with the versions that their storage stated.
+    """
 
     def __init__(self) -> None:
         self.files: dict[str, str | None] = {}
@@ -78,7 +98,9 @@ def record_program(name: str) -> None:
 
 
 def record(path: str, project: str | None) -> None:
-    """Adds a path, which must be in a project unless that is None, to what is recorded, if anything is, and a URL if it was read before."""
+    """Adds a path, which must be in a project unless that is None, to what is recorded, if anything
+    is, and a URL if it was read before.
+    """
     if is_url(path):
         url = normalized(path)
         if (version := version_read(url)) is not None:
@@ -111,9 +133,10 @@ def _buffer(path: str, project: str | None) -> bytes | None:
 def open_file(path: str, project: str | None) -> tuple[BinaryIO, int | None]:
     """A file, open for reading, and its size in bytes; None for a pipe or a device.
 
-    `project` is None for a path of the command line, which is read as named: a file, a pipe, or a device. A path that a file, a folder, or
-    a link states must be a regular file in the project, with all symbolic links resolved, and one that an input at a URL states in the
-    folder that was named. Raises OSError, and Outside without looking at what is there.
+    `project` is None for a path of the command line, which is read as named: a file, a pipe, or a
+    device. A path that a file, a folder, or a link states must be a regular file in the project,
+    with all symbolic links resolved, and one that an input at a URL states in the folder that was
+    named. Raises OSError, and Outside without looking at what is there.
     """
     if is_url(path if project is None else project):
         return _open_url(path, project)
@@ -143,7 +166,9 @@ def open_file(path: str, project: str | None) -> tuple[BinaryIO, int | None]:
 
 
 def open_entry(path: str) -> BinaryIO:
-    """A regular file, according to the listing of its folder, open for reading; a link is not followed. Raises OSError."""
+    """A regular file, according to the listing of its folder, open for reading; a link is not
+    followed. Raises OSError.
+    """
     if is_url(path):
         return open_listed(path)
     record(path, os.path.dirname(os.path.abspath(path)))
@@ -177,10 +202,13 @@ def _open_url(path: str, project: str | None) -> tuple[BinaryIO, int | None]:
 
 
 def read(path: str, max_bytes: int, project: str | None) -> bytes:
-    """The bytes of a file, which is opened as by `open_file`. Raises OSError, and Unreadable if the file is larger than `max_bytes`."""
+    """The bytes of a file, which is opened as by `open_file`. Raises OSError, and Unreadable if the
+    file is larger than `max_bytes`.
+    """
     file, size = open_file(path, project)
     with file:
-        # Python allocates as much memory as it is asked to read. Files in /proc, and files that grow, have more than their stated size.
+        # Python allocates as much memory as it is asked to read. Files in /proc, and files that
+        # grow, have more than their stated size.
         data = b"" if (size or 0) > max_bytes else file.read((size or 0) + 1)
         if len(data) > (size or 0):
             data += file.read(max(max_bytes + 1 - len(data), 0))
@@ -190,9 +218,13 @@ def read(path: str, max_bytes: int, project: str | None) -> bytes:
 
 
 def content(path: str, project: str | None) -> bytes | None:
-    """The bytes of a regular file on disk; None if there is none, or if it must be in a project and is not, which is not opened."""
+    """The bytes of a regular file on disk; None if there is none, or if it must be in a project and
+    is not, which is not opened.
+    """
     try:
-        with open(os.open(path, _FLAGS) if project is None else _open_inside(path, project), "rb") as file:
+        with open(
+            os.open(path, _FLAGS) if project is None else _open_inside(path, project), "rb"
+        ) as file:
             status = os.fstat(file.fileno())
             return file.read(status.st_size) if stat.S_ISREG(status.st_mode) else None
     except (OSError, ValueError):
@@ -200,15 +232,21 @@ def content(path: str, project: str | None) -> bytes | None:
 
 
 def file_state(status: os.stat_result) -> list[int]:
-    """What differs for a file if it has been written: nobody can set when its state changed last."""
+    """What differs for a file if it has been written: nobody can set when its state changed
+    last.
+    """
     return [status.st_mode, status.st_size, status.st_mtime_ns, status.st_ctime_ns, status.st_ino]
 
 
 def is_settled(state: Sequence[int], start: int) -> bool:
-    """Whether any write to a file after `start`, in nanoseconds, gives it a state other than this one. Clocks of file systems are coarse;
-    one that counts whole seconds is known by the times that it states."""
+    """Whether any write to a file after `start`, in nanoseconds, gives it a state other than this
+    one. Clocks of file systems are coarse; one that counts whole seconds is known by the times that
+    it states.
+    """
     times = state[2:4]
-    return max(times, default=0) < start - (COARSE_CLOCK if not any(time % 1_000_000_000 for time in times) else FINE_CLOCK)
+    return max(times, default=0) < start - (
+        COARSE_CLOCK if not any(time % 1_000_000_000 for time in times) else FINE_CLOCK
+    )
 
 
 def _open_named(path: str) -> int:
@@ -221,7 +259,8 @@ def _open_named(path: str) -> int:
 def _open_inside(path: str, project: str) -> int:
     """Opens a regular file of a project.
 
-    The real path is opened folder by folder, none of which may be a link, so that nothing that changes in between can lead elsewhere.
+    The real path is opened folder by folder, none of which may be a link, so that nothing that
+    changes in between can lead elsewhere.
     """
     real, root = real_path(path, project), os.path.realpath(project)
     *folders, name = os.path.relpath(real, root).split(os.sep)
@@ -242,4 +281,6 @@ def _open_inside(path: str, project: str) -> int:
 
 def _check_regular(mode: int) -> None:
     if not stat.S_ISREG(mode):
-        raise OSError(f"it is {_KINDS.get(stat.S_IFMT(mode), 'a special file')}, not a regular file")
+        raise OSError(
+            f"it is {_KINDS.get(stat.S_IFMT(mode), 'a special file')}, not a regular file"
+        )

@@ -1,4 +1,6 @@
-"""Says which mistake makes a text invalid JSON, for texts that are read by a stricter parser than that of descriptions."""
+"""Says which mistake makes a text invalid JSON, for texts that are read by a stricter parser than
+that of descriptions.
+"""
 
 from __future__ import annotations
 
@@ -16,7 +18,11 @@ def json_problem(text: str, at: int) -> Problem:
     if text.startswith(("//", "/*", "#"), at):
         return syntax("JSON has no comments; remove this one", at)
     if len(text) <= MAX_DIAGNOSED:
-        syntax_errors = [problem for problem in parse(Source("", text), Limits()).problems if problem.code == "MSAA901"]
+        syntax_errors = [
+            problem
+            for problem in parse(Source("", text), Limits()).problems
+            if problem.code == "MSAA901"
+        ]
         if syntax_errors:
             return syntax_errors[0]
     # It is YAML, but not JSON.
@@ -33,8 +39,19 @@ def json_problem(text: str, at: int) -> Problem:
         at = comma if comma >= 0 and not text[comma + 1 : at].strip() else at
         return syntax(f"expected a value before `{char}`; remove the `,` before it", at)
     if char < " ":
-        return syntax(f"the character U+{ord(char):04X} is not allowed in a JSON text; write `\\u{ord(char):04x}`", at)
-    word = shown(text, at, min(line_end(text, at), next((i for i in range(at, len(text)) if text[i] in " \t\r\n,:]}"), len(text))))
+        return syntax(
+            f"the character U+{ord(char):04X} is not allowed in a JSON text; write "
+            f"`\\u{ord(char):04x}`",
+            at,
+        )
+    word = shown(
+        text,
+        at,
+        min(
+            line_end(text, at),
+            next((i for i in range(at, len(text)) if text[i] in " \t\r\n,:]}"), len(text)),
+        ),
+    )
     if line_start(text, at) == 0 and not text[:at].strip():
         return syntax(f"expected JSON, which begins with `{{`, found {word}", at)
     return syntax(f"{word} is not a JSON value; put a text in double quotes", at)

@@ -8,7 +8,8 @@ from .node import Node, Stop
 
 
 def merge(node: Node) -> None:
-    """Replaces `<<` in a mapping with the members of its bases. Earlier bases override later ones, the mapping's own members override both.
+    """Replaces `<<` in a mapping with the members of its bases. Earlier bases override later ones,
+    the mapping's own members override both.
 
     Nodes are shared, and were counted against the limits where the bases are named.
     """
@@ -18,8 +19,16 @@ def merge(node: Node) -> None:
     bases = merged.value if merged.kind == "sequence" else [merged]
     for base in bases:
         if base.kind != "mapping":
-            message = f"`<<` must be a mapping or a list of mappings, found {quoted(base.text) if base.kind == 'scalar' else 'a list'}"
-            raise Stop("MSAA903", f"{message}; write `*name` with the name of an anchor", base.start, max(base.end, base.start + 1))
+            message = (
+                f"`<<` must be a mapping or a list of mappings, found "
+                f"{quoted(base.text) if base.kind == 'scalar' else 'a list'}"
+            )
+            raise Stop(
+                "MSAA903",
+                f"{message}; write `*name` with the name of an anchor",
+                base.start,
+                max(base.end, base.start + 1),
+            )
     values: dict[str, Node] = {}
     keys: dict[str, Node] = {}
     for name, value in node.value.items():

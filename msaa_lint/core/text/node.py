@@ -8,7 +8,9 @@ from .span import Label, Span
 
 
 class Limits(NamedTuple):
-    """Limits of an input: its nesting, its nodes (keys included, aliases expanded, all documents together), its bytes."""
+    """Limits of an input: its nesting, its nodes (keys included, aliases expanded, all documents
+    together), its bytes.
+    """
 
     depth: int = 100
     nodes: int = 1_000_000
@@ -47,9 +49,11 @@ NO_KEYS: dict[str, Node] = {}
 class Node:
     """A mapping, a sequence or a scalar, and its place as offsets into the text.
 
-    `value` is a dict of nodes in order, a list of nodes, or a scalar's value in YAML 1.2; `keys` has the key nodes of a mapping; `text` is
-    a scalar as written, without quotes; `plain` says that it has none. An alias is a node at its own place that shares the value of
-    `anchor`. A place includes the anchor and the tag before a node, but not the blanks, comments and line ends after it.
+    `value` is a dict of nodes in order, a list of nodes, or a scalar's value in YAML 1.2; `keys`
+    has the key nodes of a mapping; `text` is a scalar as written, without quotes; `plain` says that
+    it has none. An alias is a node at its own place that shares the value of `anchor`. A place
+    includes the anchor and the tag before a node, but not the blanks, comments and line ends after
+    it.
     """
 
     __slots__ = ("anchor", "end", "keys", "kind", "plain", "start", "text", "value")

@@ -1,4 +1,6 @@
-"""Builds trees from something other than their own text: source code, Metal frames, shorthands. Each node has the place of its origin."""
+"""Builds trees from something other than their own text: source code, Metal frames, shorthands.
+Each node has the place of its origin.
+"""
 
 from __future__ import annotations
 
@@ -12,7 +14,13 @@ Value = str | bool | int | float | None
 
 def scalar(value: Value, at: Span) -> Node:
     """A scalar at a place."""
-    text = "null" if value is None else ("true" if value else "false") if isinstance(value, bool) else str(value)
+    text = (
+        "null"
+        if value is None
+        else ("true" if value else "false")
+        if isinstance(value, bool)
+        else str(value)
+    )
     return Node("scalar", at.start, at.end, value, NO_KEYS, text, not isinstance(value, str))
 
 
@@ -22,7 +30,9 @@ def sequence(items: Sequence[Node], at: Span) -> Node:
 
 
 def mapping(items: Iterable[tuple[str, Span, Node]], at: Span) -> Node:
-    """A mapping at a place, of keys with their places and values. The first of equal keys counts."""
+    """A mapping at a place, of keys with their places and values. The first of equal keys
+    counts.
+    """
     keys: dict[str, Node] = {}
     values: dict[str, Node] = {}
     for key, place, value in items:

@@ -1,4 +1,6 @@
-"""What is open at a place of a text that cannot be parsed: its brackets, its blocks, and the tokens before it."""
+"""What is open at a place of a text that cannot be parsed: its brackets, its blocks, and the tokens
+before it.
+"""
 
 from collections import deque
 from typing import Any, NamedTuple
@@ -21,7 +23,9 @@ MAX_TOKENS = 4
 
 
 class Bracket(NamedTuple):
-    """An open `[` or `{`: its offset, its line, counted from 0, and the number of spaces that this line begins with."""
+    """An open `[` or `{`: its offset, its line, counted from 0, and the number of spaces that this
+    line begins with.
+    """
 
     start: int
     line: int
@@ -37,8 +41,10 @@ class Block(NamedTuple):
 
 
 class Outline(NamedTuple):
-    """What surrounds an offset. `closed` has the blocks that end just before it, innermost first; `misaligned` is the first bracket
-    whose closing one begins a line that is indented less than the line of the bracket."""
+    """What surrounds an offset. `closed` has the blocks that end just before it, innermost first;
+    `misaligned` is the first bracket whose closing one begins a line that is indented less than the
+    line of the bracket.
+    """
 
     brackets: list[Bracket]
     blocks: list[Block]

@@ -1,4 +1,6 @@
-"""PyYAML's own parser with the events of libyaml's, for installations without libyaml; about thirteen times slower."""
+"""PyYAML's own parser with the events of libyaml's, for installations without libyaml; about
+thirteen times slower.
+"""
 
 from __future__ import annotations
 
@@ -15,7 +17,9 @@ _BLANKS = "\0 \t" + _BREAKS
 
 
 class PureParser(Reader, Scanner, Parser):
-    """Reader, scanner and parser in one, as in PyYAML's loaders. Each override is a difference from libyaml."""
+    """Reader, scanner and parser in one, as in PyYAML's loaders. Each override is a difference from
+    libyaml.
+    """
 
     def __init__(self, text: str) -> None:
         Reader.__init__(self, text)
@@ -29,12 +33,16 @@ class PureParser(Reader, Scanner, Parser):
         return event
 
     def scan_to_next_token(self) -> None:
-        """Tabs separate tokens where they cannot be mistaken for indentation; a line may begin with a byte order mark."""
+        """Tabs separate tokens where they cannot be mistaken for indentation; a line may begin with
+        a byte order mark.
+        """
         while True:
             if self.column == 0 and self.peek() == "\ufeff":
                 self.forward()
                 self.column += 1
-            while self.peek() == " " or (self.peek() == "\t" and (self.flow_level or not self.allow_simple_key)):
+            while self.peek() == " " or (
+                self.peek() == "\t" and (self.flow_level or not self.allow_simple_key)
+            ):
                 self.forward()
             if self.peek() == "#":
                 while self.peek() not in "\0" + _BREAKS:
@@ -67,7 +75,9 @@ class PureParser(Reader, Scanner, Parser):
                 self.forward()
         if self.peek() not in "\0" + _BREAKS:
             problem = "did not find expected comment or line break"
-            raise ScannerError("while scanning a block scalar", start_mark, problem, self.get_mark())
+            raise ScannerError(
+                "while scanning a block scalar", start_mark, problem, self.get_mark()
+            )
         self.scan_line_break()  # type: ignore[no-untyped-call]
 
     def scan_block_scalar_indentation(self) -> Any:
@@ -85,11 +95,18 @@ class PureParser(Reader, Scanner, Parser):
         except (ValueError, OverflowError):
             chunks = ["\ud800"]
         if any("\ud800" <= chunk <= "\udfff" for chunk in chunks if len(chunk) == 1):
-            raise ScannerError("while parsing a quoted scalar", start_mark, "found invalid Unicode character escape code", self.get_mark())
+            raise ScannerError(
+                "while parsing a quoted scalar",
+                start_mark,
+                "found invalid Unicode character escape code",
+                self.get_mark(),
+            )
         return chunks
 
     def scan_plain(self) -> ScalarToken:
-        """A plain scalar may contain tabs and, in a flow collection, `?`, but no `:` before `,[]{}`."""
+        """A plain scalar may contain tabs and, in a flow collection, `?`, but no `:` before
+        `,[]{}`.
+        """
         chunks: list[str] = []
         start = end = self.get_mark()
         indent = self.indent + 1
@@ -105,7 +122,12 @@ class PureParser(Reader, Scanner, Parser):
                     after = self.peek(length + 1)
                     if flow and after in ",?[]{}":
                         self.forward(length)
-                        raise ScannerError("while scanning a plain scalar", start, "found unexpected ':'", self.get_mark())
+                        raise ScannerError(
+                            "while scanning a plain scalar",
+                            start,
+                            "found unexpected ':'",
+                            self.get_mark(),
+                        )
                     if after in _BLANKS:
                         break
                 length += 1
@@ -131,7 +153,9 @@ class PureParser(Reader, Scanner, Parser):
             if ch in " \t":
                 if breaks and ch == "\t" and self.column < indent:
                     problem = "found a tab character that violates indentation"
-                    raise ScannerError("while scanning a plain scalar", start, problem, self.get_mark())
+                    raise ScannerError(
+                        "while scanning a plain scalar", start, problem, self.get_mark()
+                    )
                 if not breaks:
                     blanks += ch
                 self.forward()

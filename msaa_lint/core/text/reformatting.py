@@ -1,4 +1,6 @@
-"""What there is to know of a YAML text before its whitespace is changed: its content, and what is in brackets."""
+"""What there is to know of a YAML text before its whitespace is changed: its content, and what is
+in brackets.
+"""
 
 from __future__ import annotations
 
@@ -17,17 +19,36 @@ from .events import events, parser, readable
 from .source import Source
 from .span import Span
 
-_FIELDS = ("anchor", "tag", "implicit", "value", "style", "flow_style", "explicit", "version", "tags")
+_FIELDS = (
+    "anchor",
+    "tag",
+    "implicit",
+    "value",
+    "style",
+    "flow_style",
+    "explicit",
+    "version",
+    "tags",
+)
 
 
 def content_of(text: str) -> tuple[list[tuple[object, ...]], list[str]]:
-    """What whitespace must not change: the events of a text without their places, and its comments. Raises Stop and ERRORS."""
-    read = [(type(event), *(getattr(event, field, None) for field in _FIELDS)) for event in iter(events(text), None)]
-    return read, [comment.text.rstrip() for comment in comments_within(Source("", text), 0, len(text))]
+    """What whitespace must not change: the events of a text without their places, and its comments.
+    Raises Stop and ERRORS.
+    """
+    read = [
+        (type(event), *(getattr(event, field, None) for field in _FIELDS))
+        for event in iter(events(text), None)
+    ]
+    return read, [
+        comment.text.rstrip() for comment in comments_within(Source("", text), 0, len(text))
+    ]
 
 
 def brackets_of(text: str) -> list[Span]:
-    """The collections in brackets within block collections, without those inside of them. Raises Stop and ERRORS."""
+    """The collections in brackets within block collections, without those inside of them. Raises
+    Stop and ERRORS.
+    """
     found: list[Span] = []
     depth = blocks = start = 0
     for token in iter(parser(readable(text)[0]).get_token, None):

@@ -16,10 +16,14 @@ WORDS: dict[str, Scalar] = {
 }  # fmt: skip
 
 MAX_DIGITS = 40
-"""Digits of an integer. A longer one stays a string, as the time to convert it grows with the square of its length."""
+"""Digits of an integer. A longer one stays a string, as the time to convert it grows with the
+square of its length.
+"""
 
 MAX_FLOAT = 400
-"""Characters of a number with a point or an exponent; the longest that C's `%f` writes has 317. A longer one stays a string."""
+"""Characters of a number with a point or an exponent; the longest that C's `%f` writes has 317. A
+longer one stays a string.
+"""
 
 _STARTS = frozenset("0123456789+-.")
 _BASED = rf"0o[0-7]{{1,{MAX_DIGITS}}}|0x[0-9a-fA-F]{{1,{MAX_DIGITS}}}"

@@ -18,7 +18,9 @@ _NAMES = {"utf-8": "UTF-8", "utf-16-le": "UTF-16", "utf-16-be": "UTF-16"}
 
 
 class Unreadable(ValueError):
-    """An input that is not text or is too large. `offset` is that of the invalid byte, `before` the text before it, if it is UTF-8."""
+    """An input that is not text or is too large. `offset` is that of the invalid byte, `before` the
+    text before it, if it is UTF-8.
+    """
 
     def __init__(self, message: str, offset: int | None = None, before: str | None = None) -> None:
         super().__init__(message)
@@ -36,8 +38,8 @@ class Position(NamedTuple):
 class Origin(NamedTuple):
     """The origin of a line in a text that was made from a capture.
 
-    `line` and `column` are the place of the call (None in a binary capture), `call` its index and `by` its name; `frames` of `of` frames
-    use what the line states (None if that was not counted).
+    `line` and `column` are the place of the call (None in a binary capture), `call` its index and
+    `by` its name; `frames` of `of` frames use what the line states (None if that was not counted).
     """
 
     line: int | None
@@ -56,7 +58,9 @@ class Source:
 
     __slots__ = ("_starts", "name", "origins", "text")
 
-    def __init__(self, name: str, text: str, origins: Sequence[Origin | None] | None = None) -> None:
+    def __init__(
+        self, name: str, text: str, origins: Sequence[Origin | None] | None = None
+    ) -> None:
         self.name = name
         self.text = text
         self.origins = origins
@@ -78,7 +82,9 @@ class Source:
 
     @property
     def line_count(self) -> int:
-        """The number of lines, at least 1. A line end at the end of the text does not begin another line."""
+        """The number of lines, at least 1. A line end at the end of the text does not begin another
+        line.
+        """
         starts = self.starts
         return len(starts) - (1 if len(starts) > 1 and starts[-1] == len(self.text) else 0)
 
@@ -95,7 +101,9 @@ class Source:
 
 
 def decode(data: bytes) -> str:
-    """The text of an input in UTF-8, or in UTF-16 with a byte order mark, without the mark. Raises Unreadable if it is neither."""
+    """The text of an input in UTF-8, or in UTF-16 with a byte order mark, without the mark. Raises
+    Unreadable if it is neither.
+    """
     mark, encoding = _encoding(data)
     body = data[len(mark) :] if mark else data
     try:
@@ -105,7 +113,8 @@ def decode(data: bytes) -> str:
         place = before.position(len(before.text))
         offset = len(mark) + error.start
         message = (
-            f"the input is not {_NAMES[encoding]}: byte {offset} (line {place.line}, column {place.column}) {_invalid(body, error.start)}"
+            f"the input is not {_NAMES[encoding]}: byte {offset} (line {place.line}, column "
+            f"{place.column}) {_invalid(body, error.start)}"
         )
         raise Unreadable(message, offset, before.text if encoding == "utf-8" else None) from None
 
@@ -115,12 +124,18 @@ def _invalid(body: bytes, at: int) -> str:
     if b"\0" in body[:64]:
         return f"is 0x{body[at]:02X}; this is not a text file"
     letter = body[at : at + 1].decode("cp1252", "replace")
-    legacy = f", which is `{letter}` in Windows-1252" if letter.isprintable() and letter != "\ufffd" else ""
+    legacy = (
+        f", which is `{letter}` in Windows-1252"
+        if letter.isprintable() and letter != "\ufffd"
+        else ""
+    )
     return f"is 0x{body[at]:02X}{legacy}; save the file as UTF-8"
 
 
 def encode(text: str, like: bytes) -> bytes:
-    """The bytes of a text in the encoding of `like`, with a byte order mark if `like` has one; the inverse of `decode`."""
+    """The bytes of a text in the encoding of `like`, with a byte order mark if `like` has one; the
+    inverse of `decode`.
+    """
     mark, encoding = _encoding(like)
     return mark + text.encode(encoding)
 
@@ -145,8 +160,14 @@ def forbidden_message(text: str, at: int) -> str:
     """What to say about a character that YAML forbids."""
     if text[at] != "\0":
         number = f"{ord(text[at]):04X}"
-        return f"the character U+{number} is not allowed in YAML or JSON; delete it, or write `\\u{number}` in double quotes"
+        return (
+            f"the character U+{number} is not allowed in YAML or JSON; delete it, or write "
+            f"`\\u{number}` in double quotes"
+        )
     head = text[:64]
     if len(head) >= 4 and head.count("\0") * 3 >= len(head):
-        return "the text looks like UTF-16 or UTF-32, which is read with a byte order mark only in UTF-16; save the file as UTF-8"
+        return (
+            "the text looks like UTF-16 or UTF-32, which is read with a byte order mark only in "
+            "UTF-16; save the file as UTF-8"
+        )
     return "the character U+0000 is not allowed in YAML or JSON; delete it"

@@ -11,7 +11,9 @@ class Span(NamedTuple):
 
 
 class Label(NamedTuple):
-    """A secondary place of a finding, and a note about it. `file` is None if the place is in the file of the finding."""
+    """A secondary place of a finding, and a note about it. `file` is None if the place is in the
+    file of the finding.
+    """
 
     span: Span
     text: str

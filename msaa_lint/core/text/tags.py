@@ -1,4 +1,6 @@
-"""Tags: those of YAML's core schema are accepted if they match their value; all others are rejected."""
+"""Tags: those of YAML's core schema are accepted if they match their value; all others are
+rejected.
+"""
 
 from __future__ import annotations
 
@@ -11,7 +13,15 @@ from .scalars import resolve
 from .span import Span
 
 _PREFIX = "tag:yaml.org,2002:"
-_KINDS = {"str": "scalar", "int": "scalar", "float": "scalar", "bool": "scalar", "null": "scalar", "map": "mapping", "seq": "sequence"}
+_KINDS = {
+    "str": "scalar",
+    "int": "scalar",
+    "float": "scalar",
+    "bool": "scalar",
+    "null": "scalar",
+    "map": "mapping",
+    "seq": "sequence",
+}
 _TYPES = {"int": int, "float": float, "bool": bool, "null": type(None)}
 _BEFORE = re.compile(r"(?:[ \t\r\n]|(?<=[ \t\r\n])#[^\r\n]*|&[^\s,\[\]{}]+)*")
 _TAG = re.compile(r"!<[^>\s]*>|![^\s,\[\]{}]*")
@@ -35,7 +45,8 @@ def apply_tag(node: Node, tag: str, text: str) -> Problem | None:
     if core == tag or core not in _KINDS:
         return Problem(
             "MSAA903",
-            f"the tag {shown} is not supported; put the value in quotes if `!` is part of it, or use a tag of YAML's core schema",
+            f"the tag {shown} is not supported; put the value in quotes if `!` is part of it, or "
+            f"use a tag of YAML's core schema",
             span,
         )
     if node.kind != _KINDS[core] or not _matches(node, core):

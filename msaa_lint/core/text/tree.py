@@ -1,7 +1,7 @@
 """Parses a text into a tree whose nodes know their places, from libyaml's events.
 
-PyYAML's composer recurses in C and crashes the interpreter on 100 kB of `[`; nothing here recurses. JSON, with the trailing commas that
-real tools write, takes the same path.
+PyYAML's composer recurses in C and crashes the interpreter on 100 kB of `[`; nothing here recurses.
+JSON, with the trailing commas that real tools write, takes the same path.
 """
 
 from __future__ import annotations
@@ -32,7 +32,9 @@ from .span import Label, Span
 __all__ = ["Limits", "Node", "Parsed", "Problem", "parse"]
 
 MAX_PROBLEMS = 50
-"""Duplicate keys and wrong tags that are reported for one text; more would only bury the first ones."""
+"""Duplicate keys and wrong tags that are reported for one text; more would only bury the first
+ones.
+"""
 
 _COLON = r"(?:[ \t\r\n]|(?<=[ \t\r\n])#[^\r\n]*)*+:"
 
@@ -50,7 +52,8 @@ def parse(source: Source, limits: Limits) -> Parsed:
         problem = problem_of(error, text, limits.depth)
     else:
         return Parsed(reading.documents, reading.problems)
-    # The parser rejects these characters too, but not at their place, and perhaps after it has rejected something else.
+    # The parser rejects these characters too, but not at their place, and perhaps after it has
+    # rejected something else.
     at = forbidden(text)
     if at is not None:
         return Parsed([], [Problem("MSAA901", forbidden_message(text, at), Span(at, at + 1))])
@@ -58,7 +61,9 @@ def parse(source: Source, limits: Limits) -> Parsed:
 
 
 def beginning(text: str, limits: Limits) -> list[Node]:
-    """The documents of a text up to its first syntax error or a limit; the last one may be incomplete."""
+    """The documents of a text up to its first syntax error or a limit; the last one may be
+    incomplete.
+    """
     reading = _Reading(text, limits)
     with suppress(Stop, *ERRORS):
         reading.read()
@@ -66,7 +71,9 @@ def beginning(text: str, limits: Limits) -> list[Node]:
 
 
 def documents(text: str, limits: Limits) -> list[Node] | None:
-    """The documents of a text; None if it has a syntax error or exceeds a limit. Faster than `parse` for a text that has one."""
+    """The documents of a text; None if it has a syntax error or exceeds a limit. Faster than
+    `parse` for a text that has one.
+    """
     reading = _Reading(text, limits)
     try:
         reading.read()
@@ -80,7 +87,9 @@ _Anchored = tuple[Node, int, int]
 
 
 class _Reading:
-    """One text while it is read. `roots` has the document that is being read; an anchor is None until its node is complete."""
+    """One text while it is read. `roots` has the document that is being read; an anchor is None
+    until its node is complete.
+    """
 
     def __init__(self, text: str, limits: Limits) -> None:
         self.text = text
@@ -91,15 +100,18 @@ class _Reading:
         self.anchors: dict[str, _Anchored | None] = {}
 
     def read(self) -> None:
-        """Reads all events. A tree only grows meanwhile; collecting garbage would take as long as reading."""
+        """Reads all events. A tree only grows meanwhile; collecting garbage would take as long as
+        reading.
+        """
         with not_collecting():
             self._run()
 
     def _run(self) -> None:
         """Reads all events. Most of the time is spent in this loop, so its variables are local.
 
-        `parent` is the open collection, `values` its children, `keys` its keys (None for a sequence), `name` its anchor, `before` the
-        number of nodes before it, `deep` the depth of collections within it. `key` waits for its value; `tail` is the end of the last node.
+        `parent` is the open collection, `values` its children, `keys` its keys (None for a
+        sequence), `name` its anchor, `before` the number of nodes before it, `deep` the depth of
+        collections within it. `key` waits for its value; `tail` is the end of the last node.
         """
         text = self.text
         max_depth, max_count = self.limits.depth, self.limits.nodes
@@ -152,7 +164,8 @@ class _Reading:
                 count += 1
             elif kind is MappingEndEvent or kind is SequenceEndEvent:
                 end = event.end_mark.index
-                # A block collection's end mark is at the next token, after blank lines and comments.
+                # A block collection's end mark is at the next token, after blank lines and
+                # comments.
                 if end > event.start_mark.index:
                     tail = end
                 parent.end = tail
@@ -170,7 +183,9 @@ class _Reading:
             elif kind is MappingStartEvent or kind is SequenceStartEvent:
                 start = event.start_mark.index
                 if len(opened) >= max_depth:
-                    raise Stop("MSAA906", f"the nesting exceeds the limit of {max_depth}", start, start + 1)
+                    raise Stop(
+                        "MSAA906", f"the nesting exceeds the limit of {max_depth}", start, start + 1
+                    )
                 if kind is MappingStartEvent:
                     node = Node("mapping", start, start, {}, {})
                 else:
@@ -181,9 +196,16 @@ class _Reading:
             elif kind is AliasEvent:
                 of, size, depth = self._anchored(event)
                 start, tail = event.start_mark.index, event.end_mark.index
-                node = Node(of.kind, start, tail, of.value, of.keys, of.text, of.plain, of.anchor or of)
+                node = Node(
+                    of.kind, start, tail, of.value, of.keys, of.text, of.plain, of.anchor or of
+                )
                 if len(opened) + depth > max_depth:
-                    raise Stop("MSAA906", f"the nesting with aliases expanded exceeds the limit of {max_depth}", start, tail)
+                    raise Stop(
+                        "MSAA906",
+                        f"the nesting with aliases expanded exceeds the limit of {max_depth}",
+                        start,
+                        tail,
+                    )
                 if depth > deep:
                     deep = depth
                 count += size
@@ -206,8 +228,17 @@ class _Reading:
                 values.append(node)
             elif key is None:
                 if node.kind != "scalar":
-                    hint = "fill in the template" if text.startswith("{{", max(start - 1, 0)) else "use a scalar"
-                    raise Stop("MSAA901", f"a {node.kind} cannot be a key; {hint}", start, max(start + 1, node.end))
+                    hint = (
+                        "fill in the template"
+                        if text.startswith("{{", max(start - 1, 0))
+                        else "use a scalar"
+                    )
+                    raise Stop(
+                        "MSAA901",
+                        f"a {node.kind} cannot be a key; {hint}",
+                        start,
+                        max(start + 1, node.end),
+                    )
                 key = node
                 continue
             else:
@@ -232,7 +263,10 @@ class _Reading:
         """Reports the second of two equal keys; the first one counts."""
         self._report(
             Problem(
-                "MSAA905", f"duplicate key {quoted(key.text)}; remove one of the two", key.span, (Label(first.span, "first defined here"),)
+                "MSAA905",
+                f"duplicate key {quoted(key.text)}; remove one of the two",
+                key.span,
+                (Label(first.span, "first defined here"),),
             )
         )
 
@@ -244,7 +278,12 @@ class _Reading:
             hint = did_you_mean(name, self.anchors)
             if not hint and re.search(rf"&{re.escape(name)}(?![^\s,\[\]{{}}])", self.text[end:]):
                 hint = "; move its definition before it"
-            raise Stop("MSAA901", f"the anchor {quoted(f'&{name}')} is not defined before this alias{hint}", start, end)
+            raise Stop(
+                "MSAA901",
+                f"the anchor {quoted(f'&{name}')} is not defined before this alias{hint}",
+                start,
+                end,
+            )
         anchored = self.anchors[name]
         if anchored is None:
             raise Stop("MSAA901", f"the anchor {quoted(f'&{name}')} contains itself", start, end)
@@ -259,7 +298,9 @@ class _Reading:
 
 
 def _block_end(text: str, start: int, end: int, content: str) -> int:
-    """The end of a block scalar without the blank lines after it; the end of its `|` or `>` if it is empty."""
+    """The end of a block scalar without the blank lines after it; the end of its `|` or `>` if it
+    is empty.
+    """
     body, last = text[start:end], content.rstrip("\n")[-1:]
     if not last:
         body = body.partition("#")[0]
@@ -267,7 +308,9 @@ def _block_end(text: str, start: int, end: int, content: str) -> int:
 
 
 def _place_empty(node: Node, key: Node | None, text: str) -> int:
-    """Places an empty value right after the `:` of its key, as the parser may place it after comments and line ends; returns its end."""
+    """Places an empty value right after the `:` of its key, as the parser may place it after
+    comments and line ends; returns its end.
+    """
     if key is not None:
         colon = re.compile(_COLON).match(text, key.end)
         node.start = node.end = colon.end() if colon is not None else key.end

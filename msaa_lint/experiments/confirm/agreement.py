@@ -1,4 +1,6 @@
-"""How the validation layer's messages about a frame agree with the findings: both, theirs alone, ours alone, and why."""
+"""How the validation layer's messages about a frame agree with the findings: both, theirs alone,
+ours alone, and why.
+"""
 
 from __future__ import annotations
 
@@ -33,7 +35,9 @@ NOT_BEGUN = "no command begins the pass"
 SILENT = "the layer should have reported this"
 
 _LIKELIHOOD = (BOTH, NOISE, EXPLAINED, THEIRS)
-"""The order in which passes are preferred for a message that may be about several of them, by its verdict there."""
+"""The order in which passes are preferred for a message that may be about several of them, by its
+verdict there.
+"""
 
 
 def agreement(
@@ -48,14 +52,23 @@ def agreement(
 ) -> dict[int, list[AgreementRow]]:
     """The rows of each pass.
 
-    `passes` are those that ran: their numbers and names. `findings` are all of the frame's, suppressed ones included; `undecided` are the
-    rules that could not be decided; `device` is the profile that they were checked against; `facts` are the frame's subjects, by default
-    those of this frame alone. A message about no pass in particular goes to
-    the first pass whose findings or facts account for it.
+    `passes` are those that ran: their numbers and names. `findings` are all of the frame's,
+    suppressed ones included; `undecided` are the rules that could not be decided; `device` is the
+    profile that they were checked against; `facts` are the frame's subjects, by default those of
+    this frame alone. A message about no pass in particular goes to the first pass whose findings or
+    facts account for it.
     """
     if not passes:
         return {}
-    matcher = _Matcher(frame, passes, _Scope(findings, undecided, facts if facts is not None else list(subjects(frame.document, device))))
+    matcher = _Matcher(
+        frame,
+        passes,
+        _Scope(
+            findings,
+            undecided,
+            facts if facts is not None else list(subjects(frame.document, device)),
+        ),
+    )
     rows: dict[int, list[AgreementRow]] = {number: [] for number in passes}
     reported: set[Finding] = set()
     for message in _unique(messages):
@@ -95,7 +108,9 @@ class _Matcher:
         self._passes = {number: by_name[name] for number, name in passes.items() if name in by_name}
         for number in passes:
             described = self._passes.get(number)
-            self.by_pass[number] = _pass_scope(frame, described, frame_scope) if described is not None else frame_scope
+            self.by_pass[number] = (
+                _pass_scope(frame, described, frame_scope) if described is not None else frame_scope
+            )
         self._by_path: dict[str, list[Subject]] = {}
         for subject in frame_scope.subjects:
             self._by_path.setdefault(subject.path, []).append(subject)
@@ -105,24 +120,48 @@ class _Matcher:
         family = classify(message.id, message.text)
         image = self._scopes.image(message.image) if message.image else None
         if image is not None:
-            # An image is created with the first pass that needs it, which may be one that only reads it, and resolved after another pass.
-            attaching = [number for number, described in self._passes.items() if described.name in image.pass_names]
-            number = next((number for number in (*attaching, message.number) if number in self.by_pass), next(iter(self.by_pass)))
+            # An image is created with the first pass that needs it, which may be one that only
+            # reads it, and resolved after another pass.
+            attaching = [
+                number
+                for number, described in self._passes.items()
+                if described.name in image.pass_names
+            ]
+            number = next(
+                (number for number in (*attaching, message.number) if number in self.by_pass),
+                next(iter(self.by_pass)),
+            )
             return number, self._match_within(message, _narrowed(self.frame_scope, image))
         numbers = [message.number] if message.number in self.by_pass else list(self.by_pass)
         matches = []
         for number in numbers:
-            part = self._scopes.attachment(message, family if isinstance(family, Family) else None, self._passes.get(number))
+            part = self._scopes.attachment(
+                message, family if isinstance(family, Family) else None, self._passes.get(number)
+            )
             scope = self.by_pass[number]
-            matches.append((number, self._match_within(message, _narrowed(scope, part) if part is not None else scope)))
-        if message.number not in self.by_pass or (isinstance(family, Family) and family.scope.instead):
+            matches.append(
+                (
+                    number,
+                    self._match_within(
+                        message, _narrowed(scope, part) if part is not None else scope
+                    ),
+                )
+            )
+        if message.number not in self.by_pass or (
+            isinstance(family, Family) and family.scope.instead
+        ):
             # The message is about the frame, or about the effect of one pass on another.
             matches.append((numbers[0], self._match_within(message, self.frame_scope)))
         return min(matches, key=lambda match: _LIKELIHOOD.index(match[1].rows[0].verdict))
 
     def _match_within(self, message: Message, scope: _Scope) -> _Match:
         family = classify(message.id, message.text)
-        row = AgreementRow(THEIRS, message.id, family.name if isinstance(family, Family) else "", text=sentence(message.text))
+        row = AgreementRow(
+            THEIRS,
+            message.id,
+            family.name if isinstance(family, Family) else "",
+            text=sentence(message.text),
+        )
         if isinstance(family, Noise):
             return _Match([row._replace(verdict=NOISE, reason=family.reason)])
         if family is not None:
@@ -130,7 +169,9 @@ class _Matcher:
             if findings:
                 rules = dict.fromkeys(finding.rule for finding in findings)
                 return _Match([row._replace(verdict=BOTH, rule=rule) for rule in rules], findings)
-        reason = _consequence(message, family, scope.findings) or (_explanation(family, scope) if family is not None else "")
+        reason = _consequence(message, family, scope.findings) or (
+            _explanation(family, scope) if family is not None else ""
+        )
         return _Match([row._replace(verdict=EXPLAINED, reason=reason) if reason else row])
 
     def unreported(self, finding: Finding, layer: LayerScope, number: int) -> AgreementRow:
@@ -140,17 +181,25 @@ class _Matcher:
         if not families:
             return row._replace(reason=NO_CHECK)
         about = self._by_path.get(finding.subject, [])
-        reasons = [_not_checked(family, about, layer, layer.kinds.get(number, "")) for family in families]
+        reasons = [
+            _not_checked(family, about, layer, layer.kinds.get(number, "")) for family in families
+        ]
         if all(reasons):
             return row._replace(reason="; ".join(dict.fromkeys(reasons)))
-        silent = ", ".join(family.name for family, reason in zip(families, reasons, strict=True) if not reason)
+        silent = ", ".join(
+            family.name for family, reason in zip(families, reasons, strict=True) if not reason
+        )
         return row._replace(reason=f"{SILENT} ({silent})", expected=True)
 
 
 def _pass_scope(frame: Frame, described: Pass, frame_scope: _Scope) -> _Scope:
     """The findings, undecided rules and subjects that concern a pass."""
     return _Scope(
-        [finding for finding in frame_scope.findings if concerns(frame, described, finding.subject)],
+        [
+            finding
+            for finding in frame_scope.findings
+            if concerns(frame, described, finding.subject)
+        ],
         [rule for rule in frame_scope.undecided if concerns(frame, described, rule.subject)],
         [subject for subject in frame_scope.subjects if concerns(frame, described, subject.path)],
     )
@@ -182,7 +231,9 @@ def _explanation(family: Family, scope: _Scope) -> str:
     """Why no rule reports messages of a family in a scope; empty if unexplained."""
     for explanation in EXPLANATIONS:
         if explanation.family == family.name and any(
-            _holds(explanation.when, subject) for subject in scope.subjects if subject.kind == explanation.subject
+            _holds(explanation.when, subject)
+            for subject in scope.subjects
+            if subject.kind == explanation.subject
         ):
             return explanation.reason
     for rule in scope.undecided:
@@ -190,7 +241,11 @@ def _explanation(family: Family, scope: _Scope) -> str:
             missing = ", ".join(key.path for key in rule.keys) or "the required facts"
             return f"{rule.rule} is undecided: the description does not state {missing}"
     passes = [subject for subject in scope.subjects if subject.kind == "pass"]
-    return NOT_BEGUN if passes and all(subject.facts.values["pass.begun"] == "NO" for subject in passes) else ""
+    return (
+        NOT_BEGUN
+        if passes and all(subject.facts.values["pass.begun"] == "NO" for subject in passes)
+        else ""
+    )
 
 
 def _not_checked(family: Family, about: Sequence[Subject], layer: LayerScope, kind: str) -> str:
@@ -205,10 +260,17 @@ def _not_checked(family: Family, about: Sequence[Subject], layer: LayerScope, ki
     if scope.lazy and layer.lazy_memory is False:
         return f"{layer.device} has no lazily allocated memory"
     if scope.device:
-        return f"it checks against {layer.device} and what is enabled there, not against the device that the description is for"
+        return (
+            f"it checks against {layer.device} and what is enabled there, not against the "
+            f"device that the description is for"
+        )
     if scope.instead:
         return f"it checks {scope.instead}"
-    if any(subject.facts.values.get("pass.begun") == "NOT_STATED" and subject.facts.values["frame.has_commands"] for subject in about):
+    if any(
+        subject.facts.values.get("pass.begun") == "NOT_STATED"
+        and subject.facts.values["frame.has_commands"]
+        for subject in about
+    ):
         return NOT_BEGUN
     for subject_kind, when, text in scope.when:
         if not any(_holds(when, subject) for subject in about if subject.kind == subject_kind):
@@ -232,9 +294,19 @@ def _condition(when: str) -> Condition:
 def _holds(when: str, subject: Subject) -> bool:
     condition = _condition(when)
     values = subject.facts.values
-    return condition.holds(activation(None, {name: values[name] for name in condition.facts if name in values})) is True
+    return (
+        condition.holds(
+            activation(None, {name: values[name] for name in condition.facts if name in values})
+        )
+        is True
+    )
 
 
 def _unique(messages: Iterable[Message]) -> list[Message]:
     """Each message of a pass or an image once, however many objects it is reported for."""
-    return list({(message.id, message.number, message.image, sentence(message.text)): message for message in messages}.values())
+    return list(
+        {
+            (message.id, message.number, message.image, sentence(message.text)): message
+            for message in messages
+        }.values()
+    )

@@ -1,7 +1,8 @@
 """The contents of the buffers and push constants of shaders whose values are unknown.
 
-Floating-point numbers are 0.5, 0.625, 0.75, and 0.875 in turn, by their place in a structure, so that neither a vector nor a difference
-of neighbors is zero; integers, among them the bounds of loops, are 1; matrices are identity matrices.
+Floating-point numbers are 0.5, 0.625, 0.75, and 0.875 in turn, by their place in a structure, so
+that neither a vector nor a difference of neighbors is zero; integers, among them the bounds of
+loops, are 1; matrices are identity matrices.
 """
 
 from __future__ import annotations
@@ -48,7 +49,11 @@ class BufferContents:
         kind = self.layouts.kind(type_id)
         number = kind[0]
         if number == op.TYPE_FLOAT:
-            return struct.pack(_FLOATS[kind[1]], 0.5 + phase % 4 / 8) if kind[1] in _FLOATS else b"\0" * (kind[1] // 8)
+            return (
+                struct.pack(_FLOATS[kind[1]], 0.5 + phase % 4 / 8)
+                if kind[1] in _FLOATS
+                else b"\0" * (kind[1] // 8)
+            )
         if number == op.TYPE_INT:
             return (1).to_bytes(kind[1] // 8, "little")
         if number == op.TYPE_VECTOR:

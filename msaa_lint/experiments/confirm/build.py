@@ -24,8 +24,10 @@ ALL_GRAPHICS = 0x8000
 
 
 class SharedImages(DeviceObjects):
-    """The images of plans that are drawn in turn: those with the same parameters are the same, so that memory does not grow with the number
-    of plans. What one plan leaves in them is undefined for the next one."""
+    """The images of plans that are drawn in turn: those with the same parameters are the same, so
+    that memory does not grow with the number of plans. What one plan leaves in them is undefined
+    for the next one.
+    """
 
     def __init__(self, opened: OpenDevice) -> None:
         super().__init__(opened)
@@ -40,14 +42,19 @@ class SharedImages(DeviceObjects):
 
 
 class FrameObjects(DeviceObjects):
-    """The objects of a plan on a device. Images are created when something needs them; `close` destroys everything.
+    """The objects of a plan on a device. Images are created when something needs them; `close`
+    destroys everything.
 
-    `more_usage` are usages by image besides those of the plan, needed for reading images back; `shared` are images that several plans use
-    in turn.
+    `more_usage` are usages by image besides those of the plan, needed for reading images back;
+    `shared` are images that several plans use in turn.
     """
 
     def __init__(
-        self, opened: OpenDevice, plan: Plan, more_usage: dict[int, int] | None = None, shared: SharedImages | None = None
+        self,
+        opened: OpenDevice,
+        plan: Plan,
+        more_usage: dict[int, int] | None = None,
+        shared: SharedImages | None = None,
     ) -> None:
         super().__init__(opened)
         self.shared = shared
@@ -72,21 +79,30 @@ class FrameObjects(DeviceObjects):
         if frame_pass.kind == parts.RENDER_PASS:
             self.render_passes[number] = self._render_pass(frame_pass)
             for index, framebuffer in enumerate(frame_pass.framebuffers):
-                self.framebuffers[number, index] = self._framebuffer(number, frame_pass, framebuffer)
+                self.framebuffers[number, index] = self._framebuffer(
+                    number, frame_pass, framebuffer
+                )
         for index, pipeline in enumerate(frame_pass.pipelines):
             layout = None
             if pipeline.stages:
                 bindings = self.bindings[number, index] = ShaderBindings(self, pipeline)
-                bindings.create_sets(frame_pass, self.plan.images, partial(self._attachment_view, frame_pass))
+                bindings.create_sets(
+                    frame_pass, self.plan.images, partial(self._attachment_view, frame_pass)
+                )
                 layout = bindings.layout
-            self.pipelines[number, index] = pipelines.create_pipeline(self, frame_pass, pipeline, self.render_passes.get(number), layout)
+            self.pipelines[number, index] = pipelines.create_pipeline(
+                self, frame_pass, pipeline, self.render_passes.get(number), layout
+            )
 
-    def _attachment_view(self, frame_pass: Pass, number: int, framebuffer: Framebuffer, aspects: int) -> Any:
+    def _attachment_view(
+        self, frame_pass: Pass, number: int, framebuffer: Framebuffer, aspects: int
+    ) -> Any:
         return self.view(number, self.layers(frame_pass, framebuffer), aspects)
 
     def vertices(self) -> tuple[Any, int]:
-        """The vertex buffer to draw and its number of vertices: from the plan's file, otherwise the scene's. ValueError for a file without
-        triangles."""
+        """The vertex buffer to draw and its number of vertices: from the plan's file, otherwise the
+        scene's. ValueError for a file without triangles.
+        """
         if not self.plan.vertices:
             return self.opened.vertices()
         if self._vertices is None:
@@ -100,26 +116,45 @@ class FrameObjects(DeviceObjects):
         return self._vertices
 
     def reader(self, number: int, subpass: int, samples: bool) -> Any:
-        """A pipeline that writes an image to every pixel of a subpass; None where the subpass has no pipeline to model it on."""
+        """A pipeline that writes an image to every pixel of a subpass; None where the subpass has
+        no pipeline to model it on.
+        """
         key = (number, subpass, samples)
         if key not in self._readers:
             frame_pass = self.plan.passes[number]
-            like = next((p for p in frame_pass.pipelines if p.subpass == subpass and not p.discard), None)
+            like = next(
+                (p for p in frame_pass.pipelines if p.subpass == subpass and not p.discard), None
+            )
             shader = "read_samples.frag" if samples else "read.frag"
             created = None
             if like is not None:
-                like = like._replace(samples=self._attached_samples(frame_pass, subpass) or like.samples)
-                created = pipelines.create_reader(self, frame_pass, like, self.render_passes.get(number), shader)
+                like = like._replace(
+                    samples=self._attached_samples(frame_pass, subpass) or like.samples
+                )
+                created = pipelines.create_reader(
+                    self, frame_pass, like, self.render_passes.get(number), shader
+                )
             self._readers[key] = created
         return self._readers[key]
 
     def _attached_samples(self, frame_pass: Pass, subpass: int) -> int:
         """The sample count that a subpass is rendered with; 0 without attachments."""
         if frame_pass.kind == parts.RENDERING:
-            counts = [self.plan.images[rendered.image].samples for rendered in frame_pass.rendered if rendered.image != NONE]
+            counts = [
+                self.plan.images[rendered.image].samples
+                for rendered in frame_pass.rendered
+                if rendered.image != NONE
+            ]
             return frame_pass.single_sampled or max(counts, default=0)
-        attached = (*frame_pass.subpasses[subpass].colors, *frame_pass.subpasses[subpass].depth_stencil)
-        counts = [frame_pass.attachments[reference.attachment].samples for reference in attached if reference.attachment != NONE]
+        attached = (
+            *frame_pass.subpasses[subpass].colors,
+            *frame_pass.subpasses[subpass].depth_stencil,
+        )
+        counts = [
+            frame_pass.attachments[reference.attachment].samples
+            for reference in attached
+            if reference.attachment != NONE
+        ]
         return frame_pass.subpasses[subpass].single_sampled or max(counts, default=0)
 
     def image(self, number: int) -> Any:
@@ -127,7 +162,11 @@ class FrameObjects(DeviceObjects):
         if number not in self.images:
             with self.opened.session.about(self.plan.images[number].name):
                 image, usage = self.plan.images[number], self.more_usage.get(number, 0)
-                made = self.shared.image(image, self._alike(number)) if self.shared is not None else create_image(self, image, usage)
+                made = (
+                    self.shared.image(image, self._alike(number))
+                    if self.shared is not None
+                    else create_image(self, image, usage)
+                )
                 self.images[number] = made
         return self.images[number]
 
@@ -149,8 +188,12 @@ class FrameObjects(DeviceObjects):
         if key not in self._views:
             kind = 0 if image.type == 0 else 5 if layers > 1 else 1
             whole = vk.VkImageSubresourceRange(aspectMask=aspects, levelCount=1, layerCount=layers)
-            create = vk.VkImageViewCreateInfo(image=self.image(number), viewType=kind, format=format, subresourceRange=whole)
-            self._views[key] = self.own(vk.vkDestroyImageView, vk.vkCreateImageView(self.opened.handle, create, None))
+            create = vk.VkImageViewCreateInfo(
+                image=self.image(number), viewType=kind, format=format, subresourceRange=whole
+            )
+            self._views[key] = self.own(
+                vk.vkDestroyImageView, vk.vkCreateImageView(self.opened.handle, create, None)
+            )
         return self._views[key]
 
     def layers(self, frame_pass: Pass, framebuffer: Framebuffer) -> int:
@@ -168,7 +211,9 @@ class FrameObjects(DeviceObjects):
             height=framebuffer.height,
             layers=framebuffer.layers,
         )
-        return self.own(vk.vkDestroyFramebuffer, vk.vkCreateFramebuffer(self.opened.handle, create, None))
+        return self.own(
+            vk.vkDestroyFramebuffer, vk.vkCreateFramebuffer(self.opened.handle, create, None)
+        )
 
     def _render_pass(self, frame_pass: Pass) -> Any:
         render_pass = self._second(frame_pass) if frame_pass.api == 2 else self._first(frame_pass)
@@ -180,45 +225,59 @@ class FrameObjects(DeviceObjects):
         for a in frame_pass.attachments:
             stencil_layout = None
             if NONE not in (a.stencil_initial, a.stencil_final):
-                layouts = {"stencilInitialLayout": a.stencil_initial, "stencilFinalLayout": a.stencil_final}
+                layouts = {
+                    "stencilInitialLayout": a.stencil_initial,
+                    "stencilFinalLayout": a.stencil_final,
+                }
                 stencil_layout = vk.VkAttachmentDescriptionStencilLayout(**layouts)
             attachments.append(
                 vk.VkAttachmentDescription2(
-                    pNext=stencil_layout, flags=a.flags, format=a.format, samples=a.samples, loadOp=a.load, storeOp=a.store,
-                    stencilLoadOp=a.stencil_load, stencilStoreOp=a.stencil_store, initialLayout=a.initial, finalLayout=a.final,
+                    pNext=stencil_layout, flags=a.flags, format=a.format, samples=a.samples,
+                    loadOp=a.load, storeOp=a.store,
+                    stencilLoadOp=a.stencil_load, stencilStoreOp=a.stencil_store,
+                    initialLayout=a.initial, finalLayout=a.final,
                 )
             )  # fmt: skip
         subpasses = []
         for s in frame_pass.subpasses:
             chained_structures = []
             if s.depth_resolve or (s.single_sampled and (s.depth_mode or s.stencil_mode)):
-                # Multisampled rendering to a single-sampled attachment has modes of a resolve, and no attachment to resolve to.
+                # Multisampled rendering to a single-sampled attachment has modes of a resolve, and
+                # no attachment to resolve to.
                 target = self._reference(s.depth_resolve[0]) if s.depth_resolve else None
                 chained_structures.append(
                     vk.VkSubpassDescriptionDepthStencilResolve(
-                        depthResolveMode=s.depth_mode, stencilResolveMode=s.stencil_mode, pDepthStencilResolveAttachment=target
+                        depthResolveMode=s.depth_mode,
+                        stencilResolveMode=s.stencil_mode,
+                        pDepthStencilResolveAttachment=target,
                     )
                 )
             if s.single_sampled:
                 chained_structures.append(
                     vk.VkMultisampledRenderToSingleSampledInfoEXT(
-                        multisampledRenderToSingleSampledEnable=1, rasterizationSamples=s.single_sampled
+                        multisampledRenderToSingleSampledEnable=1,
+                        rasterizationSamples=s.single_sampled,
                     )
                 )
             head = vk.VkSubpassDescription2(
-                flags=s.flags, viewMask=s.view_mask, pInputAttachments=[self._reference(r) for r in s.inputs],
-                colorAttachmentCount=len(s.colors), pColorAttachments=[self._reference(r) for r in s.colors],
+                flags=s.flags, viewMask=s.view_mask,
+                pInputAttachments=[self._reference(r) for r in s.inputs],
+                colorAttachmentCount=len(s.colors),
+                pColorAttachments=[self._reference(r) for r in s.colors],
                 pResolveAttachments=[self._reference(r) for r in s.resolves] or None,
-                pDepthStencilAttachment=self._reference(s.depth_stencil[0]) if s.depth_stencil else None,
+                pDepthStencilAttachment=self._reference(s.depth_stencil[0]) if s.depth_stencil else None,  # noqa: E501
                 pPreserveAttachments=list(s.preserves),
             )  # fmt: skip
             subpasses.append(chain(head, *chained_structures))
         dependencies = []
         for d in map(self._dependency, frame_pass.dependencies):
             head = vk.VkSubpassDependency2(
-                srcSubpass=UNUSED if d.source == NONE else d.source, dstSubpass=UNUSED if d.target == NONE else d.target,
-                srcStageMask=d.source_stages & MAX_32_BITS, dstStageMask=d.target_stages & MAX_32_BITS,
-                srcAccessMask=d.source_accesses & MAX_32_BITS, dstAccessMask=d.target_accesses & MAX_32_BITS,
+                srcSubpass=UNUSED if d.source == NONE else d.source,
+                dstSubpass=UNUSED if d.target == NONE else d.target,
+                srcStageMask=d.source_stages & MAX_32_BITS,
+                dstStageMask=d.target_stages & MAX_32_BITS,
+                srcAccessMask=d.source_accesses & MAX_32_BITS,
+                dstAccessMask=d.target_accesses & MAX_32_BITS,
                 dependencyFlags=d.flags, viewOffset=d.view_offset,
             )  # fmt: skip
             masks = (d.source_stages, d.target_stages, d.source_accesses, d.target_accesses)
@@ -229,7 +288,10 @@ class FrameObjects(DeviceObjects):
                 barrier.append(vk.VkMemoryBarrier2(**dict(zip(names, masks, strict=True))))
             dependencies.append(chain(head, *barrier))
         create = vk.VkRenderPassCreateInfo2(
-            flags=frame_pass.flags, pAttachments=attachments, pSubpasses=subpasses, pDependencies=dependencies
+            flags=frame_pass.flags,
+            pAttachments=attachments,
+            pSubpasses=subpasses,
+            pDependencies=dependencies,
         )
         return self.opened.call("vkCreateRenderPass2")(self.opened.handle, create, None)
 
@@ -246,25 +308,32 @@ class FrameObjects(DeviceObjects):
 
     def _reference(self, reference: Reference) -> Any:
         index = UNUSED if reference.attachment == NONE else reference.attachment
-        return self.vk.VkAttachmentReference2(attachment=index, layout=reference.layout, aspectMask=reference.aspects)
+        return self.vk.VkAttachmentReference2(
+            attachment=index, layout=reference.layout, aspectMask=reference.aspects
+        )
 
     def _first(self, frame_pass: Pass) -> Any:
         vk = self.vk
 
         def reference(r: Reference) -> Any:
-            return vk.VkAttachmentReference(attachment=UNUSED if r.attachment == NONE else r.attachment, layout=r.layout)
+            return vk.VkAttachmentReference(
+                attachment=UNUSED if r.attachment == NONE else r.attachment, layout=r.layout
+            )
 
         attachments = [
             vk.VkAttachmentDescription(
-                flags=a.flags, format=a.format, samples=a.samples, loadOp=a.load, storeOp=a.store, stencilLoadOp=a.stencil_load,
+                flags=a.flags, format=a.format, samples=a.samples, loadOp=a.load, storeOp=a.store,
+                stencilLoadOp=a.stencil_load,
                 stencilStoreOp=a.stencil_store, initialLayout=a.initial, finalLayout=a.final,
             )
             for a in frame_pass.attachments
         ]  # fmt: skip
         subpasses = [
             vk.VkSubpassDescription(
-                flags=s.flags, pInputAttachments=[reference(r) for r in s.inputs], colorAttachmentCount=len(s.colors),
-                pColorAttachments=[reference(r) for r in s.colors], pResolveAttachments=[reference(r) for r in s.resolves] or None,
+                flags=s.flags, pInputAttachments=[reference(r) for r in s.inputs],
+                colorAttachmentCount=len(s.colors),
+                pColorAttachments=[reference(r) for r in s.colors],
+                pResolveAttachments=[reference(r) for r in s.resolves] or None,
                 pDepthStencilAttachment=reference(s.depth_stencil[0]) if s.depth_stencil else None,
                 pPreserveAttachments=list(s.preserves),
             )
@@ -272,13 +341,19 @@ class FrameObjects(DeviceObjects):
         ]  # fmt: skip
         dependencies = [
             vk.VkSubpassDependency(
-                srcSubpass=UNUSED if d.source == NONE else d.source, dstSubpass=UNUSED if d.target == NONE else d.target,
-                srcStageMask=d.source_stages & MAX_32_BITS, dstStageMask=d.target_stages & MAX_32_BITS,
-                srcAccessMask=d.source_accesses & MAX_32_BITS, dstAccessMask=d.target_accesses & MAX_32_BITS, dependencyFlags=d.flags,
+                srcSubpass=UNUSED if d.source == NONE else d.source,
+                dstSubpass=UNUSED if d.target == NONE else d.target,
+                srcStageMask=d.source_stages & MAX_32_BITS,
+                dstStageMask=d.target_stages & MAX_32_BITS,
+                srcAccessMask=d.source_accesses & MAX_32_BITS,
+                dstAccessMask=d.target_accesses & MAX_32_BITS, dependencyFlags=d.flags,
             )
             for d in map(self._dependency, frame_pass.dependencies)
         ]  # fmt: skip
         create = vk.VkRenderPassCreateInfo(
-            flags=frame_pass.flags, pAttachments=attachments, pSubpasses=subpasses, pDependencies=dependencies
+            flags=frame_pass.flags,
+            pAttachments=attachments,
+            pSubpasses=subpasses,
+            pDependencies=dependencies,
         )
         return vk.vkCreateRenderPass(self.opened.handle, create, None)

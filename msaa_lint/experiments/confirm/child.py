@@ -1,4 +1,6 @@
-"""A child process: requests, answers within a time limit, and termination in whatever state it is."""
+"""A child process: requests, answers within a time limit, and termination in whatever state it
+is.
+"""
 
 from __future__ import annotations
 
@@ -25,14 +27,18 @@ MAX_WAITING = 4096
 
 
 class Limits(NamedTuple):
-    """The limits of a child: `seconds` of wall-clock time per pass, and `memory` bytes of address space (0: unlimited)."""
+    """The limits of a child: `seconds` of wall-clock time per pass, and `memory` bytes of address
+    space (0: unlimited).
+    """
 
     seconds: float = 30.0
     memory: int = 8 << 30
 
 
 class ChildExit(Exception):
-    """The end of a child: `how` is `died`, `timed-out` or `garbage`; `signal` is the signal's name, empty without any."""
+    """The end of a child: `how` is `died`, `timed-out` or `garbage`; `signal` is the signal's name,
+    empty without any.
+    """
 
     def __init__(self, how: str, text: str, signal: str = "") -> None:
         super().__init__(text)
@@ -45,15 +51,26 @@ import json, runpy, sys
 sys.path[:] = json.loads(sys.argv[1])["path"]
 runpy.run_module("msaa_lint.experiments.confirm.worker", run_name="__main__", alter_sys=True)
 """
-"""Runs `worker` with this process's import path. -I: neither a folder nor the environment adds to it."""
+"""Runs `worker` with this process's import path. -I: neither a folder nor the environment adds to
+it.
+"""
 
 
 class Child:
     """A running worker. The creator must close it."""
 
-    def __init__(self, folder: str, limits: Limits, environment: Mapping[str, str], execute: str = EXECUTE) -> None:
+    def __init__(
+        self, folder: str, limits: Limits, environment: Mapping[str, str], execute: str = EXECUTE
+    ) -> None:
         self.limits = limits
-        given = json.dumps({"memory": limits.memory, "execute": execute, "path": import_path(), "parent": os.getpid()})
+        given = json.dumps(
+            {
+                "memory": limits.memory,
+                "execute": execute,
+                "path": import_path(),
+                "parent": os.getpid(),
+            }
+        )
         self._process = subprocess.Popen(
             [sys.executable, "-I", "-c", _PROGRAM, given],
             stdin=subprocess.PIPE,
@@ -67,11 +84,15 @@ class Child:
         self._answers: queue.Queue[bytes] = queue.Queue(MAX_WAITING)
         self._closing = False
         self.printed = ChildOutput(self._process.stderr)
-        self._listener = threading.Thread(target=self._listen, args=(self._process.stdout,), daemon=True)
+        self._listener = threading.Thread(
+            target=self._listen, args=(self._process.stdout,), daemon=True
+        )
         self._listener.start()
 
     def send(self, request: Mapping[str, Any], seconds: float | None = None) -> None:
-        """Sends a request; `answers` returns the answers to it. A child that does not read does not block the caller."""
+        """Sends a request; `answers` returns the answers to it. A child that does not read does not
+        block the caller.
+        """
         limit = seconds if seconds is not None else self.limits.seconds
         text = line({**request, "seconds": _patience(limit, request)})
         threading.Thread(target=self._write, args=(text,), daemon=True).start()
@@ -79,8 +100,8 @@ class Child:
     def answers(self, seconds: float | None = None) -> Iterator[Event]:
         """The answers to a request up to the last one (`done`, `failed`, `opened` or `devices`).
 
-        ChildExit if the child dies, writes garbage, or takes longer than the limit from now or from the last pass that it announced or
-        timed. The child is closed by then.
+        ChildExit if the child dies, writes garbage, or takes longer than the limit from now or from
+        the last pass that it announced or timed. The child is closed by then.
         """
         limit = seconds if seconds is not None else self.limits.seconds
         deadline = time.monotonic() + limit
@@ -96,7 +117,9 @@ class Child:
                 found = event(text)
             except ProtocolError as error:
                 self.close()
-                raise ChildExit("garbage", f"the driver's process wrote {error} and was terminated") from None
+                raise ChildExit(
+                    "garbage", f"the driver's process wrote {error} and was terminated"
+                ) from None
             if found["event"] in ("pass", "time"):
                 deadline = time.monotonic() + limit
             yield found
@@ -112,7 +135,8 @@ class Child:
         process = self._process
         with suppress(OSError):
             if hasattr(os, "killpg"):
-                # The process group has the child's id, which stays reserved until the child has been waited for.
+                # The process group has the child's id, which stays reserved until the child has
+                # been waited for.
                 os.killpg(process.pid, signal.SIGKILL)
             else:
                 process.kill()
@@ -152,7 +176,9 @@ class Child:
             code = self._process.wait(1)
         except subprocess.TimeoutExpired:
             self.close()
-            return ChildExit("garbage", "the driver's process closed its answers and was terminated")
+            return ChildExit(
+                "garbage", "the driver's process closed its answers and was terminated"
+            )
         self.close()
         text = self.printed.last()
         agreement = f"; its last words: {text}" if text else ""
@@ -164,7 +190,12 @@ class Child:
 
 
 def _patience(limit: float, request: Mapping[str, Any]) -> float:
-    """Seconds after which the child ends by itself if the parent is gone: more than the parent would ever wait."""
+    """Seconds after which the child ends by itself if the parent is gone: more than the parent
+    would ever wait.
+    """
     want = request.get("want") or {}
     repeats = int(want.get("repeats", 0) or want.get("rounds", 0))
-    return min(limit * (2 + len(request.get("passes") or request.get("items") or ())) * (1 + repeats) + 5, 1e6)
+    return min(
+        limit * (2 + len(request.get("passes") or request.get("items") or ())) * (1 + repeats) + 5,
+        1e6,
+    )

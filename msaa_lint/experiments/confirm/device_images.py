@@ -45,22 +45,32 @@ def create_image(objects: DeviceObjects, image: Image, more_usage: int = 0) -> A
 
 
 def fill(opened: OpenDevice, created: Any, image: Image, texels: bytes | None, layout: int) -> None:
-    """Writes the texels of the first mip level of a layer to every level and layer of an image, each from the start; without texels, 0.5,
-    or the integer 1. The image is then in a layout. It submits."""
+    """Writes the texels of the first mip level of a layer to every level and layer of an image,
+    each from the start; without texels, 0.5, or the integer 1. The image is then in a layout. It
+    submits.
+    """
     vk, staging = opened.vk, DeviceObjects(opened)
     submitter = Submitter(opened)
     try:
         buffer = submitter.begin()
         _transition(vk, buffer, created, image, UNDEFINED, TARGET_LAYOUT)
-        whole = vk.VkImageSubresourceRange(aspectMask=image.aspects, levelCount=image.levels, layerCount=image.layers)
+        whole = vk.VkImageSubresourceRange(
+            aspectMask=image.aspects, levelCount=image.levels, layerCount=image.layers
+        )
         if texels is not None:
             source, memory = opened.buffer(texels, STAGING)
             staging.own(vk.vkFreeMemory, memory)
             staging.own(vk.vkDestroyBuffer, source)
-            regions = [_region(vk, image, level, layer) for level in range(image.levels) for layer in range(image.layers)]
+            regions = [
+                _region(vk, image, level, layer)
+                for level in range(image.levels)
+                for layer in range(image.layers)
+            ]
             vk.vkCmdCopyBufferToImage(buffer, source, created, TARGET_LAYOUT, len(regions), regions)
         elif image.aspects & DEPTH:
-            vk.vkCmdClearDepthStencilImage(buffer, created, TARGET_LAYOUT, vk.VkClearDepthStencilValue(0.5, 0), 1, [whole])
+            vk.vkCmdClearDepthStencilImage(
+                buffer, created, TARGET_LAYOUT, vk.VkClearDepthStencilValue(0.5, 0), 1, [whole]
+            )
         else:
             clear = _clear_value(vk, image)
             vk.vkCmdClearColorImage(buffer, created, TARGET_LAYOUT, clear, 1, [whole])
@@ -72,10 +82,14 @@ def fill(opened: OpenDevice, created: Any, image: Image, texels: bytes | None, l
 
 
 def _transition(vk: Any, buffer: Any, created: Any, image: Image, before: int, after: int) -> None:
-    whole = vk.VkImageSubresourceRange(aspectMask=image.aspects, levelCount=image.levels, layerCount=image.layers)
+    whole = vk.VkImageSubresourceRange(
+        aspectMask=image.aspects, levelCount=image.levels, layerCount=image.layers
+    )
     barrier = vk.VkImageMemoryBarrier(
-        srcAccessMask=0x1000 if before else 0, dstAccessMask=0x18000, oldLayout=before, newLayout=after,
-        srcQueueFamilyIndex=0xFFFFFFFF, dstQueueFamilyIndex=0xFFFFFFFF, image=created, subresourceRange=whole,
+        srcAccessMask=0x1000 if before else 0, dstAccessMask=0x18000, oldLayout=before,
+        newLayout=after,
+        srcQueueFamilyIndex=0xFFFFFFFF, dstQueueFamilyIndex=0xFFFFFFFF, image=created,
+        subresourceRange=whole,
     )  # fmt: skip
     vk.vkCmdPipelineBarrier(buffer, COMMANDS, COMMANDS, 0, 0, None, 0, None, 1, [barrier])
 
@@ -90,6 +104,12 @@ def _region(vk: Any, image: Image, level: int, layer: int) -> Any:
     return vk.VkBufferImageCopy(
         bufferRowLength=image.width,
         bufferImageHeight=image.height,
-        imageSubresource=vk.VkImageSubresourceLayers(aspectMask=image.aspects, mipLevel=level, baseArrayLayer=layer, layerCount=1),
-        imageExtent=vk.VkExtent3D(max(image.width >> level, 1), max(image.height >> level, 1), max(image.depth >> level, 1)),
+        imageSubresource=vk.VkImageSubresourceLayers(
+            aspectMask=image.aspects, mipLevel=level, baseArrayLayer=layer, layerCount=1
+        ),
+        imageExtent=vk.VkExtent3D(
+            max(image.width >> level, 1),
+            max(image.height >> level, 1),
+            max(image.depth >> level, 1),
+        ),
     )

@@ -1,4 +1,5 @@
-"""The properties of the installed devices as vkjson, the format that `devices/reports/vkjson.py` reads.
+"""The properties of the installed devices as vkjson, the format that `devices/reports/vkjson.py`
+reads.
 
 `devices()` calls the drivers and must run in a child process; `running()` starts one.
 """
@@ -28,10 +29,10 @@ FEATURES = {
     "VkPhysicalDeviceVulkan12Features": (1, 2),
     "VkPhysicalDeviceVulkan13Features": (1, 3),
     "VkPhysicalDeviceDynamicRenderingFeatures": "VK_KHR_dynamic_rendering",
-    "VkPhysicalDeviceMultisampledRenderToSingleSampledFeaturesEXT": "VK_EXT_multisampled_render_to_single_sampled",
+    "VkPhysicalDeviceMultisampledRenderToSingleSampledFeaturesEXT": "VK_EXT_multisampled_render_to_single_sampled",  # noqa: E501
     "VkPhysicalDeviceExtendedDynamicState3FeaturesEXT": "VK_EXT_extended_dynamic_state3",
     "VkPhysicalDeviceFragmentShadingRateFeaturesKHR": "VK_KHR_fragment_shading_rate",
-    "VkPhysicalDeviceDynamicRenderingUnusedAttachmentsFeaturesEXT": "VK_EXT_dynamic_rendering_unused_attachments",
+    "VkPhysicalDeviceDynamicRenderingUnusedAttachmentsFeaturesEXT": "VK_EXT_dynamic_rendering_unused_attachments",  # noqa: E501
     "VkPhysicalDeviceFragmentShaderInterlockFeaturesEXT": "VK_EXT_fragment_shader_interlock",
     "VkPhysicalDeviceTilePropertiesFeaturesQCOM": "VK_QCOM_tile_properties",
 }
@@ -39,7 +40,8 @@ FEATURES = {
 
 
 def running(seconds: float = 30.0) -> list[Report]:
-    """The devices of the drivers that the loader finds (VK_DRIVER_FILES is respected), queried in a child process with a time limit.
+    """The devices of the drivers that the loader finds (VK_DRIVER_FILES is respected), queried in a
+    child process with a time limit.
 
     Unusable if there is none, or if the child process dies, times out or gives a malformed answer.
     """
@@ -51,7 +53,9 @@ def running(seconds: float = 30.0) -> list[Report]:
 
 
 def reports(found: list[dict[str, Any]]) -> list[Report]:
-    """The result of `devices`, parsed. Unusable if it is malformed: a driver may have overwritten it."""
+    """The result of `devices`, parsed. Unusable if it is malformed: a driver may have overwritten
+    it.
+    """
     from msaa_lint.frame.devices.reports import vkjson
     from msaa_lint.frame.devices.reports.reading import report
 
@@ -74,7 +78,10 @@ def describe(physical: Any) -> dict[str, Any]:
     from . import binding
 
     vk = binding.load()
-    names = [binding.text(each.extensionName) for each in vk.vkEnumerateDeviceExtensionProperties(physical, None)]
+    names = [
+        binding.text(each.extensionName)
+        for each in vk.vkEnumerateDeviceExtensionProperties(physical, None)
+    ]
     properties = vk.vkGetPhysicalDeviceProperties(physical)
     version = min(binding.version_of(properties.apiVersion)[:2], binding.instance_version()[:2])
     description: dict[str, Any] = {
@@ -88,7 +95,11 @@ def describe(physical: Any) -> dict[str, Any]:
             (PROPERTIES, vk.VkPhysicalDeviceProperties2(), vk.vkGetPhysicalDeviceProperties2),
             (FEATURES, vk.VkPhysicalDeviceFeatures2(), vk.vkGetPhysicalDeviceFeatures2),
         ):
-            structures = {name: getattr(vk, name)() for name, due in queries.items() if _offered(due, version, names) and hasattr(vk, name)}
+            structures = {
+                name: getattr(vk, name)()
+                for name, due in queries.items()
+                if _offered(due, version, names) and hasattr(vk, name)
+            }
             call(physical, binding.chain(head, *structures.values()))
             description.update((name, plain(structure)) for name, structure in structures.items())
     return description
@@ -100,8 +111,14 @@ def _offered(due: object, version: tuple[int, int], names: list[str]) -> bool:
 
 def _memory(memory: Any) -> dict[str, Any]:
     return {
-        "memoryTypes": [plain(memory.memoryTypes[n]) for n in range(min(memory.memoryTypeCount, len(memory.memoryTypes)))],
-        "memoryHeaps": [plain(memory.memoryHeaps[n]) for n in range(min(memory.memoryHeapCount, len(memory.memoryHeaps)))],
+        "memoryTypes": [
+            plain(memory.memoryTypes[n])
+            for n in range(min(memory.memoryTypeCount, len(memory.memoryTypes)))
+        ],
+        "memoryHeaps": [
+            plain(memory.memoryHeaps[n])
+            for n in range(min(memory.memoryHeapCount, len(memory.memoryHeaps)))
+        ],
     }
 
 
@@ -112,9 +129,17 @@ def plain(structure: Any) -> Any:
     ffi = binding.load().ffi
     kind = ffi.typeof(structure)
     if kind.kind == "array":
-        return binding.text(structure) if kind.item.cname == "char" else [_value(each) for each in structure]
+        return (
+            binding.text(structure)
+            if kind.item.cname == "char"
+            else [_value(each) for each in structure]
+        )
     fields = [(name, field.type.kind) for name, field in kind.fields if name != "sType"]
-    return {name: _value(getattr(structure, name)) for name, of in fields if of not in ("pointer", "function")}
+    return {
+        name: _value(getattr(structure, name))
+        for name, of in fields
+        if of not in ("pointer", "function")
+    }
 
 
 def _value(value: Any) -> Any:

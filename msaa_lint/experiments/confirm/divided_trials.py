@@ -1,4 +1,6 @@
-"""The trials of inputs by several processes at once, each of which has driver processes of its own. The outcome is that of one process."""
+"""The trials of inputs by several processes at once, each of which has driver processes of its own.
+The outcome is that of one process.
+"""
 
 from __future__ import annotations
 
@@ -24,11 +26,15 @@ from .trial import DeviceTrial, ShownPictures, TrialOptions, device_run, picture
 from .vulkan_errors import Unusable
 
 IDLE_SECONDS = 10.0
-"""How long a device of a worker stays open without an input: the worker of a cluster is not told that a run has ended."""
+"""How long a device of a worker stays open without an input: the worker of a cluster is not told
+that a run has ended.
+"""
 
 
 class Outcome(NamedTuple):
-    """The outcome of an input on a device: its verdicts, and the pictures that they name by number; or why the device is `unusable`."""
+    """The outcome of an input on a device: its verdicts, and the pictures that they name by number;
+    or why the device is `unusable`.
+    """
 
     device: DeviceInfo | None = None
     layer: Mapping[str, Any] | None = None
@@ -38,15 +44,20 @@ class Outcome(NamedTuple):
 
 
 class TrialPart(NamedTuple):
-    """What an input adds: why it cannot be confirmed, its outcome on each device, and what custom rules took."""
+    """What an input adds: why it cannot be confirmed, its outcome on each device, and what custom
+    rules took.
+    """
 
     errors: Sequence[Finding] = ()
     outcomes: Sequence[Outcome] = ()
     spent: Spent = Spent()
 
 
-def divided_trials(request: Request, devices: Sequence[SessionOptions], options: TrialOptions) -> tuple[list[DeviceRun], Inputs]:
-    """The outcome of the inputs of a request on devices, without times, and what else is known of the inputs, without their documents.
+def divided_trials(
+    request: Request, devices: Sequence[SessionOptions], options: TrialOptions
+) -> tuple[list[DeviceRun], Inputs]:
+    """The outcome of the inputs of a request on devices, without times, and what else is known of
+    the inputs, without their documents.
 
     Raises `core.execution.backend.Unusable` if the cluster that the request names cannot be used.
     """
@@ -56,7 +67,10 @@ def divided_trials(request: Request, devices: Sequence[SessionOptions], options:
     findings: list[Finding] = []
     try:
         linter = TrialLinter(workspace, devices, options._replace(time=False))
-        with closing(linter), closing(parts(linter, discovered.files, request.division, per_task=1)) as found:
+        with (
+            closing(linter),
+            closing(parts(linter, discovered.files, request.division, per_task=1)) as found,
+        ):
             for part in found:
                 findings += part.errors
                 for device, outcome in zip(merged, part.outcomes, strict=False):
@@ -65,15 +79,22 @@ def divided_trials(request: Request, devices: Sequence[SessionOptions], options:
         # The processes have been killed, and left their folders.
         remove_abandoned()
     wrong = errors(workspace, findings)
-    return [device.run() for device in merged], Inputs([], wrong, list(discovered.notes), workspace.current.settings.docs_url)
+    return [device.run() for device in merged], Inputs(
+        [], wrong, list(discovered.notes), workspace.current.settings.docs_url
+    )
 
 
 class TrialLinter:
-    """Reads and tries the inputs of a workspace one by one. A device stays open for `idle_seconds` without an input (None: until
-    `close`)."""
+    """Reads and tries the inputs of a workspace one by one. A device stays open for `idle_seconds`
+    without an input (None: until `close`).
+    """
 
     def __init__(
-        self, workspace: Workspace, devices: Sequence[SessionOptions], options: TrialOptions, idle_seconds: float | None = None
+        self,
+        workspace: Workspace,
+        devices: Sequence[SessionOptions],
+        options: TrialOptions,
+        idle_seconds: float | None = None,
     ) -> None:
         self.workspace = workspace
         self._terms = devices, options
@@ -84,14 +105,18 @@ class TrialLinter:
         found: list[Input] = []
         with self.workspace.reading(unit) as read, self.workspace.guard(str(unit)):
             found = of_file(self.workspace, str(unit))
-        return TrialPart(read.findings, [device.outcome(found) for device in self._devices], read.spent)
+        return TrialPart(
+            read.findings, [device.outcome(found) for device in self._devices], read.spent
+        )
 
     def known(self, units: Sequence[Unit]) -> Mapping[int, TrialPart]:
         """Outcomes are not kept between runs."""
         return {}
 
     def included(self, part: TrialPart) -> bool:
-        """Whether custom rules may take what they took for a part in another process, which then counts here."""
+        """Whether custom rules may take what they took for a part in another process, which then
+        counts here.
+        """
         return self.workspace.include(part.spent)
 
     def failed(self, unit: Unit, reason: str) -> TrialPart:
@@ -110,9 +135,13 @@ class TrialLinter:
 
 
 class _Device:
-    """A device of this process, which opens when the first input is tried, and after it was idle."""
+    """A device of this process, which opens when the first input is tried, and after it was
+    idle.
+    """
 
-    def __init__(self, given: SessionOptions, options: TrialOptions, idle_seconds: float | None) -> None:
+    def __init__(
+        self, given: SessionOptions, options: TrialOptions, idle_seconds: float | None
+    ) -> None:
         self._given = given
         self._options = options
         self._idle_seconds = idle_seconds
@@ -140,7 +169,9 @@ class _Device:
             if self._session is None:
                 self._session = self._given.session().__enter__()
             if self._trial is None and not self._unusable:
-                self._trial = DeviceTrial(self._session, self._options, self._session.open(), Planner())
+                self._trial = DeviceTrial(
+                    self._session, self._options, self._session.open(), Planner()
+                )
             if self._trial is None:
                 return Outcome(unusable=self._unusable)
             self._trial.album = pictures if self._options.image is not None else None
@@ -176,20 +207,42 @@ class _Merged:
             return
         if known is not None and found is not None and known != found:
             devices = f"{known.name} ({known.driver}) and {found.name} ({found.driver})"
-            self._last = Outcome(unusable=f"the workers of the cluster have different devices, {devices}: name one with `--device`")
+            self._last = Outcome(
+                unusable=f"the workers of the cluster have different devices, {devices}: name one "
+                f"with `--device`"
+            )
             return
         self._last = outcome._replace(verdicts=(), pictures=())
         if outcome.device is None:
             return
         if self._options.image is not None and self._album is None:
             self._album = picture_folder(self._options, outcome.device)
-        paths = [self._album.write_file(data, *parts) for data, parts in outcome.pictures] if self._album is not None else []
-        verdicts = [verdict._replace(pictures=tuple(paths[int(number)] for number in verdict.pictures)) for verdict in outcome.verdicts]
+        paths = (
+            [self._album.write_file(data, *parts) for data, parts in outcome.pictures]
+            if self._album is not None
+            else []
+        )
+        verdicts = [
+            verdict._replace(pictures=tuple(paths[int(number)] for number in verdict.pictures))
+            for verdict in outcome.verdicts
+        ]
         self._verdicts += self._shown.limited(verdicts)
 
     def run(self) -> DeviceRun:
         """The outcome of all inputs."""
         last, asked = self._last, self._given.device or ""
         if last.device is None:
-            return DeviceRun(None, unusable=last.unusable or "every process that tried an input ended", asked=asked)
-        return device_run(last.device, last.layer, self._verdicts, self._shown, self._options, self._given.validation, asked)
+            return DeviceRun(
+                None,
+                unusable=last.unusable or "every process that tried an input ended",
+                asked=asked,
+            )
+        return device_run(
+            last.device,
+            last.layer,
+            self._verdicts,
+            self._shown,
+            self._options,
+            self._given.validation,
+            asked,
+        )

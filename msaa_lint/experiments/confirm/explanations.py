@@ -1,5 +1,7 @@
-"""Messages of the validation layer that rightly have no finding: what the layer overlooks, what the rules ignore on purpose, what follows
-from another finding, and noise about how `confirm` calls Vulkan, the scene that it draws, or matters other than multisampling."""
+"""Messages of the validation layer that rightly have no finding: what the layer overlooks, what the
+rules ignore on purpose, what follows from another finding, and noise about how `confirm` calls
+Vulkan, the scene that it draws, or matters other than multisampling.
+"""
 
 from __future__ import annotations
 
@@ -9,8 +11,10 @@ _SINGLE = "a single-sampled attachment is outside the scope of multisampling rul
 
 
 class Explanation(NamedTuple):
-    """Why messages of a family rightly have no finding if `when`, a condition on the facts of a kind of subject, holds for a subject of the
-    pass. `wrong` says that the layer is mistaken; otherwise the rules ignore it on purpose."""
+    """Why messages of a family rightly have no finding if `when`, a condition on the facts of a
+    kind of subject, holds for a subject of the pass. `wrong` says that the layer is mistaken;
+    otherwise the rules ignore it on purpose.
+    """
 
     family: str
     subject: str
@@ -20,7 +24,9 @@ class Explanation(NamedTuple):
 
 
 class Consequence(NamedTuple):
-    """Messages that follow from a finding of one of `rules`. `ids` are names of families, or ids as in a family."""
+    """Messages that follow from a finding of one of `rules`. `ids` are names of families, or ids as
+    in a family.
+    """
 
     ids: tuple[str, ...]
     rules: tuple[str, ...]
@@ -32,7 +38,8 @@ EXPLANATIONS = (
         "non-transient-ms-image",
         "image",
         "image.samples > 1 && (image.read || image.loaded)",
-        "its samples are read or loaded outside the pass that draws them, which is not possible for a transient attachment",
+        "its samples are read or loaded outside the pass that draws them, which is not possible "
+        "for a transient attachment",
         wrong=True,
     ),
     Explanation(
@@ -49,7 +56,12 @@ EXPLANATIONS = (
         "another pass or a shader reads the image; the layer checks a single framebuffer",
         wrong=True,
     ),
-    Explanation("should-be-transient", "image", "image.samples == 1", "a single-sampled image is outside the scope of multisampling rules"),
+    Explanation(
+        "should-be-transient",
+        "image",
+        "image.samples == 1",
+        "a single-sampled image is outside the scope of multisampling rules",
+    ),
     Explanation(
         "image-requires-memory",
         "aspect",
@@ -57,7 +69,13 @@ EXPLANATIONS = (
         "the stored samples are read",
         wrong=True,
     ),
-    Explanation("image-requires-memory", "attachment", "!attachment.used", "no subpass uses the attachment", wrong=True),
+    Explanation(
+        "image-requires-memory",
+        "attachment",
+        "!attachment.used",
+        "no subpass uses the attachment",
+        wrong=True,
+    ),
     Explanation(
         "image-requires-memory",
         "attachment",
@@ -65,7 +83,13 @@ EXPLANATIONS = (
         "loadOp and storeOp have no meaning for a stencil-only format",
         wrong=True,
     ),
-    Explanation("should-not-be-transient", "attachment", "!attachment.used", "no subpass uses the attachment", wrong=True),
+    Explanation(
+        "should-not-be-transient",
+        "attachment",
+        "!attachment.used",
+        "no subpass uses the attachment",
+        wrong=True,
+    ),
     Explanation(
         "attachment-needs-readback",
         "aspect",
@@ -75,8 +99,10 @@ EXPLANATIONS = (
     Explanation(
         "attachment-needs-readback",
         "aspect",
-        'attachment.is_resolve_target && aspect.load == "LOAD" && (aspect.read_before_resolve || pass.partial_area)',
-        "the previous contents of the resolve target are used before the resolve or preserved around it",
+        'attachment.is_resolve_target && aspect.load == "LOAD" && (aspect.read_before_resolve || '
+        "pass.partial_area)",
+        "the previous contents of the resolve target are used before the resolve or preserved "
+        "around it",
     ),
     Explanation(
         "too-large-sample-count",
@@ -84,19 +110,28 @@ EXPLANATIONS = (
         "image.samples > 4 && image.samples <= device.max_efficient_samples",
         "the described device keeps its full rate at that sample count",
     ),
-    Explanation("discarded-then-loaded", "aspect", 'attachment.samples == 1 && aspect.load == "LOAD"', _SINGLE),
-    Explanation("redundant-store", "aspect", 'attachment.samples == 1 && aspect.store == "STORE"', _SINGLE),
+    Explanation(
+        "discarded-then-loaded",
+        "aspect",
+        'attachment.samples == 1 && aspect.load == "LOAD"',
+        _SINGLE,
+    ),
+    Explanation(
+        "redundant-store", "aspect", 'attachment.samples == 1 && aspect.store == "STORE"', _SINGLE
+    ),
     Explanation(
         "redundant-store",
         "aspect",
         'aspect.store == "STORE" && aspect.read_later',
-        "the stored contents are read; confirm draws only the passes, so the layer does not see the read",
+        "the stored contents are read; confirm draws only the passes, so the layer does not see "
+        "the read",
     ),
     Explanation(
         "redundant-store",
         "image",
         '"SAMPLED" in image.usage || "STORAGE" in image.usage || "TRANSFER_SRC" in image.usage',
-        "its usage allows the stored contents to be read, and the description does not say whether they are",
+        "its usage allows the stored contents to be read, and the description does not say whether "
+        "they are",
     ),
     Explanation(
         "resolving-image",
@@ -122,14 +157,22 @@ EXPLANATIONS = (
         "amd-render-targets",
         "image",
         "image.samples == 1 && !image.resolved",
-        "a single-sampled image to which nothing is resolved is outside the scope of multisampling rules",
+        "a single-sampled image to which nothing is resolved is outside the scope of multisampling "
+        "rules",
     ),
-    Explanation("amd-render-targets", "image", "!image.is_render_target", "nothing renders to the image", wrong=True),
+    Explanation(
+        "amd-render-targets",
+        "image",
+        "!image.is_render_target",
+        "nothing renders to the image",
+        wrong=True,
+    ),
     Explanation(
         "layout-usage",
         "image",
         "image.samples == 1 || !image.is_render_target",
-        "the usage that a copy or a single-sampled attachment requires is outside the scope of multisampling rules",
+        "the usage that a copy or a single-sampled attachment requires is outside the scope of "
+        "multisampling rules",
     ),
     Explanation(
         "nvidia-linear-tiling",
@@ -141,21 +184,29 @@ EXPLANATIONS = (
         "multisampled-blending",
         "pipeline",
         "device.accelerates_float_blending && size(pipeline.blended_float_formats) > 0",
-        "the described device blends 16-bit floats in hardware; the layer does not tell GPU generations apart",
+        "the described device blends 16-bit floats in hardware; the layer does not tell GPU "
+        "generations apart",
     ),
-    Explanation("nvidia-linear-tiling", "image", 'image.tiling == "LINEAR" && !image.is_render_target', "nothing renders to the image"),
+    Explanation(
+        "nvidia-linear-tiling",
+        "image",
+        'image.tiling == "LINEAR" && !image.is_render_target',
+        "nothing renders to the image",
+    ),
     Explanation(
         "rasterization-samples",
         "pipeline",
         "pipeline.samples_dynamic && pipeline.rasterization_samples == pipeline.attachment_samples",
-        "the dynamically set count is that of its attachments; the layer compares the count stated in the pipeline",
+        "the dynamically set count is that of its attachments; the layer compares the count stated "
+        "in the pipeline",
         wrong=True,
     ),
     Explanation(
         "rasterization-samples",
         "pipeline",
         "device.single_sampled_render && pipeline.attachment_samples == 1",
-        "the described device supports VK_EXT_multisampled_render_to_single_sampled, which allows it if it is enabled",
+        "the described device supports VK_EXT_multisampled_render_to_single_sampled, which allows "
+        "it if it is enabled",
     ),
     Explanation(
         "rasterization-samples",
@@ -167,7 +218,8 @@ EXPLANATIONS = (
         "resolve-source-samples",
         "resolve",
         "resolve.single_sampled_render",
-        "its source is multisampled while the pass draws; the specification does not settle whether it may have a resolve attachment",
+        "its source is multisampled while the pass draws; the specification does not settle "
+        "whether it may have a resolve attachment",
     ),
     Explanation(
         "clear-values",
@@ -184,21 +236,41 @@ CONSEQUENCES = (
         ("mixed-sample-counts", "resolve-source-single-sampled"),
         "no pipeline can match attachments with different sample counts",
     ),
-    Consequence(("sample-count-unsupported", "04972"), ("multisampled-image-invalid",), "such an image can only have one sample"),
+    Consequence(
+        ("sample-count-unsupported", "04972"),
+        ("multisampled-image-invalid",),
+        "such an image can only have one sample",
+    ),
     Consequence(
         ("attachment-needs-readback", "image-requires-memory"),
         ("load-from-undefined", "discarded-then-loaded"),
         "the load itself is the mistake",
     ),
-    Consequence(("discarded-then-loaded",), ("load-from-undefined",), "the load itself is the mistake"),
-    Consequence(("image-requires-memory",), ("resolve-target-multisampled",), "the resolve target is stored and should have one sample"),
     Consequence(
-        ("attachment-needs-readback", "image-requires-memory", "discarded-then-loaded", "redundant-store"),
+        ("discarded-then-loaded",), ("load-from-undefined",), "the load itself is the mistake"
+    ),
+    Consequence(
+        ("image-requires-memory",),
+        ("resolve-target-multisampled",),
+        "the resolve target is stored and should have one sample",
+    ),
+    Consequence(
+        (
+            "attachment-needs-readback",
+            "image-requires-memory",
+            "discarded-then-loaded",
+            "redundant-store",
+        ),
         ("transient-needs-memory",),
         "the operation that needs memory is the mistake",
     ),
     Consequence(
-        ("attachment-needs-readback", "image-requires-memory", "discarded-then-loaded", "redundant-store"),
+        (
+            "attachment-needs-readback",
+            "image-requires-memory",
+            "discarded-then-loaded",
+            "redundant-store",
+        ),
         ("attachment-untouched",),
         "the pass does not use the attachment",
     ),
@@ -235,26 +307,111 @@ _START = "how confirm opens a device is not part of the description"
 _OTHER = "it has nothing to do with multisampling"
 
 NOISE = (
-    Noise(("vkAllocateMemory-small-allocation", "small-dedicated-allocation", "too-many-objects"), _MEMORY),
+    Noise(
+        ("vkAllocateMemory-small-allocation", "small-dedicated-allocation", "too-many-objects"),
+        _MEMORY,
+    ),
     Noise(("AllocateMemory-ReuseAllocations",), _MEMORY),
-    Noise(("AllocateMemory-SetPriority", "BindMemory-NoPriority", "CreateDevice-PageableDeviceLocalMemory"), _MEMORY),
+    Noise(
+        (
+            "AllocateMemory-SetPriority",
+            "BindMemory-NoPriority",
+            "CreateDevice-PageableDeviceLocalMemory",
+        ),
+        _MEMORY,
+    ),
     Noise(("requirements-not-retrieved", "requirements-not-all-retrieved"), _MEMORY),
-    Noise(("VUID_Undefined",), "it is about the layer itself: its limited knowledge of an extension or a driver"),
-    Noise(("specialuse-extension", "deprecated-extension", "extension-mismatch", "API-version-mismatch"), _START),
+    Noise(
+        ("VUID_Undefined",),
+        "it is about the layer itself: its limited knowledge of an extension or a driver",
+    ),
+    Noise(
+        (
+            "specialuse-extension",
+            "deprecated-extension",
+            "extension-mismatch",
+            "API-version-mismatch",
+        ),
+        _START,
+    ),
     Noise(("physical-device-features-not-retrieved", "RobustBufferAccess"), _START),
-    Noise(("command-buffer-reset", "one-time-submit", "simultaneous-use", "AvoidSecondaryCmdBuffers", "unusable-secondary"), _CALLS),
-    Noise(("pipeline-stage-flags", "CmdBuffer-highBarrierCount", "readToReadBarrier", "ImageBarrierAccessLayout"), _CALLS),
-    Noise(("ReduceNumberOfSubmissions", "HighNumberOfFences", "HighNumberOfSemaphores", "vkImage-AvoidGeneral"), _CALLS),
-    Noise(("TransitionUndefinedToReadOnly", "AvoidImageToImageCopy", "ClearAttachment-ClearImage"), _CALLS),
-    Noise(("multiple-pipelines-caches", "multiple-pipelines-no-cache", "TooManyPipelines", "Pipeline-SortAndBind"), _CALLS),
-    Noise(("MinimizeNumDynamicStates", "CreatePipelinesLayout-KeepLayoutSmall", "CreatePipelineLayout"), _CALLS),
-    Noise(("06193",), "the description begins with a resumed rendering: what it resumes is in a command buffer before"),
+    Noise(
+        (
+            "command-buffer-reset",
+            "one-time-submit",
+            "simultaneous-use",
+            "AvoidSecondaryCmdBuffers",
+            "unusable-secondary",
+        ),
+        _CALLS,
+    ),
+    Noise(
+        (
+            "pipeline-stage-flags",
+            "CmdBuffer-highBarrierCount",
+            "readToReadBarrier",
+            "ImageBarrierAccessLayout",
+        ),
+        _CALLS,
+    ),
+    Noise(
+        (
+            "ReduceNumberOfSubmissions",
+            "HighNumberOfFences",
+            "HighNumberOfSemaphores",
+            "vkImage-AvoidGeneral",
+        ),
+        _CALLS,
+    ),
+    Noise(
+        ("TransitionUndefinedToReadOnly", "AvoidImageToImageCopy", "ClearAttachment-ClearImage"),
+        _CALLS,
+    ),
+    Noise(
+        (
+            "multiple-pipelines-caches",
+            "multiple-pipelines-no-cache",
+            "TooManyPipelines",
+            "Pipeline-SortAndBind",
+        ),
+        _CALLS,
+    ),
+    Noise(
+        (
+            "MinimizeNumDynamicStates",
+            "CreatePipelinesLayout-KeepLayoutSmall",
+            "CreatePipelineLayout",
+        ),
+        _CALLS,
+    ),
+    Noise(
+        ("06193",),
+        "the description begins with a resumed rendering: what it resumes is in a command buffer "
+        "before",
+    ),
     Noise(("SpirvDeprecated_WorkgroupSize",), "it is about a built-in shader of confirm"),
-    Noise(("redundant-attachment-on-tile", "depth-pre-pass-usage", "Zcull-LessGreaterRatio"), _SCENE),
+    Noise(
+        ("redundant-attachment-on-tile", "depth-pre-pass-usage", "Zcull-LessGreaterRatio"), _SCENE
+    ),
     Noise(("small-indexed-drawcalls", "SwitchTessGeometryMesh"), _SCENE),
     Noise(("Shader-OutputNotConsumed", "Shader-InputNotProduced"), _SCENE),
-    Noise(("ClearColor-NotCompressed", "ClearAttachment-FastClearValues", "ClearValueCountHigherThanAttachmentCount"), _VALUES),
+    Noise(
+        (
+            "ClearColor-NotCompressed",
+            "ClearAttachment-FastClearValues",
+            "ClearValueCountHigherThanAttachmentCount",
+        ),
+        _VALUES,
+    ),
     Noise(("06662", "06663"), _OTHER),
-    Noise(("CreateImage-Depth32Format", "depthbias-zero", "DepthBiasNoAttachment", "AvoidPrimitiveRestart"), _OTHER),
+    Noise(
+        (
+            "CreateImage-Depth32Format",
+            "depthbias-zero",
+            "DepthBiasNoAttachment",
+            "AvoidPrimitiveRestart",
+        ),
+        _OTHER,
+    ),
 )
 """By topic. Every other message that belongs to no family is reported as the layer's alone."""

@@ -1,7 +1,9 @@
-"""Families of the Khronos validation layer's messages about multisampling, and the rules that correspond to each.
+"""Families of the Khronos validation layer's messages about multisampling, and the rules that
+correspond to each.
 
-A family outlives the ids of its messages: from one version of the layer to the next VUIDs are renumbered, and best practices lose prefixes
-and gain vendors. `messages.classify` finds the family of a message.
+A family outlives the ids of its messages: from one version of the layer to the next VUIDs are
+renumbered, and best practices lose prefixes and gain vendors. `messages.classify` finds the family
+of a message.
 """
 
 from __future__ import annotations
@@ -18,12 +20,15 @@ MOBILE = ("arm", "img")
 
 
 class CheckScope(NamedTuple):
-    """What a check of the layer covers; outside it the layer's silence means nothing. Empty members impose no limit.
+    """What a check of the layer covers; outside it the layer's silence means nothing. Empty members
+    impose no limit.
 
-    `passes` are kinds of passes. `vendors` are those with the check, one of which must be enabled. `since` is the first version of the
-    layer with the check. `lazy` checks need a device with lazily allocated memory. `device` checks are made against the device that runs,
-    whatever device the description is for. `when` are conditions on the facts of a finding's subject: the kind of subject, the condition,
-    and the reason in words if it does not hold. `instead` says what the layer checks if that differs from what the rules check.
+    `passes` are kinds of passes. `vendors` are those with the check, one of which must be enabled.
+    `since` is the first version of the layer with the check. `lazy` checks need a device with
+    lazily allocated memory. `device` checks are made against the device that runs, whatever device
+    the description is for. `when` are conditions on the facts of a finding's subject: the kind of
+    subject, the condition, and the reason in words if it does not hold. `instead` says what the
+    layer checks if that differs from what the rules check.
     """
 
     passes: tuple[str, ...] = ()
@@ -38,9 +43,10 @@ class CheckScope(NamedTuple):
 class Family(NamedTuple):
     """Messages with the same meaning.
 
-    `ids` are the numbers of VUIDs (`03067`) and the parts that the names of best practices share across versions and vendors
-    (`non-transient-ms-image`). A VUID with an unknown number belongs to the family if the structure or command in its id matches
-    `structure_pattern` and its text matches `text_pattern`. `of_attachment` says that its texts name an attachment by its index.
+    `ids` are the numbers of VUIDs (`03067`) and the parts that the names of best practices share
+    across versions and vendors (`non-transient-ms-image`). A VUID with an unknown number belongs to
+    the family if the structure or command in its id matches `structure_pattern` and its text
+    matches `text_pattern`. `of_attachment` says that its texts name an attachment by its index.
     """
 
     name: str
@@ -81,40 +87,65 @@ FAMILIES = (
     Family(
         "mixed-sample-counts",
         ("mixed-sample-counts",),
-        _ids("01418 09430 09431 09456 06868 06869 06870 06872 01417 03071 01506 03070 06857 06858 09429"),
+        _ids(
+            "01418 09430 09431 09456 06868 06869 06870 06872 01417 03071 01506 03070 06857 06858 "
+            "09429"
+        ),
         "attachments of one subpass or rendering differ in their sample counts",
         rf"{_SUBPASS}|VkRenderingInfo",
-        r"[Ss]ubpass.*(sample|color).*(differ|inconsistent|match|same)|sample count.*(differ|inconsistent|match|same)"
+        r"[Ss]ubpass.*(sample|color).*(differ|inconsistent|match|same)|sample "
+        r"count.*(differ|inconsistent|match|same)"
         r"|MultisampledRenderToSingleSampled.*not VK_SAMPLE_COUNT_1",
         scope=CheckScope(
-            when=(("subpass", "!subpass.mixed_depth_stencil_samples", "it checks depth and stencil against color, not against each other"),)
+            when=(
+                (
+                    "subpass",
+                    "!subpass.mixed_depth_stencil_samples",
+                    "it checks depth and stencil against color, not against each other",
+                ),
+            )
         ),
     ),
     Family(
         "rasterization-samples",
         ("rasterization-samples-mismatch",),
-        _ids("06853 06854 00757 01505 01411 01412 04740 07284 07285 07286 07287 08644 07935 09211 06185 06186 06187 07474 06856"),
+        _ids(
+            "06853 06854 00757 01505 01411 01412 04740 07284 07285 07286 07287 08644 07935 09211 "
+            "06185 06186 06187 07474 06856"
+        ),
         "a pipeline's rasterizationSamples is not the sample count of what it draws to",
         r"VkGraphicsPipelineCreateInfo|vkCmdDraw\w*",
-        r"(rasterizationSamples|PipelineMultisampleState|VkPipeline|sample count).*(match|equal|!=|same)",
+        r"(rasterizationSamples|PipelineMultisampleState|VkPipeline|sample "
+        r"count).*(match|equal|!=|same)",
         scope=CheckScope(
-            when=(("pipeline", "!pipeline.samples_dynamic", "it checks the count in the pipeline, not one set by a command"),)
+            when=(
+                (
+                    "pipeline",
+                    "!pipeline.samples_dynamic",
+                    "it checks the count in the pipeline, not one set by a command",
+                ),
+            )
         ),
     ),
     Family(
         "multisampled-image",
         ("multisampled-image-invalid",),
         _ids("02257 06411 02558 02083 10253 06883 00973 00974 00975 00976 04460"),
-        "a multisampled image has mip levels, is not 2D, is cube compatible, has linear tiling, or else requires one sample",
+        "a multisampled image has mip levels, is not 2D, is cube compatible, has linear tiling, or "
+        "else requires one sample",
         _IMAGE,
         r"([Mm]ulti-?sampl|samples).*(mips|mipLevels|VK_IMAGE_TYPE_2D|CUBE_COMPATIBLE)",
-        scope=CheckScope(instead="what an image is created with: confirm creates no swapchain, and no sparse image"),
+        scope=CheckScope(
+            instead="what an image is created with: confirm creates no swapchain, and no sparse "
+            "image"
+        ),
     ),
     Family(
         "single-sampled-render",
         ("single-sampled-render-invalid",),
         _ids("06859 06871 06878 06880 06881 06882 07009 07010"),
-        "multisampled rendering to a single-sampled attachment lacks the feature, or the attachment the creation flag",
+        "multisampled rendering to a single-sampled attachment lacks the feature, or the "
+        "attachment the creation flag",
         r"VkRenderingInfo|VkFramebufferCreateInfo|VkImageCreateInfo",
         r"MULTISAMPLED_RENDER_TO_SINGLE_SAMPLED_BIT_EXT",
         scope=CheckScope(device=True),
@@ -131,7 +162,8 @@ FAMILIES = (
         "lazy-memory",
         ("lazily-allocated-without-transient",),
         _ids("01047 01615"),
-        "an image that is not a transient attachment is bound to a memory type that its requirements exclude",
+        "an image that is not a transient attachment is bound to a memory type that its "
+        "requirements exclude",
         r"vkBindImageMemory|VkBindImageMemoryInfo",
         r"memoryTypeBits|[mM]emory[ _]type",
         scope=CheckScope(lazy=True),
@@ -141,7 +173,9 @@ FAMILIES = (
         ("load-from-undefined",),
         (
             *_ids("06699 06700 06704 06705 vkCreateRenderPass-attatchment"),
-            *_ids("vkCreateRenderPass-attachment-color-depth vkCreateRenderPass-attachment-stencil"),
+            *_ids(
+                "vkCreateRenderPass-attachment-color-depth vkCreateRenderPass-attachment-stencil"
+            ),
         ),
         "an attachment is loaded from the layout UNDEFINED",
         _ATTACHMENT,
@@ -154,7 +188,8 @@ FAMILIES = (
         _ids("00847 03065 09335 03177 06862"),
         "a resolve has a target without a source, or a mode without a target",
         rf"{_SUBPASS}|{_DEPTH_RESOLVE}|{_RENDERING}",
-        r"resolve (from|attachment).*VK_ATTACHMENT_UNUSED|resolveImageView must not be VK_NULL_HANDLE",
+        r"resolve (from|attachment).*VK_ATTACHMENT_UNUSED|resolveImageView must not be "
+        r"VK_NULL_HANDLE",
     ),
     Family(
         "resolve-source-samples",
@@ -162,7 +197,8 @@ FAMILIES = (
         _ids("00848 03066 09338 03179 06861 00257"),
         "the source of a resolve has one sample",
         rf"{_SUBPASS}|{_DEPTH_RESOLVE}|{_RENDERING}|{_RESOLVE}",
-        r"resolve from.*SAMPLE_COUNT_1|srcImage sample count is VK_SAMPLE_COUNT_1|DepthStencilAttachment has sample count"
+        r"resolve from.*SAMPLE_COUNT_1|srcImage sample count is "
+        r"VK_SAMPLE_COUNT_1|DepthStencilAttachment has sample count"
         r"|(imageView|Image sample count).* must not have a VK_SAMPLE_COUNT_1",
     ),
     Family(
@@ -180,7 +216,8 @@ FAMILIES = (
         _ids("00850 03068 09339 03181 03182 06865 01386"),
         "the source and the target of a resolve differ in format",
         rf"{_SUBPASS}|{_DEPTH_RESOLVE}|{_RENDERING}|{_RESOLVE}",
-        r"different format|must have the same (VkFormat|number of bits)|[Ff]ormat.*(differ|not equal|identical|match)",
+        r"different format|must have the same (VkFormat|number of bits)|[Ff]ormat.*(differ|not "
+        r"equal|identical|match)",
     ),
     Family(
         "depth-resolve-modes-none",
@@ -193,10 +230,15 @@ FAMILIES = (
     Family(
         "depth-resolve-modes",
         ("depth-resolve-mode-unsupported", "depth-averaged", "stencil-resolve-average"),
-        _ids("03183 03184 03185 03186 06102 06103 06104 06105 06874 06875 06876 06877 10989 10990 10991 10992"),
-        "depth or stencil is resolved with a mode, or a pair of modes, that the device does not support",
+        _ids(
+            "03183 03184 03185 03186 06102 06103 06104 06105 06874 06875 06876 06877 10989 10990 "
+            "10991 10992"
+        ),
+        "depth or stencil is resolved with a mode, or a pair of modes, that the device does not "
+        "support",
         rf"{_DEPTH_RESOLVE}|VkRenderingInfo|VkResolveImageInfo2",
-        r"supported(Depth|Stencil)ResolveModes|invalid (depth|stencil)ResolveMode|independentResolve"
+        r"supported(Depth|Stencil)ResolveModes|invalid "
+        r"(depth|stencil)ResolveMode|independentResolve"
         r"|stencilResolveMode \(\w+\) must be identical|resolveMode structure with invalid mode",
         scope=CheckScope(device=True),
     ),
@@ -204,17 +246,22 @@ FAMILIES = (
         "depth-resolve-structure",
         ("depth-resolve-unavailable",),
         ("VkSubpassDescription2-pNext-pNext",),
-        "a depth-stencil resolve is chained to a subpass without Vulkan 1.2 or VK_KHR_depth_stencil_resolve",
+        "a depth-stencil resolve is chained to a subpass without Vulkan 1.2 or "
+        "VK_KHR_depth_stencil_resolve",
         scope=CheckScope(device=True),
     ),
     Family(
         "color-resolve-mode",
         ("color-resolve-mode-invalid",),
         _ids("06130 06129 10983 10984 10985"),
-        "integers are resolved with a mode other than SAMPLE_ZERO, or other colors with a mode other than AVERAGE",
+        "integers are resolved with a mode other than SAMPLE_ZERO, or other colors with a mode "
+        "other than AVERAGE",
         rf"{_RENDERING}|{_RESOLVE}",
         r"[rR]esolve ?[mM]ode.*for (non-)?integer formats",
-        scope=CheckScope(instead="the modes of renderings; those of commands with VK_KHR_maintenance10, which confirm does not enable"),
+        scope=CheckScope(
+            instead="the modes of renderings; those of commands with VK_KHR_maintenance10, which "
+            "confirm does not enable"
+        ),
     ),
     Family(
         "depth-resolve-command",
@@ -223,7 +270,9 @@ FAMILIES = (
         "a command resolves depth or stencil without maintenance10, or without a mode",
         rf"VkImageResolve2?|{_RESOLVE}",
         r"aspectMask.*(COLOR|maintenance10)|VkResolveImageModeInfoKHR",
-        scope=CheckScope(instead="resolves without VK_KHR_maintenance10, which confirm does not enable"),
+        scope=CheckScope(
+            instead="resolves without VK_KHR_maintenance10, which confirm does not enable"
+        ),
     ),
     Family(
         "image-usage",
@@ -232,7 +281,10 @@ FAMILIES = (
         "an attachment, or an image of a resolve command, lacks the usage that this requires",
         rf"VkFramebufferCreateInfo|VkRenderingInfo|{_RESOLVE}",
         r"VK_IMAGE_USAGE_\w+",
-        scope=CheckScope(instead="framebuffers, renderings, and commands; resolve targets of renderings since 1.3.278"),
+        scope=CheckScope(
+            instead="framebuffers, renderings, and commands; resolve targets of renderings since "
+            "1.3.278"
+        ),
     ),
     Family(
         "layout-usage",
@@ -257,16 +309,22 @@ FAMILIES = (
         "a framebuffer is larger than an image in it, or a render area than its framebuffer",
         r"VkFramebufferCreateInfo|VkRenderPassBeginInfo",
         r"(width|height).*(smaller|less|greater)",
-        scope=CheckScope(instead="the framebuffers and render areas of confirm, which are as small as their images"),
+        scope=CheckScope(
+            instead="the framebuffers and render areas of confirm, which are as small as their "
+            "images"
+        ),
     ),
     Family(
         "copy-samples",
         ("copy-sample-count-invalid",),
         _ids("00136 00233 00234 07973 00188 00179"),
-        "a copy is between different sample counts, or a blit or a copy of a buffer has a multisampled image",
+        "a copy is between different sample counts, or a blit or a copy of a buffer has a "
+        "multisampled image",
         r"(vkCmd|Vk)(Copy|Blit)\w*",
         r"SAMPLE_COUNT",
-        scope=CheckScope(instead="copies and blits between images: confirm records none from or to buffers"),
+        scope=CheckScope(
+            instead="copies and blits between images: confirm records none from or to buffers"
+        ),
     ),
     Family(
         "sample-shading-feature",
@@ -290,7 +348,8 @@ FAMILIES = (
         "storage-image-multisample-feature",
         ("storage-image-multisample-feature-missing",),
         _ids("00968 02538"),
-        "a multisampled image has the usage STORAGE without the feature shaderStorageImageMultisample",
+        "a multisampled image has the usage STORAGE without the feature "
+        "shaderStorageImageMultisample",
         _IMAGE,
         r"shaderStorageImageMultisample",
         scope=CheckScope(device=True),
@@ -302,7 +361,15 @@ FAMILIES = (
         "minSampleShading is not from 0 to 1",
         r"VkPipelineMultisampleStateCreateInfo",
         r"minSampleShading",
-        scope=CheckScope(when=(("pipeline", "pipeline.sample_shading", "it checks minSampleShading only with sample shading enabled"),)),
+        scope=CheckScope(
+            when=(
+                (
+                    "pipeline",
+                    "pipeline.sample_shading",
+                    "it checks minSampleShading only with sample shading enabled",
+                ),
+            )
+        ),
     ),
     Family(
         "alpha-to-coverage-output",
@@ -352,7 +419,12 @@ FAMILIES = (
     ),
     Family(
         "image-requires-memory",
-        ("multisampled-attachment-stored", "multisampled-attachment-loaded", "multisampled-depth-stored", "multisampled-stencil-stored"),
+        (
+            "multisampled-attachment-stored",
+            "multisampled-attachment-loaded",
+            "multisampled-depth-stored",
+            "multisampled-stencil-stored",
+        ),
         ("image-requires-memory",),
         "a multisampled attachment is loaded or stored",
         scope=CheckScope(passes=(RENDER_PASS,)),
@@ -371,7 +443,15 @@ FAMILIES = (
         ("attachment-needs-readback",),
         "an attachment is loaded",
         scope=CheckScope(
-            passes=LEGACY, vendors=MOBILE, when=(("aspect", _DRAWN_LOAD, "it checks loads of what is drawn to, not clears and stores"),)
+            passes=LEGACY,
+            vendors=MOBILE,
+            when=(
+                (
+                    "aspect",
+                    _DRAWN_LOAD,
+                    "it checks loads of what is drawn to, not clears and stores",
+                ),
+            ),
         ),
         of_attachment=True,
     ),
@@ -390,15 +470,30 @@ FAMILIES = (
     ),
     Family(
         "redundant-store",
-        ("multisampled-attachment-stored", "multisampled-depth-stored", "multisampled-stencil-stored", "stored-then-discarded"),
+        (
+            "multisampled-attachment-stored",
+            "multisampled-depth-stored",
+            "multisampled-stencil-stored",
+            "stored-then-discarded",
+        ),
         ("RenderPass-redundant-store",),
         "a pass clears what the previous pass stored",
         scope=CheckScope(passes=LEGACY, vendors=MOBILE, instead="what a later pass clears"),
     ),
     Family(
         "transfer-then-loaded",
-        ("copied-then-loaded", "clear-command-instead-of-load-op", "multisampled-attachment-loaded", "framebuffer-readback"),
-        ("RenderPass-inefficient-clear", "blitimage-loadopload", "copyimage-loadopload", "resolveimage-loadopload"),
+        (
+            "copied-then-loaded",
+            "clear-command-instead-of-load-op",
+            "multisampled-attachment-loaded",
+            "framebuffer-readback",
+        ),
+        (
+            "RenderPass-inefficient-clear",
+            "blitimage-loadopload",
+            "copyimage-loadopload",
+            "resolveimage-loadopload",
+        ),
         "a pass loads what a clear, copy, blit or resolve command wrote",
         scope=CheckScope(passes=LEGACY, vendors=MOBILE, instead="what transfer commands wrote"),
     ),
@@ -407,7 +502,9 @@ FAMILIES = (
         ("clear-value-without-clear",),
         ("ClearValueWithoutLoadOpClear",),
         "a pass begins with clear values but clears no attachment",
-        scope=CheckScope(passes=LEGACY, instead="the clear values that confirm passes, one per attachment"),
+        scope=CheckScope(
+            passes=LEGACY, instead="the clear values that confirm passes, one per attachment"
+        ),
     ),
     Family(
         "clear-before-draw",
@@ -421,7 +518,11 @@ FAMILIES = (
         ("resolve-mode-none",),
         ("ResolveModeNone",),
         "a rendering has a resolve image, but its resolve mode is NONE",
-        scope=CheckScope(passes=(RENDERING,), since=(1, 3, 278), when=(("resolve", 'resolve.aspect == "color"', "it checks color only"),)),
+        scope=CheckScope(
+            passes=(RENDERING,),
+            since=(1, 3, 278),
+            when=(("resolve", 'resolve.aspect == "color"', "it checks color only"),),
+        ),
     ),
     Family(
         "resolving-image",
@@ -430,7 +531,13 @@ FAMILIES = (
         "an image is resolved by vkCmdResolveImage",
         scope=CheckScope(
             vendors=("arm",),
-            when=(("resolve", 'resolve.aspect == "color"', "it checks color: confirm does not enable VK_KHR_maintenance10"),),
+            when=(
+                (
+                    "resolve",
+                    'resolve.aspect == "color"',
+                    "it checks color: confirm does not enable VK_KHR_maintenance10",
+                ),
+            ),
         ),
     ),
     Family(
@@ -443,12 +550,20 @@ FAMILIES = (
     Family(
         "amd-render-targets",
         ("attachment-blocks-compression",),
-        ("vkImage-AvoidConcurrentRenderTargets", "vkImage-DontUseMutableRenderTargets", "vkImage-DontUseStorageRenderTargets"),
+        (
+            "vkImage-AvoidConcurrentRenderTargets",
+            "vkImage-DontUseMutableRenderTargets",
+            "vkImage-DontUseStorageRenderTargets",
+        ),
         "a render target has STORAGE usage, MUTABLE_FORMAT or CONCURRENT sharing",
         scope=CheckScope(
             vendors=("amd",),
             when=(
-                ("image", _AMD, "it checks usage and flags; sharing only with several queue families"),
+                (
+                    "image",
+                    _AMD,
+                    "it checks usage and flags; sharing only with several queue families",
+                ),
                 ("image", _ATTACHABLE, "it checks images with the usage of an attachment"),
             ),
         ),
@@ -458,7 +573,10 @@ FAMILIES = (
         ("attachment-blocks-compression",),
         ("CreateImage-TilingLinear",),
         "an image has linear tiling",
-        scope=CheckScope(vendors=("nvidia",), when=(("image", 'image.tiling == "LINEAR"', "it checks tiling only"),)),
+        scope=CheckScope(
+            vendors=("nvidia",),
+            when=(("image", 'image.tiling == "LINEAR"', "it checks tiling only"),),
+        ),
     ),
 )
 """In the order of the documentation: what Vulkan forbids, then what best practices recommend."""

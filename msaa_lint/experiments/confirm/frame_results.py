@@ -15,8 +15,8 @@ SAMPLES_OF = ":samples"
 
 
 class PassOutcome(NamedTuple):
-    """The outcome of one pass. `end` is empty where it went through, otherwise `died`, `timed-out` or `left`, and `reason`
-    says why. `failed` is whether this program failed at it.
+    """The outcome of one pass. `end` is empty where it went through, otherwise `died`, `timed-out`
+    or `left`, and `reason` says why. `failed` is whether this program failed at it.
 
     `created` is None where the child did not report it. `times` are in milliseconds.
     """
@@ -35,11 +35,13 @@ class PassOutcome(NamedTuple):
 
 
 class FrameRun(NamedTuple):
-    """The outcome of a frame: each pass, messages about no pass in particular, and the images that were read back, by name.
+    """The outcome of a frame: each pass, messages about no pass in particular, and the images that
+    were read back, by name.
 
-    `images` of which `defined` is false hold poison (scene.py), and `defined` are those with defined contents that were not read back.
-    `whole` says whether all requested passes went through in one run; only then are the contents of the images meaningful. `failed` says
-    why a pass, or the frame as a whole, failed inside this program.
+    `images` of which `defined` is false hold poison (scene.py), and `defined` are those with
+    defined contents that were not read back. `whole` says whether all requested passes went through
+    in one run; only then are the contents of the images meaningful. `failed` says why a pass, or
+    the frame as a whole, failed inside this program.
     """
 
     passes: Mapping[int, PassOutcome]
@@ -65,8 +67,17 @@ class RunCollector:
         """The outcome of a pass."""
         outcome = self._passes.get(number)
         if outcome is None:
-            return PassOutcome(number, end="left", reason=self.failed or "the child process reported nothing about it", failed=True)
-        return outcome._replace(end="left", reason=self.failed, failed=True) if self.failed and self.at == number else outcome
+            return PassOutcome(
+                number,
+                end="left",
+                reason=self.failed or "the child process reported nothing about it",
+                failed=True,
+            )
+        return (
+            outcome._replace(end="left", reason=self.failed, failed=True)
+            if self.failed and self.at == number
+            else outcome
+        )
 
     def add(self, event: Event) -> None:
         """Takes up an event."""
@@ -88,11 +99,15 @@ class RunCollector:
                 self.at = number
             elif kind == "created":
                 created = event["ok"] and outcome.created is not False
-                outcome = outcome._replace(created=created, error=str(event.get("error") or outcome.error))
+                outcome = outcome._replace(
+                    created=created, error=str(event.get("error") or outcome.error)
+                )
             elif kind == "message" and len(outcome.messages) < MAX_MESSAGES:
                 outcome = outcome._replace(messages=(*outcome.messages, event))
             elif kind == "message":
                 outcome = outcome._replace(dropped=outcome.dropped + 1)
             elif kind == "time":
-                outcome = outcome._replace(times=(*outcome.times, float(event["ms"])), source=str(event.get("source", "")))
+                outcome = outcome._replace(
+                    times=(*outcome.times, float(event["ms"])), source=str(event.get("source", ""))
+                )
             self._passes[number] = outcome

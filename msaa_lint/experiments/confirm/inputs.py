@@ -1,4 +1,6 @@
-"""The documents to confirm: found, read and linted as by `check`, each with its version after safe fixes."""
+"""The documents to confirm: found, read and linted as by `check`, each with its version after safe
+fixes.
+"""
 
 from __future__ import annotations
 
@@ -29,10 +31,12 @@ from msaa_lint.linter.workspace import Workspace
 class Input(NamedTuple):
     """A document: its frame as written and, if safe fixes change its text, as fixed.
 
-    `findings` are those of the document, `silenced` those that a comment suppresses, `undecided` the undecided rules; `mended` are the
-    findings that the fixes removed. `device` is the profile that it is linted for. `number` is its index among the `many` documents of a
-    stream. For a frame described in terms of Metal, `by_vulkan` has the findings and the undecided rules of the equivalent Vulkan frame.
-    `subjects` are the frame's, with the facts that hold for all kinds of frame of its program; None if only the frame is known.
+    `findings` are those of the document, `silenced` those that a comment suppresses, `undecided`
+    the undecided rules; `mended` are the findings that the fixes removed. `device` is the profile
+    that it is linted for. `number` is its index among the `many` documents of a stream. For a frame
+    described in terms of Metal, `by_vulkan` has the findings and the undecided rules of the
+    equivalent Vulkan frame. `subjects` are the frame's, with the facts that hold for all kinds of
+    frame of its program; None if only the frame is known.
     """
 
     file: str
@@ -55,8 +59,9 @@ class Input(NamedTuple):
 
 
 class Inputs(NamedTuple):
-    """The documents to confirm, findings that say why others cannot be, lines for standard error, and the address of the documentation in
-    the settings of the current folder."""
+    """The documents to confirm, findings that say why others cannot be, lines for standard error,
+    and the address of the documentation in the settings of the current folder.
+    """
 
     inputs: list[Input]
     wrong: list[Finding]
@@ -74,7 +79,12 @@ def inputs(request: Request) -> Inputs:
         with workspace.reading(path) as read, workspace.guard(path):
             found += of_file(workspace, path)
         findings += read.findings
-    return Inputs(found, errors(workspace, findings), list(discovered.notes), workspace.current.settings.docs_url)
+    return Inputs(
+        found,
+        errors(workspace, findings),
+        list(discovered.notes),
+        workspace.current.settings.docs_url,
+    )
 
 
 def errors(workspace: Workspace, findings: Sequence[Finding]) -> list[Finding]:
@@ -83,22 +93,31 @@ def errors(workspace: Workspace, findings: Sequence[Finding]) -> list[Finding]:
 
 
 def of_file(workspace: Workspace, path: str) -> list[Input]:
-    """The documents of an input, none after adding a finding to the workspace if it cannot be confirmed."""
+    """The documents of an input, none after adding a finding to the workspace if it cannot be
+    confirmed.
+    """
     file = workspace.open(path)
     if file is None:
         return []
     data = file.data
     if isinstance(data, SourceFile):
-        message = "source code does not describe a complete frame: complete the description that `msaa-lint convert` writes of it"
+        message = (
+            "source code does not describe a complete frame: complete the description that "
+            "`msaa-lint convert` writes of it"
+        )
         workspace.findings.append(diagnostic("MSAA921", message, file.name))
         return []
     if not isinstance(data, bytes):
         # What is confirmed is the description that a capture is converted to.
         if data.broken:
-            workspace.findings.append(diagnostic("MSAA901", f"the capture ends in the middle: {data.broken}", file.name))
+            workspace.findings.append(
+                diagnostic("MSAA901", f"the capture ends in the middle: {data.broken}", file.name)
+            )
         workspace.findings.extend(limit_findings(data))
         data = data.source.text.encode()
-        file = file._replace(data=data, options=file.options._replace(format=None, limits=UNLIMITED))
+        file = file._replace(
+            data=data, options=file.options._replace(format=None, limits=UNLIMITED)
+        )
     result = unmerged(file.lint())
     errors = [finding for finding in result.findings if finding.fatal]
     workspace.findings.extend(errors)
@@ -107,8 +126,13 @@ def of_file(workspace: Workspace, path: str) -> list[Input]:
     has_fix = any(finding.fix is not None for finding in result.findings)
     fixed = fix_input(data, result, file.lint, lambda _: True, False, None) if has_fix else None
     frames = [Frame(document.document) for document in result.documents]
-    devices = [profile(document.document.description, file.resolved.device) for document in result.documents]
-    facts = subjects_of([FrameAnalysis(frame, device) for frame, device in zip(frames, devices, strict=True)])
+    devices = [
+        profile(document.document.description, file.resolved.device)
+        for document in result.documents
+    ]
+    facts = subjects_of(
+        [FrameAnalysis(frame, device) for frame, device in zip(frames, devices, strict=True)]
+    )
     # Each frame has the findings about it, also those that `check` reports once for several frames.
     each = unmerged(result)
     return [
@@ -118,11 +142,20 @@ def of_file(workspace: Workspace, path: str) -> list[Input]:
 
 
 def _input(
-    file: InputFile, result: FileResult, document: DocumentResult, fixed: FixedText | None, frame: Frame, subjects: tuple[Subject, ...]
+    file: InputFile,
+    result: FileResult,
+    document: DocumentResult,
+    fixed: FixedText | None,
+    frame: Frame,
+    subjects: tuple[Subject, ...],
 ) -> Input:
     many = len(result.documents)
     prefix = _prefix(document.number, many)
-    settled = [finding for finding in map(file.resolved.selection.settle, result.findings) if finding is not None]
+    settled = [
+        finding
+        for finding in map(file.resolved.selection.settle, result.findings)
+        if finding is not None
+    ]
     input = Input(
         file.name,
         frame,
@@ -131,7 +164,9 @@ def _input(
         fixed=_fixed(fixed, document.number),
         mended=_own(fixed.fixed_findings if fixed is not None else (), prefix),
         undecided=tuple(
-            rule._replace(subject=rule.subject.removeprefix(prefix)) for rule in result.undecided if rule.subject.startswith(prefix)
+            rule._replace(subject=rule.subject.removeprefix(prefix))
+            for rule in result.undecided
+            if rule.subject.startswith(prefix)
         ),
         device=profile(document.document.description, file.resolved.device),
         number=document.number,
@@ -142,7 +177,9 @@ def _input(
         return input
     # The validation layer that the rules are compared with is Vulkan's.
     vulkan = document.document._replace(metal=document.document.metal._replace(api="VULKAN"))
-    verdicts, _ = file.resolved.engine.linter.lint_document(vulkan, file.name, file.options._replace(device=input.device))
+    verdicts, _ = file.resolved.engine.linter.lint_document(
+        vulkan, file.name, file.options._replace(device=input.device)
+    )
     # Metal has no usage for copies and resolves.
     findings = [finding for finding in verdicts.findings if finding.rule != "image-usage-missing"]
     return input._replace(by_vulkan=(findings, verdicts.undecided))
@@ -157,7 +194,9 @@ def _fixed(mended: FixedText | None, number: int) -> Frame | None:
     if mended is None or not mended.changed or number >= len(mended.result.documents):
         return None
     if (
-        not any(finding.subject.startswith(f"documents[{number}].") for finding in mended.fixed_findings)
+        not any(
+            finding.subject.startswith(f"documents[{number}].") for finding in mended.fixed_findings
+        )
         and len(mended.result.documents) > 1
     ):
         return None
@@ -168,7 +207,11 @@ def _own(findings: Sequence[Finding], prefix: str) -> tuple[Finding, ...]:
     """The findings of one document of a stream, with subjects relative to it."""
     if not prefix:
         return tuple(findings)
-    return tuple(f._replace(subject=f.subject.removeprefix(prefix)) for f in findings if f.subject.startswith(prefix))
+    return tuple(
+        f._replace(subject=f.subject.removeprefix(prefix))
+        for f in findings
+        if f.subject.startswith(prefix)
+    )
 
 
 def of_pass(frame: Frame, described: Pass, findings: Sequence[Finding]) -> list[Finding]:
@@ -177,8 +220,9 @@ def of_pass(frame: Frame, described: Pass, findings: Sequence[Finding]) -> list[
 
 
 def concerns(frame: Frame, described: Pass, path: str) -> bool:
-    """Whether a path concerns a pass: the pass itself, its images, framebuffers and pipelines, and the commands on them. A path of no pass
-    in particular concerns every pass."""
+    """Whether a path concerns a pass: the pass itself, its images, framebuffers and pipelines, and
+    the commands on them. A path of no pass in particular concerns every pass.
+    """
     return _owners(frame).has(described, path)
 
 
@@ -212,12 +256,28 @@ def _owners(frame: Frame) -> _Owners:
 
 
 def _paths(frame: Frame, described: Pass) -> set[str]:
-    images = {target.name for attachment in described.attachments for target in attachment.targets if target.image is not None}
-    images.update(r.target_image.name for r in described.resolves if r.target_image is not None and r.target_image.image is not None)
-    paths = {described.path, *(frame.targets[name].path for name in images if name in frame.targets)}
+    images = {
+        target.name
+        for attachment in described.attachments
+        for target in attachment.targets
+        if target.image is not None
+    }
+    images.update(
+        r.target_image.name
+        for r in described.resolves
+        if r.target_image is not None and r.target_image.image is not None
+    )
+    paths = {
+        described.path,
+        *(frame.targets[name].path for name in images if name in frame.targets),
+    }
     paths.update(pipeline.path for pipeline, of in frame.pipelines if of is described or of is None)
     paths.update(framebuffer.path for framebuffer in frame.framebuffers.get(described.name, ()))
     for position in described.begun:
         paths.add(frame.commands[position].path)
-    paths.update(command.path for command in frame.commands if any(name in images for name, _ in accesses(command)))
+    paths.update(
+        command.path
+        for command in frame.commands
+        if any(name in images for name, _ in accesses(command))
+    )
     return paths

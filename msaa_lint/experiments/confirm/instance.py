@@ -1,6 +1,7 @@
 """Vulkan instances and logical devices as context managers.
 
-A process can have only one debug messenger at a time: the package `vulkan` has a single callback for all of them.
+A process can have only one debug messenger at a time: the package `vulkan` has a single callback
+for all of them.
 """
 
 from __future__ import annotations
@@ -11,17 +12,35 @@ from contextlib import suppress
 from types import TracebackType
 from typing import Any, NamedTuple
 
-from .binding import chain, extensions, instance_version, layers, load, packed, physical_name, procedure, text
+from .binding import (
+    chain,
+    extensions,
+    instance_version,
+    layers,
+    load,
+    packed,
+    physical_name,
+    procedure,
+    text,
+)
 from .vulkan_errors import Unusable, VulkanError
 
-DRIVER = "the Vulkan loader finds no driver: install one; on Debian run `apt install mesa-vulkan-drivers`, which needs no GPU"
+DRIVER = (
+    "the Vulkan loader finds no driver: install one; on Debian run `apt install "
+    "mesa-vulkan-drivers`, which needs no GPU"
+)
 LAYER = "the layer {} is not installed{}"
-PACKAGES = {"VK_LAYER_KHRONOS_validation": "vulkan-validationlayers", "VK_LAYER_LUNARG_gfxreconstruct": "gfxreconstruct"}
+PACKAGES = {
+    "VK_LAYER_KHRONOS_validation": "vulkan-validationlayers",
+    "VK_LAYER_LUNARG_gfxreconstruct": "gfxreconstruct",
+}
 """The Debian packages of layers."""
 
 
 class Message(NamedTuple):
-    """A message of a layer, the loader or a driver. `severity` is error, warning, info or verbose; `id` is the name of the message id."""
+    """A message of a layer, the loader or a driver. `severity` is error, warning, info or verbose;
+    `id` is the name of the message id.
+    """
 
     severity: str
     id: str
@@ -36,11 +55,13 @@ _listening = False
 
 
 class Instance:
-    """A Vulkan instance: `with Instance() as instance:`. It is destroyed at the end, with its messenger.
+    """A Vulkan instance: `with Instance() as instance:`. It is destroyed at the end, with its
+    messenger.
 
-    `layers` and `extensions` are enabled; `on_message` receives messages of the `severities`; `following` are structures for pNext, such as
-    VkValidationFeaturesEXT; `api` is the highest version to request. An exception in `on_message` cannot pass through the C code and is
-    stored in `sink_error`. Unusable if a layer or every driver is missing.
+    `layers` and `extensions` are enabled; `on_message` receives messages of the `severities`;
+    `following` are structures for pNext, such as VkValidationFeaturesEXT; `api` is the highest
+    version to request. An exception in `on_message` cannot pass through the C code and is stored in
+    `sink_error`. Unusable if a layer or every driver is missing.
     """
 
     def __init__(
@@ -76,12 +97,19 @@ class Instance:
             flags = 1
         if self._sink is not None:
             if _listening:
-                raise RuntimeError("there is already a debug messenger, and the package has a single callback")
+                raise RuntimeError(
+                    "there is already a debug messenger, and the package has a single callback"
+                )
             self._extensions["VK_EXT_debug_utils"] = None
             self._following.append(self._messenger_info())
-        application = vk.VkApplicationInfo(pApplicationName="msaa-lint", apiVersion=packed(0, *self.version, 0))
+        application = vk.VkApplicationInfo(
+            pApplicationName="msaa-lint", apiVersion=packed(0, *self.version, 0)
+        )
         create = vk.VkInstanceCreateInfo(
-            flags=flags, pApplicationInfo=application, ppEnabledLayerNames=self.layers, ppEnabledExtensionNames=list(self._extensions)
+            flags=flags,
+            pApplicationInfo=application,
+            ppEnabledLayerNames=self.layers,
+            ppEnabledExtensionNames=list(self._extensions),
         )
         _listening = self._sink is not None
         try:
@@ -96,14 +124,21 @@ class Instance:
             raise
         return self
 
-    def __exit__(self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None) -> None:
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        value: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
         self._close()
 
     def _close(self) -> None:
         global _listening
         if self.handle is not None:
             if self._messenger is not None:
-                procedure(self.handle, "vkDestroyDebugUtilsMessengerEXT")(self.handle, self._messenger, None)
+                procedure(self.handle, "vkDestroyDebugUtilsMessengerEXT")(
+                    self.handle, self._messenger, None
+                )
             self.vk.vkDestroyInstance(self.handle, None)
         self.handle = self._messenger = None
         if self._sink is not None:
@@ -113,19 +148,29 @@ class Instance:
         there = layers() if self.layers else {}
         for name in self.layers:
             if name not in there:
-                package = f"; on Debian run `apt install {PACKAGES[name]}`" if name in PACKAGES else ""
+                package = (
+                    f"; on Debian run `apt install {PACKAGES[name]}`" if name in PACKAGES else ""
+                )
                 raise Unusable(LAYER.format(name, package))
 
     def _messenger_info(self) -> Any:
         vk = self.vk
         return vk.VkDebugUtilsMessengerCreateInfoEXT(
-            messageSeverity=self._severities, messageType=7, pfnUserCallback=self._told, pUserData=None
+            messageSeverity=self._severities,
+            messageType=7,
+            pfnUserCallback=self._told,
+            pUserData=None,
         )
 
     def _told(self, severity: int, kinds: int, data: Any, user: Any) -> int:
         try:
             assert self._sink is not None
-            agreement = Message(_SEVERITIES.get(severity, "error"), text(data.pMessageIdName), text(data.pMessage), data.messageIdNumber)
+            agreement = Message(
+                _SEVERITIES.get(severity, "error"),
+                text(data.pMessageIdName),
+                text(data.pMessage),
+                data.messageIdNumber,
+            )
             self._sink(agreement)
         except BaseException as error:
             self.sink_error = self.sink_error or error
@@ -146,24 +191,35 @@ class Instance:
 
 def no_driver() -> str:
     """The message that there is no driver, with the setting that may be the cause."""
-    for name in ("VK_DRIVER_FILES", "VK_ICD_FILENAMES", "VK_LOADER_DRIVERS_SELECT", "VK_LOADER_DRIVERS_DISABLE"):
+    for name in (
+        "VK_DRIVER_FILES",
+        "VK_ICD_FILENAMES",
+        "VK_LOADER_DRIVERS_SELECT",
+        "VK_LOADER_DRIVERS_DISABLE",
+    ):
         if os.environ.get(name):
             return f"{DRIVER} ({name} is set: {os.environ[name][:200]})"
     return DRIVER
 
 
 class Device:
-    """A logical device with one queue of the first family that supports all of `queue` (VkQueueFlagBits, graphics by default).
+    """A logical device with one queue of the first family that supports all of `queue`
+    (VkQueueFlagBits, graphics by default).
 
-    `with Device(physical) as device:`; at the end it becomes idle and is destroyed. `features` is a VkPhysicalDeviceFeatures2 with chained
-    structures, or a VkPhysicalDeviceFeatures. Unusable if no family supports them.
+    `with Device(physical) as device:`; at the end it becomes idle and is destroyed. `features` is a
+    VkPhysicalDeviceFeatures2 with chained structures, or a VkPhysicalDeviceFeatures. Unusable if no
+    family supports them.
     """
 
-    def __init__(self, physical: Any, extensions: Iterable[str] = (), features: Any = None, queue: int = 1) -> None:
+    def __init__(
+        self, physical: Any, extensions: Iterable[str] = (), features: Any = None, queue: int = 1
+    ) -> None:
         self.vk = load()
         self.physical = physical
         families = list(self.vk.vkGetPhysicalDeviceQueueFamilyProperties(physical))
-        self.family = next((n for n, each in enumerate(families) if each.queueFlags & queue == queue), -1)
+        self.family = next(
+            (n for n, each in enumerate(families) if each.queueFlags & queue == queue), -1
+        )
         if self.family < 0:
             raise Unusable(f"{physical_name(physical)} has no queue that can draw")
         self.timestamp_bits: int = families[self.family].timestampValidBits
@@ -175,7 +231,10 @@ class Device:
     def __enter__(self) -> Device:
         vk = self.vk
         queue = vk.VkDeviceQueueCreateInfo(queueFamilyIndex=self.family, pQueuePriorities=[1.0])
-        old = self._features is not None and vk.ffi.typeof(self._features).cname == "VkPhysicalDeviceFeatures"
+        old = (
+            self._features is not None
+            and vk.ffi.typeof(self._features).cname == "VkPhysicalDeviceFeatures"
+        )
         create = vk.VkDeviceCreateInfo(
             pNext=None if old else self._features,
             pQueueCreateInfos=[queue],
@@ -186,7 +245,12 @@ class Device:
         self.queue = vk.vkGetDeviceQueue(self.handle, self.family, 0)
         return self
 
-    def __exit__(self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None) -> None:
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        value: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
         if self.handle is not None:
             # A lost device can still be destroyed.
             with suppress(VulkanError):

@@ -1,4 +1,6 @@
-"""Times plans in turn, frame by frame, so that a device that slows down or speeds up affects all of them. Only `worker` calls this."""
+"""Times plans in turn, frame by frame, so that a device that slows down or speeds up affects all of
+them. Only `worker` calls this.
+"""
 
 from __future__ import annotations
 
@@ -19,18 +21,24 @@ from .vulkan_errors import VulkanError
 from .workload import Workload
 
 STEADY = 0.01
-"""Clocks are stable when the medians of two successive groups of frames differ by less than this share."""
+"""Clocks are stable when the medians of two successive groups of frames differ by less than this
+share.
+"""
 
 GROUP = 8
 """Frames in a group."""
 
 MIN_SPAN = 0.5
-"""Milliseconds that a measurement takes at least on a GPU: shorter frames are repeated within it, as clocks tick in microseconds."""
+"""Milliseconds that a measurement takes at least on a GPU: shorter frames are repeated within it,
+as clocks tick in microseconds.
+"""
 
 MAX_LOOPS = 32
 
 LONG = 4.0
-"""Milliseconds from which one frame of an item in a round is enough, without one before it that is not counted."""
+"""Milliseconds from which one frame of an item in a round is enough, without one before it that is
+not counted.
+"""
 
 FRAGMENT_INVOCATIONS = 0x80
 """VK_QUERY_PIPELINE_STATISTIC_FRAGMENT_SHADER_INVOCATIONS_BIT."""
@@ -50,16 +58,18 @@ class _Built(NamedTuple):
 
 def run(session: Session, items: Sequence[Any], want: Mapping[str, Any], emit: Emit) -> None:
     """Times items in their JSON form: pairs of a plan and its costs of shading."""
-    restored = [Item(from_json(plan), tuple(Work(*work) for work in works)) for plan, works in items]
+    restored = [
+        Item(from_json(plan), tuple(Work(*work) for work in works)) for plan, works in items
+    ]
     measure(session, restored, TimingOptions(**want), emit)
 
 
 def measure(session: Session, items: Sequence[Item], want: TimingOptions, emit: Emit) -> None:
     """Times items in rounds; each round times every item under each of its costs, in another order.
 
-    The events are `pass` with the number of an item before it is touched, `created`, `warmed`, `invocations` (those of fragment shaders in
-    a pass of the frame, whose number is `of`, where the device counts them), `time` with the item, the cost, the round, and milliseconds,
-    and `done`.
+    The events are `pass` with the number of an item before it is touched, `created`, `warmed`,
+    `invocations` (those of fragment shaders in a pass of the frame, whose number is `of`, where the
+    device counts them), `time` with the item, the cost, the round, and milliseconds, and `done`.
     """
     session.at = None
     session.telling(emit)
@@ -90,7 +100,16 @@ def measure(session: Session, items: Sequence[Item], want: TimingOptions, emit: 
             for each, number in pairs:
                 emit({"event": "pass", "pass": each.number})
                 for ms in timer.times(each, number, want.frames):
-                    emit({"event": "time", "pass": each.number, "work": number, "round": turn, "ms": ms, "source": timer.source})
+                    emit(
+                        {
+                            "event": "time",
+                            "pass": each.number,
+                            "work": number,
+                            "round": turn,
+                            "ms": ms,
+                            "source": timer.source,
+                        }
+                    )
     finally:
         if timer is not None:
             timer.close()
@@ -101,12 +120,18 @@ def measure(session: Session, items: Sequence[Item], want: TimingOptions, emit: 
     emit({"event": "done"})
 
 
-def _built(opened: OpenDevice, items: Sequence[Item], shared: SharedImages, emit: Emit) -> Iterator[_Built]:
+def _built(
+    opened: OpenDevice, items: Sequence[Item], shared: SharedImages, emit: Emit
+) -> Iterator[_Built]:
     """The items that the device can create."""
     for number, item in enumerate(items):
         emit({"event": "pass", "pass": number})
         objects = FrameObjects(opened, item.plan, shared=shared)
-        passes = [n for n, frame_pass in enumerate(item.plan.passes) if not (frame_pass.refused or frame_pass.failed)]
+        passes = [
+            n
+            for n, frame_pass in enumerate(item.plan.passes)
+            if not (frame_pass.refused or frame_pass.failed)
+        ]
         try:
             for each in passes:
                 objects.create_pass(each)
@@ -119,18 +144,24 @@ def _built(opened: OpenDevice, items: Sequence[Item], shared: SharedImages, emit
 
 
 class _Timer:
-    """Draws frames and measures their time. Each is recorded once, as that takes longer than many a frame."""
+    """Draws frames and measures their time. Each is recorded once, as that takes longer than many a
+    frame.
+    """
 
     def __init__(self, opened: OpenDevice, workload: Workload) -> None:
         self.vk, self.opened, self.workload = opened.vk, opened, workload
         self.source = "timestamp" if opened.device.timestamp_bits else "wall"
-        self.software = opened.session.device["properties"]["deviceType"] == self.vk.VK_PHYSICAL_DEVICE_TYPE_CPU
+        self.software = (
+            opened.session.device["properties"]["deviceType"] == self.vk.VK_PHYSICAL_DEVICE_TYPE_CPU
+        )
         self.recorded: dict[tuple[int, int], tuple[Submitter, int]] = {}
         """The commands of an item under one of its costs, and how many frames they draw."""
         self.long: set[tuple[int, int]] = set()
 
     def frame(self, each: _Built, number: int) -> float:
-        """The milliseconds of one frame of an item under one of its costs, as the mean of those that are recorded."""
+        """The milliseconds of one frame of an item under one of its costs, as the mean of those
+        that are recorded.
+        """
         if (each.number, number) not in self.recorded:
             self._record(each, number, 1)
         submitter, loops = self.recorded[each.number, number]
@@ -138,7 +169,10 @@ class _Timer:
 
     def _record(self, each: _Built, number: int, loops: int) -> None:
         """Records some frames of an item under one of its costs, in place of those that were."""
-        submitter, _ = self.recorded.get((each.number, number)) or (Submitter(self.opened, timed=True), 0)
+        submitter, _ = self.recorded.get((each.number, number)) or (
+            Submitter(self.opened, timed=True),
+            0,
+        )
         self.recorded[each.number, number] = submitter, loops
         buffer = submitter.begin(once=False)
         submitter.start()
@@ -160,7 +194,9 @@ class _Timer:
         return recorder
 
     def warm(self, built: Sequence[_Built], seconds: float, emit: Emit) -> None:
-        """Draws the first item until its times are stable, or for `seconds`. A CPU needs no warming."""
+        """Draws the first item until its times are stable, or for `seconds`. A CPU needs no
+        warming.
+        """
         first = built[0]
         if self.software:
             emit({"event": "warmed", "stable": True})
@@ -175,7 +211,9 @@ class _Timer:
         emit({"event": "warmed", "stable": stable})
 
     def prepare(self, each: _Built, emit: Emit) -> None:
-        """Counts the invocations of an item. On a GPU, draws it under each cost twice, and decides how often a frame is repeated."""
+        """Counts the invocations of an item. On a GPU, draws it under each cost twice, and decides
+        how often a frame is repeated.
+        """
         emit({"event": "pass", "pass": each.number})
         for number in range(len(each.works)):
             if self.software:
@@ -188,10 +226,14 @@ class _Timer:
                 self._record(each, number, min(int(MIN_SPAN / span) + 1, MAX_LOOPS))
         if self.opened.session.device["features"].get("pipelineStatisticsQuery"):
             for (frame_pass, _), count in zip(each.segments, self._invocations(each), strict=True):
-                emit({"event": "invocations", "pass": each.number, "of": frame_pass, "count": count})
+                emit(
+                    {"event": "invocations", "pass": each.number, "of": frame_pass, "count": count}
+                )
 
     def times(self, each: _Built, number: int, frames: int) -> Iterator[float]:
-        """The milliseconds of some frames in succession, on a GPU after one that is not counted; of one frame if it is long."""
+        """The milliseconds of some frames in succession, on a GPU after one that is not counted; of
+        one frame if it is long.
+        """
         is_long = (each.number, number) in self.long
         if not (self.software or is_long):
             self.frame(each, number)
@@ -206,7 +248,9 @@ class _Timer:
         vk, handle, size = self.vk, self.opened.handle, len(each.segments)
         if not size:
             return []
-        create = vk.VkQueryPoolCreateInfo(queryType=PIPELINE_STATISTICS, queryCount=size, pipelineStatistics=FRAGMENT_INVOCATIONS)
+        create = vk.VkQueryPoolCreateInfo(
+            queryType=PIPELINE_STATISTICS, queryCount=size, pipelineStatistics=FRAGMENT_INVOCATIONS
+        )
         queries = vk.vkCreateQueryPool(handle, create, None)
         submitter = Submitter(self.opened)
         buffer = submitter.begin()

@@ -1,4 +1,6 @@
-"""What the validation layer checked: its version, the vendors' checks, the device and the kinds of passes."""
+"""What the validation layer checked: its version, the vendors' checks, the device and the kinds of
+passes.
+"""
 
 from __future__ import annotations
 
@@ -14,8 +16,10 @@ LAZILY_ALLOCATED = 0x10
 
 
 class LayerScope(NamedTuple):
-    """What the layer checked. `version` is None if unknown; `kinds` are those of the passes (`families.RENDER_PASS` and others) by number;
-    `lazy_memory` says whether the device offers lazily allocated memory."""
+    """What the layer checked. `version` is None if unknown; `kinds` are those of the passes
+    (`families.RENDER_PASS` and others) by number; `lazy_memory` says whether the device offers
+    lazily allocated memory.
+    """
 
     version: Version | None = None
     vendors: frozenset[str] = frozenset()
@@ -25,9 +29,13 @@ class LayerScope(NamedTuple):
 
 
 def layer_scope(
-    layer: Mapping[str, Any] | None, device: Mapping[str, Any], kinds: Mapping[int, str], vendors: Iterable[str] = ()
+    layer: Mapping[str, Any] | None,
+    device: Mapping[str, Any],
+    kinds: Mapping[int, str],
+    vendors: Iterable[str] = (),
 ) -> LayerScope:
-    """The scope of a session's layer and device, as a child process reports them; malformed values count as unknown.
+    """The scope of a session's layer and device, as a child process reports them; malformed values
+    count as unknown.
 
     `vendors` are those whose checks were requested, used where the layer does not state them.
     """
@@ -39,7 +47,9 @@ def layer_scope(
 
 
 def pass_kind(api: object, rendering: bool) -> str:
-    """The kind of a pass: dynamic rendering, or the version (1, 2) of the structure that creates it."""
+    """The kind of a pass: dynamic rendering, or the version (1, 2) of the structure that creates
+    it.
+    """
     return RENDERING if rendering else RENDER_PASS_2 if api == 2 else RENDER_PASS
 
 

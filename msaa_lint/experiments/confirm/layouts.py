@@ -1,4 +1,6 @@
-"""The current layouts of the images of a frame, and the barriers that confirm adds between its steps."""
+"""The current layouts of the images of a frame, and the barriers that confirm adds between its
+steps.
+"""
 
 from __future__ import annotations
 
@@ -59,12 +61,18 @@ class Layouts:
     def left(self, image: int, layout: int, stencil: int | None = None) -> None:
         """Notes the layout in which a pass or a barrier of the frame leaves an image."""
         for aspect in self._aspects(image):
-            self.known[image, aspect] = stencil if stencil is not None and aspect == STENCIL else layout
+            self.known[image, aspect] = (
+                stencil if stencil is not None and aspect == STENCIL else layout
+            )
 
     def into(self, buffer: Any, requests: Sequence[LayoutRequest]) -> None:
-        """Records the barriers that transition images to the requested layouts. UNDEFINED requests nothing."""
+        """Records the barriers that transition images to the requested layouts. UNDEFINED requests
+        nothing.
+        """
         through_general: list[LayoutRequest] = [
-            (image, GENERAL, None) for image, layout, _ in requests if self._blank(image) and layout in READING
+            (image, GENERAL, None)
+            for image, layout, _ in requests
+            if self._blank(image) and layout in READING
         ]
         if through_general:
             self._barrier(buffer, through_general)
@@ -73,13 +81,19 @@ class Layouts:
     def fence(self, buffer: Any) -> None:
         """Records a full barrier between everything before and everything after."""
         barrier = self.vk.VkMemoryBarrier(srcAccessMask=MEMORY, dstAccessMask=MEMORY)
-        self.vk.vkCmdPipelineBarrier(buffer, EVERYTHING, EVERYTHING, 0, 1, [barrier], 0, None, 0, None)
+        self.vk.vkCmdPipelineBarrier(
+            buffer, EVERYTHING, EVERYTHING, 0, 1, [barrier], 0, None, 0, None
+        )
 
     def _blank(self, image: int) -> bool:
         return all(self.now(image, aspect) == UNDEFINED for aspect in self._aspects(image))
 
     def _aspects(self, image: int) -> list[int]:
-        return [aspect for aspect in (COLOR, DEPTH, STENCIL) if self.built.plan.images[image].aspects & aspect]
+        return [
+            aspect
+            for aspect in (COLOR, DEPTH, STENCIL)
+            if self.built.plan.images[image].aspects & aspect
+        ]
 
     def _barrier(self, buffer: Any, requests: Sequence[LayoutRequest]) -> None:
         vk = self.vk
@@ -98,10 +112,24 @@ class Layouts:
                 before, after = before | old_stages, after | new_stages
                 barriers.append(
                     vk.VkImageMemoryBarrier(
-                        srcAccessMask=old_access, dstAccessMask=new_access, oldLayout=old, newLayout=new,
-                        srcQueueFamilyIndex=0xFFFFFFFF, dstQueueFamilyIndex=0xFFFFFFFF, image=self.built.image(image),
-                        subresourceRange=vk.VkImageSubresourceRange(aspectMask=aspects, levelCount=0xFFFFFFFF, layerCount=0xFFFFFFFF),
+                        srcAccessMask=old_access, dstAccessMask=new_access, oldLayout=old,
+                        newLayout=new,
+                        srcQueueFamilyIndex=0xFFFFFFFF, dstQueueFamilyIndex=0xFFFFFFFF,
+                        image=self.built.image(image),
+                        subresourceRange=vk.VkImageSubresourceRange(aspectMask=aspects,
+                        levelCount=0xFFFFFFFF, layerCount=0xFFFFFFFF),
                     )
                 )  # fmt: skip
         if barriers:
-            vk.vkCmdPipelineBarrier(buffer, before or EVERYTHING, after or EVERYTHING, 0, 0, None, 0, None, len(barriers), barriers)
+            vk.vkCmdPipelineBarrier(
+                buffer,
+                before or EVERYTHING,
+                after or EVERYTHING,
+                0,
+                0,
+                None,
+                0,
+                None,
+                len(barriers),
+                barriers,
+            )

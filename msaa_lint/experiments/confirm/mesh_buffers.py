@@ -1,4 +1,6 @@
-"""Vertex buffers with the triangles of meshes. Only this module of `confirm` imports NumPy, and only if a plan has meshes."""
+"""Vertex buffers with the triangles of meshes. Only this module of `confirm` imports NumPy, and
+only if a plan has meshes.
+"""
 
 from __future__ import annotations
 
@@ -23,7 +25,9 @@ class MeshBuffers(DeviceObjects):
         self._buffers: dict[tuple[int, int], tuple[Any, int]] = {}
 
     def prepare(self, plan: Plan) -> None:
-        """Creates the buffers of a plan's meshes. Nothing may be recorded with the earlier ones any more."""
+        """Creates the buffers of a plan's meshes. Nothing may be recorded with the earlier ones any
+        more.
+        """
         needed: dict[tuple[int, int], int] = {}
         for mesh in (mesh for step in plan.steps for inner in step.inner for mesh in inner.mesh):
             key = (mesh.columns, mesh.rows)
@@ -32,12 +36,16 @@ class MeshBuffers(DeviceObjects):
             triangles = min(triangles, MAX_VERTICES // 3)
             if self._buffers.get(key, (None, 0))[1] < triangles:
                 with self.opened.session.unheard():
-                    buffer, memory = self.opened.buffer(vertices(*key, triangles), properties=DEVICE_MEMORY)
+                    buffer, memory = self.opened.buffer(
+                        vertices(*key, triangles), properties=DEVICE_MEMORY
+                    )
                 self.own(self.vk.vkFreeMemory, memory)
                 self._buffers[key] = self.own(self.vk.vkDestroyBuffer, buffer), triangles
 
     def of(self, mesh: Mesh, draw: int) -> tuple[Any, int]:
-        """The buffer with the triangles of one of a mesh's draws, and the number of the first vertex."""
+        """The buffer with the triangles of one of a mesh's draws, and the number of the first
+        vertex.
+        """
         buffer, triangles = self._buffers[mesh.columns, mesh.rows]
         first = mesh.first + draw * mesh.triangles
         # Of more triangles than a buffer has, the later ones are drawn where others were.
@@ -54,8 +62,9 @@ def mesh_buffers(opened: OpenDevice) -> MeshBuffers:
 
 
 def vertices(columns: int, rows: int, triangles: int) -> bytes:
-    """The first triangles of a mesh in the input format of shaders/scene.vert: cell after cell, row by row, layer by layer, the later ones
-    nearer."""
+    """The first triangles of a mesh in the input format of shaders/scene.vert: cell after cell, row
+    by row, layer by layer, the later ones nearer.
+    """
     import numpy as np
 
     if columns == 0:

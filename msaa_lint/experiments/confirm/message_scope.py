@@ -1,4 +1,6 @@
-"""What a message of the validation layer is about, where it shows: an image that was created or resolved, or an attachment."""
+"""What a message of the validation layer is about, where it shows: an image that was created or
+resolved, or an attachment.
+"""
 
 from __future__ import annotations
 
@@ -19,7 +21,9 @@ _INDEX = re.compile(r"\battachment #?(\d+)\b|\bpAttachments\[(\d+)\]", re.IGNORE
 
 
 class MessageScope(NamedTuple):
-    """The parts of a frame that a message is about: `paths` with everything below them, and the passes with these paths and names."""
+    """The parts of a frame that a message is about: `paths` with everything below them, and the
+    passes with these paths and names.
+    """
 
     paths: frozenset[str]
     pass_paths: frozenset[str]
@@ -43,7 +47,9 @@ class MessageScopes:
     def __init__(self, frame: Frame, subjects: Iterable[Subject]) -> None:
         self._turns: dict[str, list[str]] = {}
         for subject in subjects:
-            names = subject.facts.values.get("image.taking_turns") if subject.kind == "image" else None
+            names = (
+                subject.facts.values.get("image.taking_turns") if subject.kind == "image" else None
+            )
             group = list(map(str, names)) if isinstance(names, list) else []
             self._turns.update(dict.fromkeys(group, group))
         self._by_image: dict[str, list[tuple[str, Pass | None]]] = {}
@@ -56,7 +62,9 @@ class MessageScopes:
                     parts += [(attachment.record.path, described), (target.path, described)]
             for resolve in described.resolves:
                 if resolve.target_image is not None:
-                    self._by_image.setdefault(resolve.target_image.name, []).append((resolve.target_image.path, described))
+                    self._by_image.setdefault(resolve.target_image.name, []).append(
+                        (resolve.target_image.path, described)
+                    )
 
         for command in frame.commands:
             for name, _ in accesses(command):
@@ -64,14 +72,24 @@ class MessageScopes:
                     self._by_image[name].append((command.path, None))
 
     def image(self, name: str) -> MessageScope | None:
-        """The scope of a message about an image and the commands on it, by its name in the plan; None for an unknown image. It includes the
-        images that take turns with it, which have one finding for all of them."""
-        found = [part for each in (name, *self._turns.get(name, ())) for part in self._by_image.get(each, ())]
+        """The scope of a message about an image and the commands on it, by its name in the plan;
+        None for an unknown image. It includes the images that take turns with it, which have one
+        finding for all of them.
+        """
+        found = [
+            part
+            for each in (name, *self._turns.get(name, ()))
+            for part in self._by_image.get(each, ())
+        ]
         return _scope(found) if name in self._by_image else None
 
     @staticmethod
-    def attachment(message: Message, family: Family | None, described: Pass | None) -> MessageScope | None:
-        """The scope of a message about an attachment of a pass; None where its text does not show the index."""
+    def attachment(
+        message: Message, family: Family | None, described: Pass | None
+    ) -> MessageScope | None:
+        """The scope of a message about an attachment of a pass; None where its text does not show
+        the index.
+        """
         if family is None or not family.of_attachment or described is None:
             return None
         match = _INDEX.search(sentence(message.text))
@@ -88,5 +106,7 @@ def _scope(found: Iterable[tuple[str, Pass | None]]) -> MessageScope:
     found = list(found)
     passes = [described for _, described in found if described is not None]
     return MessageScope(
-        frozenset(path for path, _ in found), frozenset(each.path for each in passes), frozenset(each.name for each in passes)
+        frozenset(path for path, _ in found),
+        frozenset(each.path for each in passes),
+        frozenset(each.name for each in passes),
     )

@@ -1,5 +1,6 @@
-"""The outcome of `msaa-lint confirm`: how the validation layer and the rules agree, the verdict on each pass, and the run on each
-device."""
+"""The outcome of `msaa-lint confirm`: how the validation layer and the rules agree, the verdict on
+each pass, and the run on each device.
+"""
 
 from __future__ import annotations
 
@@ -19,7 +20,9 @@ FAILED = "failed"
 SKIPPED = "skipped"
 STATUSES = (CONFIRMED, DISAGREES, REFUSED, DIED, TIMED_OUT, FAILED, SKIPPED)
 WRONG = frozenset({DISAGREES, DIED, TIMED_OUT})
-"""The statuses for which the exit code is 1; for FAILED, it is 2: nothing was learned about the pass."""
+"""The statuses for which the exit code is 1; for FAILED, it is 2: nothing was learned about the
+pass.
+"""
 
 AGREEMENTS = ("both", "ours", "theirs", "explained", "noise")
 
@@ -30,9 +33,10 @@ DEVICE_TYPES = ("OTHER", "INTEGRATED_GPU", "DISCRETE_GPU", "VIRTUAL_GPU", "CPU")
 class AgreementRow(NamedTuple):
     """A message of the layer about a pass, a finding of the rules, or both.
 
-    `verdict` is `both`, `ours` (the layer does not report it), `theirs` (no rule reports it), `explained` (no rule reports it, and `reason`
-    says why that is right) or `noise`. Rows of `ours` have no `id` and no `family`, rows of `theirs` no `rule`. `expected` is true for
-    `ours` where the layer checks exactly this and should have reported it.
+    `verdict` is `both`, `ours` (the layer does not report it), `theirs` (no rule reports it),
+    `explained` (no rule reports it, and `reason` says why that is right) or `noise`. Rows of `ours`
+    have no `id` and no `family`, rows of `theirs` no `rule`. `expected` is true for `ours` where
+    the layer checks exactly this and should have reported it.
     """
 
     verdict: str
@@ -53,7 +57,9 @@ class Times(NamedTuple):
 
 
 class ShownImage(NamedTuple):
-    """An image for a report, as PNG files: as written; and fixed, with the difference, where both versions can be compared."""
+    """An image for a report, as PNG files: as written; and fixed, with the difference, where both
+    versions can be compared.
+    """
 
     image: str
     width: int
@@ -64,9 +70,11 @@ class ShownImage(NamedTuple):
 
 
 class Verdict(NamedTuple):
-    """The verdict on one pass on one device. None means that something was not determined; `notes` say why unless it is obvious. `pictures`
-    are the paths of the files written, and `shown` the images themselves, if a report asked for them. `rules` are the codes and names
-    of the rules whose findings are about the pass."""
+    """The verdict on one pass on one device. None means that something was not determined; `notes`
+    say why unless it is obvious. `pictures` are the paths of the files written, and `shown` the
+    images themselves, if a report asked for them. `rules` are the codes and names of the rules
+    whose findings are about the pass.
+    """
 
     file: str
     name: str
@@ -86,12 +94,19 @@ class Verdict(NamedTuple):
     shown: tuple[ShownImage, ...] = ()
     rules: tuple[tuple[str, str], ...] = ()
 
-    def with_status(self, outcome: PassOutcome | None, fixed: PassOutcome | None, has_errors: bool, left_out: str = "") -> Verdict:
+    def with_status(
+        self,
+        outcome: PassOutcome | None,
+        fixed: PassOutcome | None,
+        has_errors: bool,
+        left_out: str = "",
+    ) -> Verdict:
         """The verdict with its status and reason, for a pass that the device supports.
 
-        `outcome` and `fixed` are those of the pass as written and fixed, None where it did not run; `has_errors` says whether there is a
-        finding of severity error, which accounts for a failed creation; `left_out` says which of its commands Vulkan forbids, so that
-        nothing confirms them.
+        `outcome` and `fixed` are those of the pass as written and fixed, None where it did not run;
+        `has_errors` says whether there is a finding of severity error, which accounts for a failed
+        creation; `left_out` says which of its commands Vulkan forbids, so that nothing confirms
+        them.
         """
         if outcome is None:
             return self._replace(status=SKIPPED, reason=self.reason or "there is nothing to do")
@@ -104,22 +119,35 @@ class Verdict(NamedTuple):
             return verdict._replace(status=SKIPPED, reason=outcome.reason)
         reasons = []
         if outcome.created is False and not has_errors:
-            reasons.append(f"it cannot be created ({outcome.error or 'no reason given'}), but no rule reports an error")
+            reasons.append(
+                f"it cannot be created ({outcome.error or 'no reason given'}), but no rule reports "
+                f"an error"
+            )
         if outcome.created and fixed is not None and fixed.created is False:
-            reasons.append(f"the fixed version cannot be created ({fixed.error or 'no reason given'})")
+            reasons.append(
+                f"the fixed version cannot be created ({fixed.error or 'no reason given'})"
+            )
         theirs = [row for row in self.agreement if row.verdict == "theirs"]
         if theirs:
             more = f" and {len(theirs) - 1} more" if len(theirs) > 1 else ""
             reasons.append(f"the layer reports what no rule does: {theirs[0].id}{more}")
         if self.pixels_equal is False:
             changed = next(image for image in self.images if image.equal is False)
-            reasons.append(f"a fix that is marked safe changes the picture: {changed.image}: {changed.text}")
+            reasons.append(
+                f"a fix that is marked safe changes the picture: {changed.image}: {changed.text}"
+            )
         status = DISAGREES if reasons else REFUSED if left_out else CONFIRMED
-        return verdict._replace(status=status, reason="; ".join([*reasons, *([left_out] if left_out else [])]), agrees=not theirs)
+        return verdict._replace(
+            status=status,
+            reason="; ".join([*reasons, *([left_out] if left_out else [])]),
+            agrees=not theirs,
+        )
 
 
 def pixels_equal(comparisons: Sequence[ImageComparison]) -> bool | None:
-    """Whether the pictures of two versions are equal; None where none was compared, or where one could not be."""
+    """Whether the pictures of two versions are equal; None where none was compared, or where one
+    could not be.
+    """
     results = [comparison.equal for comparison in comparisons if comparison.equal is not None]
     if False in results:
         return False
@@ -142,8 +170,10 @@ class DeviceInfo(NamedTuple):
 
 
 class DeviceRun(NamedTuple):
-    """The verdicts on all passes on one device, or why the device could not be used (`unusable`). `asked` is the device name that the user
-    asked for, `cannot_show` what the times on this device do not show, and `printed` the output of driver and layer."""
+    """The verdicts on all passes on one device, or why the device could not be used (`unusable`).
+    `asked` is the device name that the user asked for, `cannot_show` what the times on this device
+    do not show, and `printed` the output of driver and layer.
+    """
 
     device: DeviceInfo | None
     layer: Mapping[str, Any] | None = None
@@ -170,7 +200,9 @@ class DeviceRun(NamedTuple):
 
 
 def about(device: Mapping[str, Any]) -> DeviceInfo:
-    """A device as its child process describes it. A driver may report anything, so values of the wrong type are ignored."""
+    """A device as its child process describes it. A driver may report anything, so values of the
+    wrong type are ignored.
+    """
     properties = device.get("properties")
     stated: Mapping[str, Any] = properties if isinstance(properties, dict) else device
     name = _text(stated.get("deviceName")) or _text(device.get("name")) or "unnamed device"
@@ -182,10 +214,20 @@ def about(device: Mapping[str, Any]) -> DeviceInfo:
     if isinstance(version, int):
         version = f"{version >> 22 & 0x7F}.{version >> 12 & 0x3FF}.{version & 0xFFF}"
     chained = device.get("VkPhysicalDeviceDriverProperties")
-    driver = " ".join(_text(chained.get(key)) for key in ("driverName", "driverInfo")).strip() if isinstance(chained, dict) else ""
+    driver = (
+        " ".join(_text(chained.get(key)) for key in ("driverName", "driverInfo")).strip()
+        if isinstance(chained, dict)
+        else ""
+    )
     vendor = stated.get("vendorID", 0)
     kind = kind if kind in DEVICE_TYPES else "OTHER"
-    return DeviceInfo(name, kind, _text(version), driver or _text(device.get("driver")), vendor if isinstance(vendor, int) else 0)
+    return DeviceInfo(
+        name,
+        kind,
+        _text(version),
+        driver or _text(device.get("driver")),
+        vendor if isinstance(vendor, int) else 0,
+    )
 
 
 def _text(value: object) -> str:
@@ -200,7 +242,11 @@ def end_status(outcome: PassOutcome | None) -> str | None:
 
 
 def exit_code(runs: Sequence[DeviceRun], wrong: bool) -> int:
-    """2 where an input, a device, or a pass could not be tried, 1 where a pass on some device is wrong, otherwise 0."""
-    if wrong or any(run.unusable or any(verdict.status == FAILED for verdict in run.verdicts) for run in runs):
+    """2 where an input, a device, or a pass could not be tried, 1 where a pass on some device is
+    wrong, otherwise 0.
+    """
+    if wrong or any(
+        run.unusable or any(verdict.status == FAILED for verdict in run.verdicts) for run in runs
+    ):
         return 2
     return int(any(verdict.status in WRONG for run in runs for verdict in run.verdicts))

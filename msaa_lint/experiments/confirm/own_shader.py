@@ -15,7 +15,9 @@ from .plan_descriptors import Unmakeable
 from .shader_stages import FRAGMENT, fragment_entry, reflected_stage, scene_stage
 
 MAX_OWN = 1 << 19
-"""Bytes of SPIR-V or GLSL. The code is part of every plan, and the plans of a timing are one request to the child process."""
+"""Bytes of SPIR-V or GLSL. The code is part of every plan, and the plans of a timing are one
+request to the child process.
+"""
 
 
 class UnusableOwnShader(Exception):
@@ -23,9 +25,12 @@ class UnusableOwnShader(Exception):
 
 
 def own_shader(path: str) -> tuple[Stage, Stage]:
-    """The stages, to be the `stages` of pipelines: a vertex shader that draws the scene and writes the inputs of the fragment shader, and
-    the fragment shader (`main`, or the first one) with its descriptors and push constants. UnusableOwnShader for a shader that is invalid,
-    or needs what cannot be created on any device; `shader_support.unsupported` tells whether a device supports it."""
+    """The stages, to be the `stages` of pipelines: a vertex shader that draws the scene and writes
+    the inputs of the fragment shader, and the fragment shader (`main`, or the first one) with its
+    descriptors and push constants. UnusableOwnShader for a shader that is invalid, or needs what
+    cannot be created on any device; `shader_support.unsupported` tells whether a device supports
+    it.
+    """
     shown = quoted_path(path)
     try:
         code = read(path, MAX_OWN, None)
@@ -33,19 +38,33 @@ def own_shader(path: str) -> tuple[Stage, Stage]:
             if path.endswith(".spv"):
                 raise SpirvError("it is not SPIR-V")
             if path.endswith((".hlsl", ".metal", ".wgsl")):
-                raise SpirvError("only SPIR-V and GLSL are supported: compile it to SPIR-V, HLSL by `dxc -spirv -T ps_6_0`")
+                raise SpirvError(
+                    "only SPIR-V and GLSL are supported: compile it to SPIR-V, HLSL by `dxc -spirv "
+                    "-T ps_6_0`"
+                )
             code = compiled(path)
         if len(code) > MAX_OWN:
             raise SpirvError(f"its SPIR-V is larger than {MAX_OWN >> 10} KiB")
         module = Module(code)
         fragment = reflected_stage(module, fragment_entry(module, None), FRAGMENT, "", ())
-        attachment = next((each for each in fragment.interface.descriptors if each.kind == INPUT_ATTACHMENT), None)
+        attachment = next(
+            (each for each in fragment.interface.descriptors if each.kind == INPUT_ATTACHMENT), None
+        )
         if attachment is not None:
-            where = f"input attachment {attachment.attachment} at set {attachment.set}, binding {attachment.binding}"
+            where = (
+                f"input attachment {attachment.attachment} at set {attachment.set}, binding "
+                f"{attachment.binding}"
+            )
             raise Unmakeable(f"reads {where}, and the passes of a study have none")
-        outputs = {each.location: each.type for each in fragment.interface.outputs if each.blend_index == 0}
+        outputs = {
+            each.location: each.type for each in fragment.interface.outputs if each.blend_index == 0
+        }
         if not outputs.get(0, "").startswith(("float", "vec")):
-            found = f"its output at location 0 is of type {outputs[0]}" if 0 in outputs else "it has no output at location 0"
+            found = (
+                f"its output at location 0 is of type {outputs[0]}"
+                if 0 in outputs
+                else "it has no output at location 0"
+            )
             raise Unmakeable(f"does not write a color: {found}, and must be a float or a vec4")
         return scene_stage(fragment), fragment.stage._replace(code=packed(code))
     except (OSError, Unreadable) as error:

@@ -1,7 +1,8 @@
-"""The parts of a plan: what is created and recorded, in Vulkan's integers, as sent to the child process.
+"""The parts of a plan: what is created and recorded, in Vulkan's integers, as sent to the child
+process.
 
-A plan consists of nested named tuples of numbers and texts, which JSON turns into lists and `from_json` restores. An index of -1 means
-none.
+A plan consists of nested named tuples of numbers and texts, which JSON turns into lists and
+`from_json` restores. An index of -1 means none.
 """
 
 import zlib
@@ -13,7 +14,9 @@ NONE = -1
 RENDER_PASS = "renderPass"
 RENDERING = "rendering"
 FRAME = "frame"
-"""Kinds of passes. `frame` stands for a description without passes: its images, pipelines and commands."""
+"""Kinds of passes. `frame` stands for a description without passes: its images, pipelines and
+commands.
+"""
 
 VERTEX_STAGE, FRAGMENT_STAGE = 1, 16
 """VkShaderStageFlagBits."""
@@ -29,9 +32,25 @@ LOAD, CLEAR, LOAD_DONT_CARE = 0, 1, 2
 STORE, STORE_DONT_CARE = 0, 1
 """VkAttachmentLoadOp and VkAttachmentStoreOp."""
 
-UNDEFINED, GENERAL, COLOR_LAYOUT, DEPTH_LAYOUT, DEPTH_READ_LAYOUT, READ_LAYOUT, SOURCE_LAYOUT, TARGET_LAYOUT = range(8)
-PRESENT_LAYOUT, STENCIL_LAYOUT, DEPTH_ALONE_READ_LAYOUT, EITHER_READ_LAYOUT = 1000001002, 1000241002, 1000241001, 1000314000
-"""VkImageLayout; the last three are STENCIL_ATTACHMENT_OPTIMAL, DEPTH_READ_ONLY_OPTIMAL and READ_ONLY_OPTIMAL."""
+(
+    UNDEFINED,
+    GENERAL,
+    COLOR_LAYOUT,
+    DEPTH_LAYOUT,
+    DEPTH_READ_LAYOUT,
+    READ_LAYOUT,
+    SOURCE_LAYOUT,
+    TARGET_LAYOUT,
+) = range(8)
+PRESENT_LAYOUT, STENCIL_LAYOUT, DEPTH_ALONE_READ_LAYOUT, EITHER_READ_LAYOUT = (
+    1000001002,
+    1000241002,
+    1000241001,
+    1000314000,
+)
+"""VkImageLayout; the last three are STENCIL_ATTACHMENT_OPTIMAL, DEPTH_READ_ONLY_OPTIMAL and
+READ_ONLY_OPTIMAL.
+"""
 
 SUSPENDING, RESUMING = 2, 4
 """VkRenderingFlagBits."""
@@ -39,13 +58,16 @@ SUSPENDING, RESUMING = 2, 4
 VIEWPORT, SCISSOR = 0, 1
 SAMPLES_DYNAMIC, MASK_DYNAMIC, COVERAGE_DYNAMIC = 1000455005, 1000455006, 1000455007
 KEPT_DYNAMIC = (SAMPLES_DYNAMIC, MASK_DYNAMIC, COVERAGE_DYNAMIC)
-"""VkDynamicState: plans support RASTERIZATION_SAMPLES_EXT, SAMPLE_MASK_EXT and ALPHA_TO_COVERAGE_ENABLE_EXT besides the viewport and the
-scissor."""
+"""VkDynamicState: plans support RASTERIZATION_SAMPLES_EXT, SAMPLE_MASK_EXT and
+ALPHA_TO_COVERAGE_ENABLE_EXT besides the viewport and the scissor.
+"""
 
 
 class Image(NamedTuple):
-    """An image. `width` to `layers` are as described; `numeric` is the type of the color (`SFLOAT`, `UINT`, ..., empty without color),
-    `bytes` the size of a texel; `lazy` requests lazily allocated memory if the device has any."""
+    """An image. `width` to `layers` are as described; `numeric` is the type of the color (`SFLOAT`,
+    `UINT`, ..., empty without color), `bytes` the size of a texel; `lazy` requests lazily allocated
+    memory if the device has any.
+    """
 
     name: str
     format: int
@@ -66,7 +88,9 @@ class Image(NamedTuple):
 
 
 class Attachment(NamedTuple):
-    """VkAttachmentDescription2; the separate layouts of stencil are -1 if stencil has the attachment's layouts."""
+    """VkAttachmentDescription2; the separate layouts of stencil are -1 if stencil has the
+    attachment's layouts.
+    """
 
     format: int
     samples: int
@@ -90,8 +114,9 @@ class Reference(NamedTuple):
 
 
 class Subpass(NamedTuple):
-    """VkSubpassDescription2. `depth_stencil` and `depth_resolve` hold one reference or none; `single_sampled` is the count of
-    VkMultisampledRenderToSingleSampledInfoEXT, 0 without."""
+    """VkSubpassDescription2. `depth_stencil` and `depth_resolve` hold one reference or none;
+    `single_sampled` is the count of VkMultisampledRenderToSingleSampledInfoEXT, 0 without.
+    """
 
     flags: int = 0
     inputs: tuple[Reference, ...] = ()
@@ -120,7 +145,9 @@ class Dependency(NamedTuple):
 
 
 class RenderTarget(NamedTuple):
-    """VkRenderingAttachmentInfo. `role` is `color`, `depth` or `stencil`; an unused attachment has no image."""
+    """VkRenderingAttachmentInfo. `role` is `color`, `depth` or `stencil`; an unused attachment has
+    no image.
+    """
 
     role: str
     image: int = NONE
@@ -155,9 +182,12 @@ class Blend(NamedTuple):
 
 
 class Descriptor(NamedTuple):
-    """A binding of a descriptor set of a stage. `type` is a VkDescriptorType, `length` the number of descriptors, and `view` a
-    VkImageViewType; `format` and `samples` are those of images and texel buffers. A sampler compares if `compares`, and takes the nearest
-    texel if `nearest`. `contents` are those of a buffer (`packed`). `attachment` is the index of an input attachment."""
+    """A binding of a descriptor set of a stage. `type` is a VkDescriptorType, `length` the
+    number of descriptors, and `view` a VkImageViewType; `format` and `samples` are those of
+    images and texel buffers. A sampler compares if `compares`, and takes the nearest texel if
+    `nearest`. `contents` are those of a buffer (`packed`). `attachment` is the index of an input
+    attachment.
+    """
 
     set: int
     binding: int
@@ -174,8 +204,10 @@ class Descriptor(NamedTuple):
 
 
 class Stage(NamedTuple):
-    """VkPipelineShaderStageCreateInfo with the SPIR-V at `path`, or in `code` (`packed`) without one; `constants` are (id, value) of its
-    specialization, `pushed` the contents of its push constants (`packed`). A device needs `features` and the `version` of SPIR-V."""
+    """VkPipelineShaderStageCreateInfo with the SPIR-V at `path`, or in `code` (`packed`) without
+    one; `constants` are (id, value) of its specialization, `pushed` the contents of its push
+    constants (`packed`). A device needs `features` and the `version` of SPIR-V.
+    """
 
     stage: int
     path: str
@@ -189,9 +221,11 @@ class Stage(NamedTuple):
 
 
 class Pipeline(NamedTuple):
-    """VkGraphicsPipelineCreateInfo. `formats` are those of the color attachments in dynamic rendering, 0 for unused ones; `sample_shading`
-    is minSampleShading, -1 if sample shading is disabled. With `shaded`, a built-in fragment shader does the work that a timing asks for
-    (workload.py). `topology` is the VkPrimitiveTopology of the description."""
+    """VkGraphicsPipelineCreateInfo. `formats` are those of the color attachments in dynamic
+    rendering, 0 for unused ones; `sample_shading` is minSampleShading, -1 if sample shading is
+    disabled. With `shaded`, a built-in fragment shader does the work that a timing asks for
+    (workload.py). `topology` is the VkPrimitiveTopology of the description.
+    """
 
     name: str
     subpass: int
@@ -221,7 +255,9 @@ class Pipeline(NamedTuple):
 
     @property
     def has_vertex_shader(self) -> bool:
-        """Whether it has a vertex shader of the frame; a generated one has no file, and the input of the built-in one."""
+        """Whether it has a vertex shader of the frame; a generated one has no file, and the input
+        of the built-in one.
+        """
         return any(stage.stage == VERTEX_STAGE and stage.path for stage in self.stages)
 
     @property
@@ -231,10 +267,12 @@ class Pipeline(NamedTuple):
 
 
 class Mesh(NamedTuple):
-    """Triangles to draw instead of the scene: `draws` draws of `vertices` vertices and `instances` instances each (mesh_buffers.py).
+    """Triangles to draw instead of the scene: `draws` draws of `vertices` vertices and `instances`
+    instances each (mesh_buffers.py).
 
-    Their render area is divided into `columns` by `rows` cells of two triangles; without columns, one triangle covers it. `first` is the
-    number of their first triangle: the cells before it are those of earlier draws.
+    Their render area is divided into `columns` by `rows` cells of two triangles; without columns,
+    one triangle covers it. `first` is the number of their first triangle: the cells before it are
+    those of earlier draws.
     """
 
     columns: int
@@ -253,11 +291,13 @@ class Mesh(NamedTuple):
 class PassCommand(NamedTuple):
     """A command within a pass.
 
-    `draw` draws the scene with `pipeline`, over a backdrop if `backdrop` is set; `covers` says that it then writes to every pixel. `read`
-    writes `image` to every pixel, as a shader that reads it does; `samples` sets the dynamic sample count to `value`; `clear` clears
-    `rects` (x, y, width, height), or the render area without any. A described draw has `vertices` (or indices; 0 if unknown) and
-    `instances` for each of its `draws`, which are 0 if the description has no draws; `full_screen` says that it draws a triangle or a quad
-    over every pixel. `mesh` holds the triangles to draw instead of the scene, or none.
+    `draw` draws the scene with `pipeline`, over a backdrop if `backdrop` is set; `covers` says that
+    it then writes to every pixel. `read` writes `image` to every pixel, as a shader that reads it
+    does; `samples` sets the dynamic sample count to `value`; `clear` clears `rects` (x, y, width,
+    height), or the render area without any. A described draw has `vertices` (or indices; 0 if
+    unknown) and `instances` for each of its `draws`, which are 0 if the description has no draws;
+    `full_screen` says that it draws a triangle or a quad over every pixel. `mesh` holds the
+    triangles to draw instead of the scene, or none.
     """
 
     kind: str
@@ -277,8 +317,10 @@ class PassCommand(NamedTuple):
 
 
 class Pass(NamedTuple):
-    """A render pass (`api` 1 or 2: the version of the structures that create it), a dynamic rendering, or the frame itself. `refused` says
-    why no device can run it, and `failed` why it could not be planned; empty if one may, and if it could."""
+    """A render pass (`api` 1 or 2: the version of the structures that create it), a dynamic
+    rendering, or the frame itself. `refused` says why no device can run it, and `failed` why it
+    could not be planned; empty if one may, and if it could.
+    """
 
     name: str
     path: str
@@ -300,9 +342,11 @@ class Pass(NamedTuple):
 
 
 class Step(NamedTuple):
-    """A step of a frame: the `begin` of a pass with a framebuffer and a render area (x, y, width, height), or a command outside passes
-    (`resolve`, `copy`, `blit`, `clear`, `copyOut`, `copyIn`, `barrier`, `present`, `read`). `number` is the pass that it is reported with,
-    and `filter` the VkFilter of a blit. The layer sees a command that is `illegal`, but not the driver."""
+    """A step of a frame: the `begin` of a pass with a framebuffer and a render area (x, y, width,
+    height), or a command outside passes (`resolve`, `copy`, `blit`, `clear`, `copyOut`, `copyIn`,
+    `barrier`, `present`, `read`). `number` is the pass that it is reported with, and `filter` the
+    VkFilter of a blit. The layer sees a command that is `illegal`, but not the driver.
+    """
 
     kind: str
     number: int
@@ -318,10 +362,13 @@ class Step(NamedTuple):
 
 
 class Plan(NamedTuple):
-    """A frame. `steps` are recorded in order; `defaults` state in words what was assumed where the description is silent; `extensions` must
-    be enabled and the features `without` must not; `reversed` says that greater depths are nearer. `vertices` is a file of triangles to
-    draw instead of the scene: x, y and depth in clip coordinates, 32-bit floats. `left_out` are commands that Vulkan forbids, in words,
-    with the numbers of their passes; the driver is not given them."""
+    """A frame. `steps` are recorded in order; `defaults` state in words what was assumed where
+    the description is silent; `extensions` must be enabled and the features `without` must not;
+    `reversed` says that greater depths are nearer. `vertices` is a file of triangles to draw
+    instead of the scene: x, y and depth in clip coordinates, 32-bit floats. `left_out` are
+    commands that Vulkan forbids, in words, with the numbers of their passes; the driver is not
+    given them.
+    """
 
     file: str = ""
     images: tuple[Image, ...] = ()
@@ -354,6 +401,11 @@ def unpacked(text: str) -> bytes:
 
 def _part(kind: Any, value: Any) -> Any:
     if hasattr(kind, "_fields"):
-        return kind(*(_part(member, each) for member, each in zip(kind.__annotations__.values(), value, strict=True)))
+        return kind(
+            *(
+                _part(member, each)
+                for member, each in zip(kind.__annotations__.values(), value, strict=True)
+            )
+        )
     elements = get_args(kind)
     return tuple(_part(elements[0], each) for each in value) if elements else value

@@ -1,4 +1,6 @@
-"""Compares the picture as written with that of the fixed version: which images differ, in how many pixels, and where first."""
+"""Compares the picture as written with that of the fixed version: which images differ, in how many
+pixels, and where first.
+"""
 
 from __future__ import annotations
 
@@ -11,7 +13,9 @@ from .texels import Texels, aspect_of, format_name, format_of, texel_bytes, texe
 
 
 class RawImage(NamedTuple):
-    """An image as read back. If its contents are not `defined`, they are poison, or come from it; `discarded` ones are nothing but it."""
+    """An image as read back. If its contents are not `defined`, they are poison, or come from it;
+    `discarded` ones are nothing but it.
+    """
 
     format: int
     width: int
@@ -23,12 +27,13 @@ class RawImage(NamedTuple):
 
 
 class ImageComparison(NamedTuple):
-    """The comparison of an image in both versions. `equal` is None if they were not compared, and `reason` says why; `missing`, that it
-    should have been.
+    """The comparison of an image in both versions. `equal` is None if they were not compared, and
+    `reason` says why; `missing`, that it should have been.
 
-    `differing` of `pixels` differ; `first` is the first of them in row order. `greatest` is the greatest difference in steps of the format
-    (codes of normalized and integer components, units in the last place of floats). `tolerance` is the number of steps that the
-    specification allows, `why` the reason.
+    `differing` of `pixels` differ; `first` is the first of them in row order. `greatest` is the
+    greatest difference in steps of the format (codes of normalized and integer components, units in
+    the last place of floats). `tolerance` is the number of steps that the specification allows,
+    `why` the reason.
     """
 
     image: str
@@ -51,9 +56,16 @@ class ImageComparison(NamedTuple):
             return self.reason
         if not self.differing:
             return f"equal, {self.pixels} pixels"
-        steps = "not a number" if math.isinf(self.greatest) else f"{self.greatest:.0f} step{'s' if self.greatest != 1 else ''}"
+        steps = (
+            "not a number"
+            if math.isinf(self.greatest)
+            else f"{self.greatest:.0f} step{'s' if self.greatest != 1 else ''}"
+        )
         at = f"({self.first[0]}, {self.first[1]})" if self.first is not None else "?"
-        found = f"{self.differing} of {self.pixels} pixels differ, the first at {at}, by at most {steps}"
+        found = (
+            f"{self.differing} of {self.pixels} pixels differ, the first at {at}, by at most "
+            f"{steps}"
+        )
         return f"{found}; {self.tolerance} allowed: {self.why}" if self.tolerance else found
 
 
@@ -65,11 +77,13 @@ def compare(
     others: tuple[Collection[str], Collection[str]] = ((), ()),
     read: Collection[str] = (),
 ) -> list[ImageComparison]:
-    """The comparisons of the images of both versions that were read back, and of `others` with defined contents, ordered by name.
+    """The comparisons of the images of both versions that were read back, and of `others` with
+    defined contents, ordered by name.
 
-    `tolerances` are the steps by which two correct results may differ, and why: Vulkan does not specify how an average is rounded. An image
-    whose contents are undefined as written may hold anything. If only the fixed version discards them, it differs if something may `read`
-    it afterwards; what reads it within the frame reads poison.
+    `tolerances` are the steps by which two correct results may differ, and why: Vulkan does not
+    specify how an average is rounded. An image whose contents are undefined as written may hold
+    anything. If only the fixed version discards them, it differs if something may `read` it
+    afterwards; what reads it within the frame reads poison.
     """
     allowed = tolerances or {}
     out = []
@@ -78,19 +92,41 @@ def compare(
         defined = name in others[1] or (after is not None and after.defined)
         if name not in others[0] and (before is None or not before.defined):
             if defined:
-                out.append(ImageComparison(name, None, reason="its contents are undefined in the version as written"))
+                out.append(
+                    ImageComparison(
+                        name, None, reason="its contents are undefined in the version as written"
+                    )
+                )
         elif not defined and name not in read and (after is None or after.discarded):
-            out.append(ImageComparison(name, None, reason="its contents are undefined in the fixed version, and nothing reads them"))
+            out.append(
+                ImageComparison(
+                    name,
+                    None,
+                    reason="its contents are undefined in the fixed version, and nothing reads "
+                    "them",
+                )
+            )
         elif before is not None and after is not None:
             out.append(_compare(name, before, after, *allowed.get(name, (0, ""))))
         elif not defined:
-            out.append(ImageComparison(name, False, reason="its contents are undefined in the fixed version, and something reads them"))
+            out.append(
+                ImageComparison(
+                    name,
+                    False,
+                    reason="its contents are undefined in the fixed version, and something reads "
+                    "them",
+                )
+            )
     return out
 
 
-def _compare(name: str, before: RawImage, after: RawImage, tolerance: int, why: str) -> ImageComparison:
+def _compare(
+    name: str, before: RawImage, after: RawImage, tolerance: int, why: str
+) -> ImageComparison:
     if (before.format, before.width, before.height) != (after.format, after.width, after.height):
-        return ImageComparison(name, None, reason="its format or size differs in the fixed version", missing=True)
+        return ImageComparison(
+            name, None, reason="its format or size differs in the fixed version", missing=True
+        )
     form = format_of(format_name(before.format))
     size = texel_bytes(form, aspect_of(form, before.aspect)) if form is not None else 0
     if not size or not before.width:
@@ -101,10 +137,16 @@ def _compare(name: str, before: RawImage, after: RawImage, tolerance: int, why: 
     one, other = _masked(before, form), _masked(after, form)
     if one == other:
         return ImageComparison(name, True, 0, count, tolerance=tolerance, why=why)
-    places = [n for n in range(count) if one[n * size : (n + 1) * size] != other[n * size : (n + 1) * size]]
+    places = [
+        n
+        for n in range(count)
+        if one[n * size : (n + 1) * size] != other[n * size : (n + 1) * size]
+    ]
     greatest = _greatest(before, after, places)
     first = places[0] % before.width, places[0] // before.width
-    return ImageComparison(name, greatest <= tolerance, len(places), count, first, greatest, tolerance, why)
+    return ImageComparison(
+        name, greatest <= tolerance, len(places), count, first, greatest, tolerance, why
+    )
 
 
 def _masked(raw: RawImage, form: object) -> bytes:
@@ -124,7 +166,9 @@ def _greatest(before: RawImage, after: RawImage, places: list[int]) -> float:
     steps = 0.0
     for name, plane in one.planes.items():
         values = other.planes[name]
-        steps = max(steps, max((_steps(plane[n], values[n], one, name) for n in places), default=0.0))
+        steps = max(
+            steps, max((_steps(plane[n], values[n], one, name) for n in places), default=0.0)
+        )
     return steps
 
 
@@ -137,13 +181,18 @@ def _steps(a: float, b: float, of: Texels, component: str) -> float:
         return math.inf
     bits = of.bits[component]
     if bits in (10, 11) or of.numeric == "UFLOAT":
-        # Both are exact in a half float, whose units in the last place are smaller by 2^(difference of the mantissa bits).
-        return abs(_ordered(a, 16) - _ordered(b, 16)) / (1 << (15 - bits if bits in (10, 11) else 1))
+        # Both are exact in a half float, whose units in the last place are smaller by 2^(difference
+        # of the mantissa bits).
+        return abs(_ordered(a, 16) - _ordered(b, 16)) / (
+            1 << (15 - bits if bits in (10, 11) else 1)
+        )
     return float(abs(_ordered(a, bits) - _ordered(b, bits)))
 
 
 def _ordered(value: float, bits: int) -> int:
-    """The rank of a float among all floats of its width: neighbors are 1 apart, and both zeros are 0."""
+    """The rank of a float among all floats of its width: neighbors are 1 apart, and both zeros are
+    0.
+    """
     form, whole = {16: ("<e", "<h"), 32: ("<f", "<i"), 64: ("<d", "<q")}[bits]
     (code,) = struct.unpack(whole, struct.pack(form, value))
     return int(code) if code >= 0 else -(int(code) + (1 << (bits - 1)))

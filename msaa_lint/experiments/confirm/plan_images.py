@@ -1,4 +1,6 @@
-"""The images of a plan. Properties that are not described are derived from their use, and noted in words."""
+"""The images of a plan. Properties that are not described are derived from their use, and noted in
+words.
+"""
 
 from __future__ import annotations
 
@@ -29,7 +31,8 @@ COLOR_FORMAT, DEPTH_FORMAT = "R8G8B8A8_UNORM", "D32_SFLOAT"
 ASPECTS = {"color": COLOR, "depth": DEPTH, "stencil": STENCIL}
 
 _BY_COMMAND = {
-    "readImage": SAMPLED, "writeImage": STORAGE, "copyImageToBuffer": TRANSFER_SOURCE, "copyBufferToImage": TRANSFER_TARGET,
+    "readImage": SAMPLED, "writeImage": STORAGE, "copyImageToBuffer": TRANSFER_SOURCE,
+    "copyBufferToImage": TRANSFER_TARGET,
     "clearColorImage": TRANSFER_TARGET, "clearDepthStencilImage": TRANSFER_TARGET,
 }  # fmt: skip
 
@@ -46,10 +49,14 @@ RENDER_TO_SINGLE_SAMPLED = 0x40000
 
 
 USAGES = 0xFF
-"""The bits of VkImageUsageFlagBits of Vulkan 1.0; the others need extensions that confirm does not enable."""
+"""The bits of VkImageUsageFlagBits of Vulkan 1.0; the others need extensions that confirm does not
+enable.
+"""
 
 FLAGS = 0x5F8 | RENDER_TO_SINGLE_SAMPLED
-"""The bits of VkImageCreateFlagBits that confirm sets: not those of sparse, disjoint, and protected images, and of other extensions."""
+"""The bits of VkImageCreateFlagBits that confirm sets: not those of sparse, disjoint, and protected
+images, and of other extensions.
+"""
 
 
 class _Used:
@@ -72,7 +79,9 @@ class _Used:
 
 
 class Images:
-    """The images of a frame, by number. `base` is the size in pixels of images that do not state one."""
+    """The images of a frame, by number. `base` is the size in pixels of images that do not state
+    one.
+    """
 
     def __init__(self, frame: Frame) -> None:
         self.frame = frame
@@ -112,7 +121,10 @@ class Images:
         return self._used[key]
 
     def _targets(self, described: Pass, attachment: Attachment) -> list[_Used]:
-        return [self._add(target, image_name(described, attachment, target)) for target in attachment.targets]
+        return [
+            self._add(target, image_name(described, attachment, target))
+            for target in attachment.targets
+        ]
 
     def _pass(self, described: Pass) -> None:
         by_attachment = {id(a): self._targets(described, a) for a in described.attachments}
@@ -123,12 +135,22 @@ class Images:
                 resolved = {aspect for aspects in attachment.resolve.values() for aspect in aspects}
                 color = bool(attachment.color) or "color" in resolved
                 depth = bool(attachment.depth_stencil) or bool({"depth", "stencil", "?"} & resolved)
-                used.usage |= (COLOR_ATTACHMENT if color else 0) | (DEPTH_ATTACHMENT if depth else 0)
+                used.usage |= (COLOR_ATTACHMENT if color else 0) | (
+                    DEPTH_ATTACHMENT if depth else 0
+                )
                 used.usage |= INPUT_ATTACHMENT if attachment.input else 0
-                layouts = {getattr(attachment.record, member, None) for member in ("initialLayout", "finalLayout")}
+                layouts = {
+                    getattr(attachment.record, member, None)
+                    for member in ("initialLayout", "finalLayout")
+                }
                 used.usage |= sum(bit for name, bit in _BY_LAYOUT.items() if name in layouts)
         for subpass in described.subpasses:
-            attached = [u for a in (*subpass.color, *subpass.depth_stencil) if a is not None for u in by_attachment[id(a)]]
+            attached = [
+                u
+                for a in (*subpass.color, *subpass.depth_stencil)
+                if a is not None
+                for u in by_attachment[id(a)]
+            ]
             for used in attached:
                 used.beside += [other for other in attached if other is not used][:16]
             for resolve in subpass.resolves:
@@ -161,17 +183,29 @@ class Images:
         for record in records:
             area = getattr(record, "renderArea", None)
             if area is not None:
-                sizes.append(((area.x or 0) + (area.width or 0), (area.y or 0) + (area.height or 0)))
+                sizes.append(
+                    ((area.x or 0) + (area.width or 0), (area.y or 0) + (area.height or 0))
+                )
             layers.append(getattr(record, "layerCount", None) or 1)
         for used in (u for group in by_attachment.values() for u in group):
-            used.area = (max(used.area[0], *(s[0] for s in sizes), 0), max(used.area[1], *(s[1] for s in sizes), 0)) if sizes else used.area
+            used.area = (
+                (
+                    max(used.area[0], *(s[0] for s in sizes), 0),
+                    max(used.area[1], *(s[1] for s in sizes), 0),
+                )
+                if sizes
+                else used.area
+            )
             used.layers = max(used.layers, *layers)
 
     def _commands(self) -> None:
         for command in self.frame.commands:
             body = command.body
             if command.kind in ("resolveImage", "copyImage", "blitImage"):
-                source, target = (self._command(getattr(body, member, None)) for member in ("srcImage", "dstImage"))
+                source, target = (
+                    self._command(getattr(body, member, None))
+                    for member in ("srcImage", "dstImage")
+                )
                 if source is not None:
                     source.usage |= TRANSFER_SOURCE
                 if target is not None:
@@ -179,9 +213,16 @@ class Images:
                 if source is not None and target is not None:
                     source.partners.append(target)
                     target.partners.append(source)
-                    source.source, target.resolved_to = source.source or command.kind == "resolveImage", target.resolved_to
+                    source.source, target.resolved_to = (
+                        source.source or command.kind == "resolveImage",
+                        target.resolved_to,
+                    )
             elif command.kind in _BY_COMMAND:
-                used = self._command(getattr(body, "image", None) or getattr(body, "srcImage", None) or getattr(body, "dstImage", None))
+                used = self._command(
+                    getattr(body, "image", None)
+                    or getattr(body, "srcImage", None)
+                    or getattr(body, "dstImage", None)
+                )
                 if used is not None:
                     used.usage |= _BY_COMMAND[command.kind]
 
@@ -190,19 +231,33 @@ class Images:
         return self._add(target, target.name) if target is not None else None
 
     def _settle(self) -> None:
-        """Determines unstated formats and sample counts from the images that an image is resolved or drawn with, or by default."""
+        """Determines unstated formats and sample counts from the images that an image is resolved
+        or drawn with, or by default.
+        """
         for used in self._used.values():
             if used.format is None:
                 known = next((p.format for p in used.partners if p.format is not None), None)
                 depth = used.usage & DEPTH_ATTACHMENT and not used.usage & COLOR_ATTACHMENT
                 used.format = known or format_of(DEPTH_FORMAT if depth else COLOR_FORMAT)
                 assert used.format is not None
-                self.notes.append(f"no format is stated for {{}}: {used.format.name} is assumed", used.name)
+                self.notes.append(
+                    f"no format is stated for {{}}: {used.format.name} is assumed", used.name
+                )
         for used in self._used.values():
             if used.samples is None:
                 beside = [other.samples for other in used.beside if other.samples is not None]
-                used.samples = 1 if used.resolved_to and not used.source else max(beside) if beside else 4 if used.source else 1
-                self.notes.append(f"no sample count is stated for {{}}: {used.samples} is assumed", used.name)
+                used.samples = (
+                    1
+                    if used.resolved_to and not used.source
+                    else max(beside)
+                    if beside
+                    else 4
+                    if used.source
+                    else 1
+                )
+                self.notes.append(
+                    f"no sample count is stated for {{}}: {used.samples} is assumed", used.name
+                )
                 self.uncounted.add(used.name)
 
     def _image(self, used: _Used) -> Image:
@@ -211,7 +266,11 @@ class Images:
         assert format is not None and used.samples is not None
         usage, flags, lazy = used.usage, 0, False
         type_name, tiling, levels, layers, depth = "2D", 0, 1, max(used.layers, used.viewed, 1), 1
-        width, height = used.area if used.area[0] > self.base[0] or used.area[1] > self.base[1] or not self._sized else self.base
+        width, height = (
+            used.area
+            if used.area[0] > self.base[0] or used.area[1] > self.base[1] or not self._sized
+            else self.base
+        )
         width, height = width or self.base[0], height or self.base[1]
         if record is None and used.single_sampled and used.samples == 1:
             flags = RENDER_TO_SINGLE_SAMPLED
@@ -225,32 +284,47 @@ class Images:
             lazy = "LAZILY_ALLOCATED" in (record.memory or ())
             if record.usage is not None:
                 # Metal has no usage for copies.
-                copied = used.usage & (TRANSFER_SOURCE | TRANSFER_TARGET) if self.frame.document.metal is not None else 0
+                copied = (
+                    used.usage & (TRANSFER_SOURCE | TRANSFER_TARGET)
+                    if self.frame.document.metal is not None
+                    else 0
+                )
                 usage = mask("VkImageUsageFlagBits", record.usage) & USAGES | copied
                 self._left_out("usage", record.usage, "VkImageUsageFlagBits", USAGES, used.name)
             self._left_out("flag", record.flags or (), "VkImageCreateFlagBits", FLAGS, used.name)
             if cube:
                 height = width
             if record.extent is not None:
-                width, height, depth = record.extent.width or width, record.extent.height or height, record.extent.depth or 1
+                width, height, depth = (
+                    record.extent.width or width,
+                    record.extent.height or height,
+                    record.extent.depth or 1,
+                )
         if not usage:
             usage = DEPTH_ATTACHMENT if "color" not in format.aspects else COLOR_ATTACHMENT
         aspects = sum(ASPECTS[each] for each in format.aspects) or COLOR
         kind = number("VkImageType", type_name)
         return Image(
-            used.name, number("VkFormat", format.name), used.samples, usage, width, 1 if kind == 0 else height, depth, layers, levels,
+            used.name, number("VkFormat", format.name), used.samples, usage, width,
+            1 if kind == 0 else height, depth, layers, levels,
             kind, tiling, flags, lazy, aspects, format.numeric, format.bytes,
         )  # fmt: skip
 
     def _left_out(self, kind: str, names: Iterable[str], enum: str, kept: int, image: str) -> None:
         ignored = [name for name in names if not mask(enum, [name]) & kept]
         if ignored:
-            words = f"{kind}s {', '.join(ignored)} of {{}} are" if len(ignored) > 1 else f"{kind} {ignored[0]} of {{}} is"
+            words = (
+                f"{kind}s {', '.join(ignored)} of {{}} are"
+                if len(ignored) > 1
+                else f"{kind} {ignored[0]} of {{}} is"
+            )
             self.notes.append(f"the {words} ignored", image)
 
 
 def image_name(described: Pass, attachment: Attachment, target: Target) -> str:
-    """The name of an attachment's image in a plan, which is the attachment's if it names no image."""
+    """The name of an attachment's image in a plan, which is the attachment's if it names no
+    image.
+    """
     return target.name if target.image is not None else f"{described.name}.{attachment.name}"
 
 
@@ -261,7 +335,13 @@ def _base(frame: Frame) -> tuple[tuple[int, int], bool]:
         return (size.width, size.height), True
     stated: Iterable[tuple[int | None, int | None]] = (
         *((f.width, f.height) for f in frame.description.framebuffers.values()),
-        *((i.extent.width, i.extent.height) for i in frame.description.images.values() if i.extent is not None),
+        *(
+            (i.extent.width, i.extent.height)
+            for i in frame.description.images.values()
+            if i.extent is not None
+        ),
     )
-    sizes = [(width, height) for width, height in stated if width is not None and height is not None]
+    sizes = [
+        (width, height) for width, height in stated if width is not None and height is not None
+    ]
     return (max(sizes), True) if sizes else (DEFAULT_SIZE, False)

@@ -7,7 +7,9 @@ MAX_NAMES = 3
 
 
 class Notes:
-    """Notes in the order of their first occurrence. Notes that differ only in the name of an object are one."""
+    """Notes in the order of their first occurrence. Notes that differ only in the name of an object
+    are one.
+    """
 
     def __init__(self) -> None:
         self._names: dict[str, dict[str, None]] = {}
@@ -20,9 +22,16 @@ class Notes:
 
     def lines(self) -> tuple[str, ...]:
         """The notes as texts."""
-        return tuple(text.replace("{}", _listed(list(names))) if names else text for text, names in self._names.items())
+        return tuple(
+            text.replace("{}", _listed(list(names))) if names else text
+            for text, names in self._names.items()
+        )
 
 
 def _listed(names: list[str]) -> str:
-    shown = names if len(names) <= MAX_NAMES + 1 else [*names[:MAX_NAMES], f"{len(names) - MAX_NAMES} more"]
+    shown = (
+        names
+        if len(names) <= MAX_NAMES + 1
+        else [*names[:MAX_NAMES], f"{len(names) - MAX_NAMES} more"]
+    )
     return " and ".join([", ".join(shown[:-1]), shown[-1]]) if len(shown) > 1 else shown[0]

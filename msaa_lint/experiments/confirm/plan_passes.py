@@ -21,7 +21,19 @@ from msaa_lint.frame.facts.parts import Pass as DescribedPass
 from msaa_lint.frame.facts.pass_begin import targets_at
 
 from . import parts
-from .parts import LOAD, LOAD_DONT_CARE, NONE, STORE, STORE_DONT_CARE, TRANSIENT, UNDEFINED, Dependency, Framebuffer, Reference, Subpass
+from .parts import (
+    LOAD,
+    LOAD_DONT_CARE,
+    NONE,
+    STORE,
+    STORE_DONT_CARE,
+    TRANSIENT,
+    UNDEFINED,
+    Dependency,
+    Framebuffer,
+    Reference,
+    Subpass,
+)
 from .plan_images import Images
 from .plan_integers import layout, mask, number
 
@@ -49,24 +61,44 @@ class Passes:
     def plan_pass(self, described: DescribedPass) -> parts.Pass:
         """A pass, with the reason if no device can run it."""
         kind = parts.RENDERING if described.kind == RENDERING else parts.RENDER_PASS
-        empty = parts.Pass(described.name, described.path, kind, 0 if kind == parts.RENDERING else self._api(described))
+        empty = parts.Pass(
+            described.name,
+            described.path,
+            kind,
+            0 if kind == parts.RENDERING else self._api(described),
+        )
         try:
             if described.custom_resolve:
-                raise PassRefused("it resolves with a shader of its own, which confirm does not support")
-            return self._rendering(described, empty) if described.kind == RENDERING else self._render_pass(described, empty)
+                raise PassRefused(
+                    "it resolves with a shader of its own, which confirm does not support"
+                )
+            return (
+                self._rendering(described, empty)
+                if described.kind == RENDERING
+                else self._render_pass(described, empty)
+            )
         except PassRefused as reason:
             return empty._replace(refused=str(reason))
 
     def _api(self, described: DescribedPass) -> int:
-        """The version of the structures that create a pass: 2, except for applications that are limited to 1."""
+        """The version of the structures that create a pass: 2, except for applications that are
+        limited to 1.
+        """
         if self.api is not None:
             return self.api
         enabled = self.frame.description.enabled
         version = enabled.apiVersion if enabled is not None else None
-        if enabled is None or version is None or _version(version) >= (1, 2) or "VK_KHR_create_renderpass2" in (enabled.extensions or ()):
+        if (
+            enabled is None
+            or version is None
+            or _version(version) >= (1, 2)
+            or "VK_KHR_create_renderpass2" in (enabled.extensions or ())
+        ):
             return 2
         records = [s.record for s in described.subpasses if isinstance(s.record, DescribedSubpass)]
-        second = any(s.single_sampled for s in described.subpasses) or any(r.depthStencilResolve or r.viewMask for r in records)
+        second = any(s.single_sampled for s in described.subpasses) or any(
+            r.depthStencilResolve or r.viewMask for r in records
+        )
         return 2 if second else 1
 
     def _render_pass(self, described: DescribedPass, frame_pass: parts.Pass) -> parts.Pass:
@@ -74,12 +106,21 @@ class Passes:
         assert isinstance(record, RenderPass)
         if not record.subpasses:
             raise PassRefused("none of its subpasses is described")
-        if max(len(record.attachments), len(record.subpasses), len(record.dependencies)) > MAX_PARTS:
-            raise PassRefused(f"it has more than {MAX_PARTS} attachments, subpasses or dependencies")
+        if (
+            max(len(record.attachments), len(record.subpasses), len(record.dependencies))
+            > MAX_PARTS
+        ):
+            raise PassRefused(
+                f"it has more than {MAX_PARTS} attachments, subpasses or dependencies"
+            )
         attachments = tuple(self._attachment(a) for a in described.attachments)
         indices = {a.name: a.index for a in described.attachments}
-        subpasses = tuple(self._subpass(described, n, s, indices) for n, s in enumerate(record.subpasses))
-        dependencies = tuple(self._dependency(d, len(record.subpasses)) for d in record.dependencies)
+        subpasses = tuple(
+            self._subpass(described, n, s, indices) for n, s in enumerate(record.subpasses)
+        )
+        dependencies = tuple(
+            self._dependency(d, len(record.subpasses)) for d in record.dependencies
+        )
         return frame_pass._replace(
             flags=mask("VkRenderPassCreateFlagBits", record.flags),
             attachments=attachments,
@@ -103,7 +144,15 @@ class Passes:
         read_layout = parts.READ_LAYOUT if color else parts.DEPTH_READ_LAYOUT
         is_used = described.drawn or described.input or described.resolve
         initial_default = layout(record.initialLayout, UNDEFINED) or default_layout
-        final = parts.PRESENT_LAYOUT if presentable else read_layout if is_read else default_layout if is_used else initial_default
+        final = (
+            parts.PRESENT_LAYOUT
+            if presentable
+            else read_layout
+            if is_read
+            else default_layout
+            if is_used
+            else initial_default
+        )
         return parts.Attachment(
             number("VkFormat", record.format) if record.format is not None else image.format,
             record.samples or image.samples,
@@ -112,68 +161,137 @@ class Passes:
             store,
             stencil_load,
             stencil_store,
-            layout(record.initialLayout, (read_layout if is_read and not described.drawn else default_layout) if loads else UNDEFINED),
+            layout(
+                record.initialLayout,
+                (read_layout if is_read and not described.drawn else default_layout)
+                if loads
+                else UNDEFINED,
+            ),
             layout(record.finalLayout, final),
             *self._stencil_layouts(record, image, stencil_load),
         )
 
     @staticmethod
-    def _stencil_layouts(record: AttachmentDescription, image: parts.Image, load: int) -> tuple[int, int]:
-        """The separate layouts of stencil: none, unless one is stated or the attachment's layout is for depth only."""
-        initial, final = layout(record.stencilInitialLayout, NONE), layout(record.stencilFinalLayout, NONE)
-        alone = initial != NONE or final != NONE or {record.initialLayout, record.finalLayout} & DEPTH_ALONE
+    def _stencil_layouts(
+        record: AttachmentDescription, image: parts.Image, load: int
+    ) -> tuple[int, int]:
+        """The separate layouts of stencil: none, unless one is stated or the attachment's layout is
+        for depth only.
+        """
+        initial, final = (
+            layout(record.stencilInitialLayout, NONE),
+            layout(record.stencilFinalLayout, NONE),
+        )
+        alone = (
+            initial != NONE
+            or final != NONE
+            or {record.initialLayout, record.finalLayout} & DEPTH_ALONE
+        )
         if not image.aspects & parts.STENCIL or not alone:
             return NONE, NONE
         usual = parts.STENCIL_LAYOUT if load == LOAD else UNDEFINED
-        return usual if initial == NONE else initial, parts.STENCIL_LAYOUT if final == NONE else final
+        return (
+            usual if initial == NONE else initial,
+            parts.STENCIL_LAYOUT if final == NONE else final,
+        )
 
-    def _operations(self, described: Attachment, record: AttachmentDescription, image: parts.Image) -> tuple[int, int, int, int]:
+    def _operations(
+        self, described: Attachment, record: AttachmentDescription, image: parts.Image
+    ) -> tuple[int, int, int, int]:
         stated = (record.loadOp, record.storeOp, record.stencilLoadOp, record.stencilStoreOp)
         members = ("loadOp", "storeOp", "stencilLoadOp", "stencilStoreOp")
         default_store = STORE_DONT_CARE if image.usage & TRANSIENT else STORE
         first = image.aspects & (parts.COLOR | parts.DEPTH)
         second = image.aspects & parts.STENCIL
-        defaults = (LOAD_DONT_CARE, default_store, LOAD_DONT_CARE, default_store if second else STORE_DONT_CARE)
+        defaults = (
+            LOAD_DONT_CARE,
+            default_store,
+            LOAD_DONT_CARE,
+            default_store if second else STORE_DONT_CARE,
+        )
         operations = []
-        for member, value, default, aspect_present in zip(members, stated, defaults, (first, first, second, second), strict=True):
+        for member, value, default, aspect_present in zip(
+            members, stated, defaults, (first, first, second, second), strict=True
+        ):
             load = member.endswith("oadOp")
             if value is None and aspect_present:
                 self.notes.append(
-                    f"{member} of {described.record.path} is not stated: {'DONT_CARE' if load or default else 'STORE'} is assumed"
+                    f"{member} of {described.record.path} is not stated: "
+                    f"{'DONT_CARE' if load or default else 'STORE'} is assumed"
                 )
             enum = "VkAttachmentLoadOp" if load else "VkAttachmentStoreOp"
             operations.append(number(enum, value) if value is not None else default)
         return operations[0], operations[1], operations[2], operations[3]
 
-    def _reference(self, stated: AttachmentReference | None, indices: dict[str, int], usual: int) -> Reference:
+    def _reference(
+        self, stated: AttachmentReference | None, indices: dict[str, int], usual: int
+    ) -> Reference:
         if stated is None or stated.attachment is None:
             return Reference(NONE, UNDEFINED)
-        index = indices.get(stated.attachment, NONE) if isinstance(stated.attachment, str) else stated.attachment
+        index = (
+            indices.get(stated.attachment, NONE)
+            if isinstance(stated.attachment, str)
+            else stated.attachment
+        )
         if not 0 <= index < len(indices):
-            raise PassRefused(f"it refers to an attachment that does not exist: {stated.attachment}")
+            raise PassRefused(
+                f"it refers to an attachment that does not exist: {stated.attachment}"
+            )
         return Reference(index, layout(stated.layout, usual))
 
-    def _subpass(self, described: DescribedPass, at: int, record: DescribedSubpass, indices: dict[str, int]) -> Subpass:
+    def _subpass(
+        self, described: DescribedPass, at: int, record: DescribedSubpass, indices: dict[str, int]
+    ) -> Subpass:
         if record.pipelineBindPoint not in (None, "GRAPHICS"):
             raise PassRefused("one of its subpasses is not a graphics subpass")
         colors = [self._reference(r, indices, parts.COLOR_LAYOUT) for r in record.colorAttachments]
-        resolves = [self._reference(r, indices, parts.COLOR_LAYOUT) for r in record.resolveAttachments]
+        resolves = [
+            self._reference(r, indices, parts.COLOR_LAYOUT) for r in record.resolveAttachments
+        ]
         if resolves:
             # One resolve attachment for each color attachment.
             width = max(len(colors), len(resolves))
             colors += [Reference(NONE)] * (width - len(colors))
             resolves += [Reference(NONE)] * (width - len(resolves))
-        inputs = [self._input(described, at, self._reference(r, indices, parts.READ_LAYOUT), r.layout) for r in record.inputAttachments]
+        inputs = [
+            self._input(described, at, self._reference(r, indices, parts.READ_LAYOUT), r.layout)
+            for r in record.inputAttachments
+        ]
         drawn = {r.attachment for r in colors} & {r.attachment for r in inputs} - {NONE}
-        colors = [r._replace(layout=parts.GENERAL) if r.attachment in drawn and r.layout == parts.COLOR_LAYOUT else r for r in colors]
-        depth = self._reference(record.depthStencilAttachment, indices, parts.DEPTH_LAYOUT) if record.depthStencilAttachment else None
-        if depth is not None and depth.attachment in {r.attachment for r in inputs} and depth.attachment != NONE:
+        colors = [
+            r._replace(layout=parts.GENERAL)
+            if r.attachment in drawn and r.layout == parts.COLOR_LAYOUT
+            else r
+            for r in colors
+        ]
+        depth = (
+            self._reference(record.depthStencilAttachment, indices, parts.DEPTH_LAYOUT)
+            if record.depthStencilAttachment
+            else None
+        )
+        if (
+            depth is not None
+            and depth.attachment in {r.attachment for r in inputs}
+            and depth.attachment != NONE
+        ):
             depth = depth._replace(layout=parts.DEPTH_READ_LAYOUT)
         resolve = record.depthStencilResolve
-        source = described.attachments[depth.attachment] if depth is not None and depth.attachment != NONE else None
-        stencil = source is None or bool(self.images.images[self.images.of(source.targets[0])].aspects & parts.STENCIL)
-        target = self._reference(resolve.attachment, indices, parts.DEPTH_LAYOUT) if resolve is not None else None
-        preserves = tuple(self._reference(r, indices, UNDEFINED).attachment for r in record.preserveAttachments)
+        source = (
+            described.attachments[depth.attachment]
+            if depth is not None and depth.attachment != NONE
+            else None
+        )
+        stencil = source is None or bool(
+            self.images.images[self.images.of(source.targets[0])].aspects & parts.STENCIL
+        )
+        target = (
+            self._reference(resolve.attachment, indices, parts.DEPTH_LAYOUT)
+            if resolve is not None
+            else None
+        )
+        preserves = tuple(
+            self._reference(r, indices, UNDEFINED).attachment for r in record.preserveAttachments
+        )
         described_subpass = described.subpasses[at]
         single = self._single_sampled(described_subpass, record.path)
         return Subpass(
@@ -190,28 +308,45 @@ class Passes:
             single,
         )
 
-    def _input(self, described: DescribedPass, at: int, reference: Reference, stated: str | None) -> Reference:
+    def _input(
+        self, described: DescribedPass, at: int, reference: Reference, stated: str | None
+    ) -> Reference:
         if reference.attachment == NONE:
             return reference
         attachment = described.attachments[reference.attachment]
         image = self.images.images[self.images.of(attachment.targets[0])]
         is_color_too = at in attachment.color
-        default = parts.GENERAL if is_color_too else parts.DEPTH_READ_LAYOUT if not image.aspects & parts.COLOR else parts.READ_LAYOUT
-        return reference._replace(layout=reference.layout if stated is not None else default, aspects=image.aspects)
+        default = (
+            parts.GENERAL
+            if is_color_too
+            else parts.DEPTH_READ_LAYOUT
+            if not image.aspects & parts.COLOR
+            else parts.READ_LAYOUT
+        )
+        return reference._replace(
+            layout=reference.layout if stated is not None else default, aspects=image.aspects
+        )
 
     def _single_sampled(self, described_subpass: PassSubpass, path: str) -> int:
-        """The sample count with which single-sampled attachments are rendered; 0 without multisampled rendering."""
+        """The sample count with which single-sampled attachments are rendered; 0 without
+        multisampled rendering.
+        """
         if not described_subpass.single_sampled:
             return 0
         if described_subpass.single_sampled_count is not None:
             return described_subpass.single_sampled_count
         max_samples = max([image.samples for image in self.images.images] or [1])
         assumed = max_samples if max_samples > 1 else 4
-        self.notes.append(f"rasterizationSamples of {path}.multisampledRenderToSingleSampled is not stated: {assumed} is assumed")
+        self.notes.append(
+            f"rasterizationSamples of {path}.multisampledRenderToSingleSampled is not stated: "
+            f"{assumed} is assumed"
+        )
         return assumed
 
     def _mode(self, resolve: DepthStencilResolve, member: str, there: bool = True) -> int:
-        """A resolve mode; if unstated, SAMPLE_ZERO, which every device supports. An absent aspect is not noted."""
+        """A resolve mode; if unstated, SAMPLE_ZERO, which every device supports. An absent aspect
+        is not noted.
+        """
         name = getattr(resolve, member)
         if name is None and there:
             self.notes.append(f"{member} of {resolve.path} is not stated: SAMPLE_ZERO is assumed")
@@ -241,7 +376,9 @@ class Passes:
         )
 
     def _framebuffers(self, described: DescribedPass) -> tuple[Framebuffer, ...]:
-        """A framebuffer for each set of images that the pass begins with; the first one where framebuffers alternate between frames."""
+        """A framebuffer for each set of images that the pass begins with; the first one where
+        framebuffers alternate between frames.
+        """
         positions: Sequence[int | None] = described.begun or (None,)
         stated = {f.key: f for f in self.frame.framebuffers.get(described.name, ())}
         framebuffers = []
@@ -250,7 +387,9 @@ class Passes:
             for attachment in described.attachments:
                 targets = targets_at(self.frame, attachment, position)
                 if len(targets) > 1:
-                    self.notes.append(f"{described.name} alternates between framebuffers: the first one is used")
+                    self.notes.append(
+                        f"{described.name} alternates between framebuffers: the first one is used"
+                    )
                 numbers.append(self.images.of(targets[0]))
             body = self.frame.commands[position].body if position is not None else None
             name = getattr(body, "framebuffer", None)
@@ -258,9 +397,16 @@ class Passes:
             if record is None and name is None and len(stated) == 1:
                 record = next(iter(stated.values()))
             width, height = self.size(numbers)
-            stated_size = (record.width or width, record.height or height) if record is not None else (width, height)
+            stated_size = (
+                (record.width or width, record.height or height)
+                if record is not None
+                else (width, height)
+            )
             if stated_size[0] > width or stated_size[1] > height:
-                self.notes.append(f"the framebuffer of {described.name} is larger than its images: {width}x{height} is assumed")
+                self.notes.append(
+                    f"the framebuffer of {described.name} is larger than its images: "
+                    f"{width}x{height} is assumed"
+                )
             width, height = min(width, stated_size[0]), min(height, stated_size[1])
             layers = (record.layers or 1) if record is not None else 1
             framebuffers.append(Framebuffer(tuple(numbers), width, height, layers))
@@ -269,18 +415,37 @@ class Passes:
     def size(self, numbers: Sequence[int]) -> tuple[int, int]:
         """The largest size that all the images have."""
         sized = [self.images.images[n] for n in numbers if n != NONE]
-        return (min(i.width for i in sized), min(i.height for i in sized)) if sized else self.images.base
+        return (
+            (min(i.width for i in sized), min(i.height for i in sized))
+            if sized
+            else self.images.base
+        )
 
     def _rendering(self, described: DescribedPass, frame_pass: parts.Pass) -> parts.Pass:
         record = described.record
         assert isinstance(record, BeginRendering)
         rendered = [self._rendered("color", info) for info in record.colorAttachments]
-        rendered += [self._rendered("depth", info) for info in (record.depthAttachment,) if info is not None]
-        rendered += [self._rendered("stencil", info) for info in (record.stencilAttachment,) if info is not None]
-        depths = {described.image for described in rendered if described.role != "color" and described.image != NONE}
+        rendered += [
+            self._rendered("depth", info) for info in (record.depthAttachment,) if info is not None
+        ]
+        rendered += [
+            self._rendered("stencil", info)
+            for info in (record.stencilAttachment,)
+            if info is not None
+        ]
+        depths = {
+            described.image
+            for described in rendered
+            if described.role != "color" and described.image != NONE
+        }
         if len(depths) > 1:
             raise PassRefused("its depth and stencil attachments are different images")
-        numbers = [n for described in rendered for n in (described.image, described.resolve_image) if n != NONE]
+        numbers = [
+            n
+            for described in rendered
+            for n in (described.image, described.resolve_image)
+            if n != NONE
+        ]
         width, height = self.size(numbers)
         described_subpass = described.subpasses[0]
         single = self._single_sampled(described_subpass, record.path)
@@ -304,7 +469,10 @@ class Passes:
         if info.loadOp is None:
             self.notes.append(f"loadOp of {info.path} is not stated: DONT_CARE is assumed")
         if info.storeOp is None:
-            self.notes.append(f"storeOp of {info.path} is not stated: {'DONT_CARE' if transient else 'STORE'} is assumed")
+            self.notes.append(
+                f"storeOp of {info.path} is not stated: {'DONT_CARE' if transient else 'STORE'} is "
+                f"assumed"
+            )
         target = self.images.named(info.resolveImage)
         mode = self._resolve_mode(info, image, target)
         return parts.RenderTarget(
@@ -313,9 +481,13 @@ class Passes:
             layout(info.imageLayout, default_layout),
             mode,
             target,
-            layout(info.resolveImageLayout, default_layout) if target != NONE or mode else UNDEFINED,
+            layout(info.resolveImageLayout, default_layout)
+            if target != NONE or mode
+            else UNDEFINED,
             number("VkAttachmentLoadOp", info.loadOp) if info.loadOp is not None else defaults[0],
-            number("VkAttachmentStoreOp", info.storeOp) if info.storeOp is not None else defaults[1],
+            number("VkAttachmentStoreOp", info.storeOp)
+            if info.storeOp is not None
+            else defaults[1],
         )
 
     def _resolve_mode(self, info: RenderingAttachment, image: int, target: int) -> int:
@@ -323,14 +495,22 @@ class Passes:
             return number("VkResolveModeFlagBits", info.resolveMode)
         if target == NONE:
             return 0
-        averages = self.images.images[image].aspects & parts.COLOR and self.images.images[image].numeric not in ("UINT", "SINT")
-        self.notes.append(f"resolveMode of {info.path} is not stated: {'AVERAGE' if averages else 'SAMPLE_ZERO'} is assumed")
+        averages = self.images.images[image].aspects & parts.COLOR and self.images.images[
+            image
+        ].numeric not in ("UINT", "SINT")
+        self.notes.append(
+            f"resolveMode of {info.path} is not stated: {'AVERAGE' if averages else 'SAMPLE_ZERO'} "
+            f"is assumed"
+        )
         return 2 if averages else 1
 
 
 def _version(text: str) -> tuple[int, int]:
     """The major and minor version; (9, 9) if malformed."""
     numbers = text.split(".")
-    if len(numbers) < 2 or not all(described.isascii() and described.isdigit() and len(described) < 6 for described in numbers[:2]):
+    if len(numbers) < 2 or not all(
+        described.isascii() and described.isdigit() and len(described) < 6
+        for described in numbers[:2]
+    ):
         return 9, 9
     return int(numbers[0]), int(numbers[1])

@@ -1,4 +1,6 @@
-"""PNG files of images as written and fixed, their difference, and an enlarged edge. It needs no library except zlib."""
+"""PNG files of images as written and fixed, their difference, and an enlarged edge. It needs no
+library except zlib.
+"""
 
 from __future__ import annotations
 
@@ -31,11 +33,19 @@ class Picture(NamedTuple):
 
 
 def png(picture: Picture) -> bytes:
-    """A picture as a PNG file (ISO/IEC 15948): 8-bit RGB, marked as sRGB. The same picture always gives the same bytes."""
+    """A picture as a PNG file (ISO/IEC 15948): 8-bit RGB, marked as sRGB. The same picture always
+    gives the same bytes.
+    """
     row = picture.width * 3
     lines = b"".join(b"\0" + picture.rgb[n * row : (n + 1) * row] for n in range(picture.height))
     header = struct.pack(">IIBBBBB", picture.width, picture.height, 8, 2, 0, 0, 0)
-    chunks = [(b"IHDR", header), (b"sRGB", b"\0"), _SOFTWARE, (b"IDAT", zlib.compress(lines, 6)), (b"IEND", b"")]
+    chunks = [
+        (b"IHDR", header),
+        (b"sRGB", b"\0"),
+        _SOFTWARE,
+        (b"IDAT", zlib.compress(lines, 6)),
+        (b"IEND", b""),
+    ]
     return b"\x89PNG\r\n\x1a\n" + b"".join(_chunk(kind, data) for kind, data in chunks)
 
 
@@ -56,7 +66,9 @@ def is_own_picture(path: str) -> bool:
 
 
 def encoded(linear: float) -> float:
-    """The sRGB code, 0 to 1, of linear light (IEC 61966-2-1). Values out of range are clamped; NaN is 0."""
+    """The sRGB code, 0 to 1, of linear light (IEC 61966-2-1). Values out of range are clamped; NaN
+    is 0.
+    """
     if not linear > 0:
         return 0.0
     return linear * 12.92 if linear <= 0.0031308 else min(1.055 * linear ** (1 / 2.4) - 0.055, 1.0)
@@ -65,11 +77,16 @@ def encoded(linear: float) -> float:
 def picture(image: Texels) -> Picture:
     """An image as a display shows it.
 
-    Codes of UNORM and sRGB formats are shown as stored. Floats are linear light, clamped and encoded. Integers, depth and stencil are
-    scaled from their smallest to their greatest value. Alpha is ignored.
+    Codes of UNORM and sRGB formats are shown as stored. Floats are linear light, clamped and
+    encoded. Integers, depth and stencil are scaled from their smallest to their greatest value.
+    Alpha is ignored.
     """
     scale = _scale(image)
-    planes = {name: _codes(plane, image, name, scale) for name, plane in image.planes.items() if name in "RGBDS"}
+    planes = {
+        name: _codes(plane, image, name, scale)
+        for name, plane in image.planes.items()
+        if name in "RGBDS"
+    }
     grey = planes.get("D") or planes.get("S") or (planes.get("R") if len(planes) == 1 else None)
     count = image.width * image.height
     black = bytes(count)
@@ -83,7 +100,13 @@ def _scale(image: Texels) -> tuple[float, float]:
     """The smallest and greatest value of an image that is scaled; zeros for others."""
     if image.aspect == "color" and image.numeric not in ("UINT", "SINT"):
         return 0.0, 0.0
-    values = [v for name, plane in image.planes.items() if name != "A" for v in (min(plane), max(plane)) if math.isfinite(v)]
+    values = [
+        v
+        for name, plane in image.planes.items()
+        if name != "A"
+        for v in (min(plane), max(plane))
+        if math.isfinite(v)
+    ]
     return (min(values), max(values)) if values else (0.0, 0.0)
 
 
@@ -96,7 +119,11 @@ def _codes(plane: Plane, image: Texels, component: str, scale: tuple[float, floa
     bits = image.bits[component]
     if image.numeric in ("UNORM", "SRGB"):
         if bits == 8:
-            return bytes(bytearray(int(value) for value in plane)) if not isinstance(plane, bytes) else plane
+            return (
+                bytes(bytearray(int(value) for value in plane))
+                if not isinstance(plane, bytes)
+                else plane
+            )
         most = (1 << bits) - 1
         return bytes(_code(value / most) for value in plane)
     if image.numeric == "SNORM":
@@ -114,11 +141,14 @@ def _code(share: float) -> int:
 
 
 _OF_LIGHT = bytes(_code(encoded(n / _LEVELS)) for n in range(_LEVELS + 1))
-"""Codes of linear light in 16384 steps: even the steepest part of the curve has five steps per code."""
+"""Codes of linear light in 16384 steps: even the steepest part of the curve has five steps per
+code.
+"""
 
 
 def difference(before: Texels, after: Texels) -> Picture:
-    """The difference of two images: black where they are equal, otherwise scaled so that the greatest difference is white.
+    """The difference of two images: black where they are equal, otherwise scaled so that the
+    greatest difference is white.
 
     The smallest difference is still clearly visible, including differences in alpha only.
     """
@@ -138,7 +168,9 @@ def difference(before: Texels, after: Texels) -> Picture:
 
 
 def edge(picture: Picture) -> tuple[int, int]:
-    """The corner of the part of a picture with the most distinct colors: an edge, and a smoothed one if there is any."""
+    """The corner of the part of a picture with the most distinct colors: an edge, and a smoothed
+    one if there is any.
+    """
     best, at = 0, (0, 0)
     for y in range(0, max(picture.height - EDGE, 0) + 1, EDGE // 2):
         for x in range(0, max(picture.width - EDGE, 0) + 1, EDGE // 2):
@@ -151,7 +183,9 @@ def edge(picture: Picture) -> tuple[int, int]:
 def around(picture: Picture, place: tuple[int, int]) -> tuple[int, int]:
     """The corner of the part centered on a pixel, within the picture."""
     x, y = place
-    return max(min(x - EDGE // 2, picture.width - EDGE), 0), max(min(y - EDGE // 2, picture.height - EDGE), 0)
+    return max(min(x - EDGE // 2, picture.width - EDGE), 0), max(
+        min(y - EDGE // 2, picture.height - EDGE), 0
+    )
 
 
 def _pixels(picture: Picture, x: int, y: int) -> list[bytes]:
@@ -179,8 +213,16 @@ def enlarged(pictures: list[Picture], corner: tuple[int, int]) -> Picture:
 
 
 def file_name(*parts: str) -> str:
-    """A safe file name from names in an input: letters, digits, `.`, `-` and `_` only, not hidden, without folders, and not too long."""
-    clean = [re.sub(r"[^A-Za-z0-9._-]+", "_", part.replace(os.sep, "-").replace("/", "-"))[-60:].strip("._-") or "_" for part in parts]
+    """A safe file name from names in an input: letters, digits, `.`, `-` and `_` only, not hidden,
+    without folders, and not too long.
+    """
+    clean = [
+        re.sub(r"[^A-Za-z0-9._-]+", "_", part.replace(os.sep, "-").replace("/", "-"))[-60:].strip(
+            "._-"
+        )
+        or "_"
+        for part in parts
+    ]
     return "-".join(clean)[-200:]
 
 
@@ -191,7 +233,9 @@ class Album(Protocol):
 
 
 class PictureList:
-    """The PNG files of pictures, with the parts of their names, to be written to a folder later. `write` returns its number."""
+    """The PNG files of pictures, with the parts of their names, to be written to a folder later.
+    `write` returns its number.
+    """
 
     def __init__(self) -> None:
         self.files: list[tuple[bytes, tuple[str, ...]]] = []
@@ -203,7 +247,8 @@ class PictureList:
 
 
 class PictureFolder:
-    """A folder of pictures. Pictures of msaa-lint are replaced, other files only if `force` is true, and links are not followed.
+    """A folder of pictures. Pictures of msaa-lint are replaced, other files only if `force` is
+    true, and links are not followed.
 
     NotWritten if the folder cannot be created.
     """
@@ -217,7 +262,9 @@ class PictureFolder:
             raise NotWritten(f"cannot write pictures to {folder}: {error.strerror}") from None
 
     def write(self, picture: Picture, *parts: str) -> str:
-        """Writes a picture and returns its path. A number distinguishes names that would be equal."""
+        """Writes a picture and returns its path. A number distinguishes names that would be
+        equal.
+        """
         return self.write_file(png(picture), *parts)
 
     def write_file(self, data: bytes, *parts: str) -> str:
@@ -237,7 +284,9 @@ class PictureFolder:
 
 
 class VersionPictures(NamedTuple):
-    """An image as written; and fixed, with the difference, where there is a fixed version of the same size and components."""
+    """An image as written; and fixed, with the difference, where there is a fixed version of the
+    same size and components.
+    """
 
     as_written: Picture
     fixed: Picture | None = None
@@ -247,13 +296,21 @@ class VersionPictures(NamedTuple):
 def version_pictures(before: Texels, after: Texels | None) -> VersionPictures:
     """The pictures of an image in both versions."""
     as_written = picture(before)
-    if after is None or (after.width, after.height) != (before.width, before.height) or after.planes.keys() != before.planes.keys():
+    if (
+        after is None
+        or (after.width, after.height) != (before.width, before.height)
+        or after.planes.keys() != before.planes.keys()
+    ):
         return VersionPictures(as_written)
     return VersionPictures(as_written, picture(after), difference(before, after))
 
 
-def show(album: Album, stem: tuple[str, ...], pictures: VersionPictures, first: tuple[int, int] | None) -> list[str]:
-    """Writes the pictures of one image and returns their paths: as written; fixed and the difference; and an enlarged edge."""
+def show(
+    album: Album, stem: tuple[str, ...], pictures: VersionPictures, first: tuple[int, int] | None
+) -> list[str]:
+    """Writes the pictures of one image and returns their paths: as written; fixed and the
+    difference; and an enlarged edge.
+    """
     names = ("as-written", "fixed", "difference")
     known = [(each, name) for each, name in zip(pictures, names, strict=True) if each is not None]
     paths = [album.write(each, *stem, name) for each, name in known]

@@ -1,7 +1,8 @@
 """The messages between parent and child: JSON objects, one per line.
 
-The child reads requests from its standard input and writes answers to its original standard output; the output of driver and layer goes
-elsewhere. Lines may be corrupt: a driver may overwrite the child's memory or write to its pipes.
+The child reads requests from its standard input and writes answers to its original standard output;
+the output of driver and layer goes elsewhere. Lines may be corrupt: a driver may overwrite the
+child's memory or write to its pipes.
 """
 
 from __future__ import annotations
@@ -15,10 +16,26 @@ MAX_LINE = 8 << 20
 """Maximum size of a line in bytes: a plan with many passes, or a long message of the layer."""
 
 EVENTS = frozenset(
-    {"opened", "devices", "failed", "pass", "created", "message", "pixels", "defined", "time", "sample", "warmed", "invocations", "done"}
+    {
+        "opened",
+        "devices",
+        "failed",
+        "pass",
+        "created",
+        "message",
+        "pixels",
+        "defined",
+        "time",
+        "sample",
+        "warmed",
+        "invocations",
+        "done",
+    }
 )
-"""The child's answers. `opened` has the device and the layer; `failed` has the reason and its `kind` (`environment`, `memory`, `program`);
-the others come from `execute.run` and `interleaved.run`."""
+"""The child's answers. `opened` has the device and the layer; `failed` has the reason and its
+`kind` (`environment`, `memory`, `program`); the others come from `execute.run` and
+`interleaved.run`.
+"""
 
 Event = dict[str, Any]
 
@@ -35,7 +52,9 @@ def line(request: Mapping[str, Any]) -> bytes:
 def event(text: bytes) -> Event:
     """The answer in a line. ProtocolError for a malformed line."""
     if not text.endswith(b"\n"):
-        raise ProtocolError("a truncated line" if len(text) < MAX_LINE else "a line that is too long")
+        raise ProtocolError(
+            "a truncated line" if len(text) < MAX_LINE else "a line that is too long"
+        )
     try:
         found = json.loads(text)
     except (ValueError, RecursionError):
@@ -56,7 +75,9 @@ def _numbered(found: Event) -> bool:
 
 
 def _image(found: Event, *numbers: str) -> bool:
-    return all(isinstance(found.get(name), str) for name in ("image", "path")) and all(_number(found.get(name)) for name in numbers)
+    return all(isinstance(found.get(name), str) for name in ("image", "path")) and all(
+        _number(found.get(name)) for name in numbers
+    )
 
 
 _WELL_FORMED: dict[str, Callable[[Event], bool]] = {
@@ -70,14 +91,20 @@ _WELL_FORMED: dict[str, Callable[[Event], bool]] = {
         and isinstance(found.get("text"), str)
     ),
     "pixels": lambda found: (
-        _image(found, "format", "width", "height") and all(isinstance(found.get(name), bool) for name in ("defined", "discarded"))
+        _image(found, "format", "width", "height")
+        and all(isinstance(found.get(name), bool) for name in ("defined", "discarded"))
     ),
     "defined": lambda found: isinstance(found.get("image"), str),
     "sample": lambda found: _image(found, "format", "width", "height", "samples"),
-    "time": lambda found: _numbered(found) and isinstance(found.get("ms"), (int, float)) and 0 <= found["ms"] < 1e9,
+    "time": lambda found: (
+        _numbered(found) and isinstance(found.get("ms"), (int, float)) and 0 <= found["ms"] < 1e9
+    ),
     "warmed": lambda found: isinstance(found.get("stable"), bool),
     "invocations": lambda found: (
-        _numbered(found) and _number(found.get("of", 0)) and isinstance(found.get("count"), int) and found["count"] >= 0
+        _numbered(found)
+        and _number(found.get("of", 0))
+        and isinstance(found.get("count"), int)
+        and found["count"] >= 0
     ),
     "failed": lambda found: isinstance(found.get("reason"), str),
     "opened": lambda found: isinstance(found.get("device"), dict),

@@ -10,7 +10,16 @@ from .defined_contents import aspect_name
 from .device_images import CACHED, COHERENT, HOST_VISIBLE
 from .draw import Recorder
 from .opening import Emit
-from .parts import COLOR, DEPTH, DEPTH_READ_LAYOUT, READ_LAYOUT, SOURCE_LAYOUT, STENCIL, TRANSFER_SOURCE, Image
+from .parts import (
+    COLOR,
+    DEPTH,
+    DEPTH_READ_LAYOUT,
+    READ_LAYOUT,
+    SOURCE_LAYOUT,
+    STENCIL,
+    TRANSFER_SOURCE,
+    Image,
+)
 from .submit import Submitter
 
 MAX_BYTES = 1 << 30
@@ -32,7 +41,9 @@ class Buffer:
         needs = vk.vkGetBufferMemoryRequirements(handle, self.handle)
         visible = HOST_VISIBLE | COHERENT
         kind = built.opened.memory_type(needs.memoryTypeBits, visible | CACHED, visible)
-        self.memory = vk.vkAllocateMemory(handle, vk.VkMemoryAllocateInfo(allocationSize=needs.size, memoryTypeIndex=kind), None)
+        self.memory = vk.vkAllocateMemory(
+            handle, vk.VkMemoryAllocateInfo(allocationSize=needs.size, memoryTypeIndex=kind), None
+        )
         vk.vkBindBufferMemory(handle, self.handle, self.memory, 0)
 
     def write_to(self, path: str) -> None:
@@ -60,8 +71,9 @@ def texel_bytes(image: Image, aspect: int) -> int:
 
 
 def bring_back(recorder: Recorder, submitter: Submitter, folder: str, emit: Emit) -> None:
-    """Writes every image with defined contents, or with poisoned ones, to a file and reports it; of other images with defined contents it
-    reports that. Nothing may use the images afterwards."""
+    """Writes every image with defined contents, or with poisoned ones, to a file and reports it; of
+    other images with defined contents it reports that. Nothing may use the images afterwards.
+    """
     built, vk = recorder.built, recorder.vk
     taken: list[tuple[int, int, Buffer]] = []
     buffer = submitter.begin()
@@ -69,40 +81,69 @@ def bring_back(recorder: Recorder, submitter: Submitter, folder: str, emit: Emit
     for number, aspect in recorder.contents.outputs(poisoned=True):
         image = built.plan.images[number]
         size = texel_bytes(image, aspect) * image.width * image.height * image.layers
-        if not size or size > MAX_BYTES or number not in built.images or not built.has_usage(number, TRANSFER_SOURCE):
+        if (
+            not size
+            or size > MAX_BYTES
+            or number not in built.images
+            or not built.has_usage(number, TRANSFER_SOURCE)
+        ):
             continue
         target = Buffer(built, size, 2)
         taken.append((number, aspect, target))
         recorder.layouts.into(buffer, [(number, SOURCE_LAYOUT, None)])
-        layers = vk.VkImageSubresourceLayers(aspectMask=aspect, mipLevel=0, baseArrayLayer=0, layerCount=image.layers)
-        region = vk.VkBufferImageCopy(imageSubresource=layers, imageExtent=vk.VkExtent3D(image.width, image.height, 1))
-        vk.vkCmdCopyImageToBuffer(buffer, built.image(number), SOURCE_LAYOUT, target.handle, 1, [region])
+        layers = vk.VkImageSubresourceLayers(
+            aspectMask=aspect, mipLevel=0, baseArrayLayer=0, layerCount=image.layers
+        )
+        region = vk.VkBufferImageCopy(
+            imageSubresource=layers, imageExtent=vk.VkExtent3D(image.width, image.height, 1)
+        )
+        vk.vkCmdCopyImageToBuffer(
+            buffer, built.image(number), SOURCE_LAYOUT, target.handle, 1, [region]
+        )
     submitter.end()
     for number, aspect, target in taken:
         image = built.plan.images[number]
         path = os.path.join(folder, f"{number}{'-stencil' if aspect == STENCIL else ''}.raw")
         target.write_to(path)
         target.close()
-        found = {"event": "pixels", "image": aspect_name(image, aspect), "format": image.format, "path": path, "aspect": NAMES[aspect]}
+        found = {
+            "event": "pixels",
+            "image": aspect_name(image, aspect),
+            "format": image.format,
+            "path": path,
+            "aspect": NAMES[aspect],
+        }
         contents, key = recorder.contents, (number, aspect)
         states = {"defined": key in contents.known, "discarded": key in contents.discarded}
         emit({**found, "width": image.width, "height": image.height * image.layers, **states})
-    for number, aspect in sorted(recorder.contents.known - {(number, aspect) for number, aspect, _ in taken}):
+    for number, aspect in sorted(
+        recorder.contents.known - {(number, aspect) for number, aspect, _ in taken}
+    ):
         emit({"event": "defined", "image": aspect_name(built.plan.images[number], aspect)})
 
 
-def bring_samples(recorder: Recorder, submitter: Submitter, number: int, folder: str, emit: Emit) -> None:
-    """Writes the samples of a multisampled image to a file: four 32-bit floats per sample, sample by sample, in rows from the top."""
+def bring_samples(
+    recorder: Recorder, submitter: Submitter, number: int, folder: str, emit: Emit
+) -> None:
+    """Writes the samples of a multisampled image to a file: four 32-bit floats per sample, sample
+    by sample, in rows from the top.
+    """
     built, vk, opened = recorder.built, recorder.vk, recorder.built.opened
     image = built.plan.images[number]
     target = Buffer(built, image.width * image.height * image.samples * 16, 0x20)
     layout, set_layout = opened.layout("samples")
-    stage = vk.VkPipelineShaderStageCreateInfo(stage=32, module=opened.module("samples.comp"), pName="main")
+    stage = vk.VkPipelineShaderStageCreateInfo(
+        stage=32, module=opened.module("samples.comp"), pName="main"
+    )
     create = vk.VkComputePipelineCreateInfo(stage=stage, layout=layout)
-    pipeline = built.own(vk.vkDestroyPipeline, vk.vkCreateComputePipelines(opened.handle, None, 1, [create], None)[0])
+    pipeline = built.own(
+        vk.vkDestroyPipeline, vk.vkCreateComputePipelines(opened.handle, None, 1, [create], None)[0]
+    )
     buffer = submitter.begin()
     recorder.layouts.fence(buffer)
-    recorder.layouts.into(buffer, [(number, READ_LAYOUT if image.aspects & COLOR else DEPTH_READ_LAYOUT, None)])
+    recorder.layouts.into(
+        buffer, [(number, READ_LAYOUT if image.aspects & COLOR else DEPTH_READ_LAYOUT, None)]
+    )
     vk.vkCmdBindPipeline(buffer, 1, pipeline)
     descriptor: Any = recorder.descriptor(set_layout, number, target.handle)
     vk.vkCmdBindDescriptorSets(buffer, 1, layout, 0, 1, [descriptor], 0, None)
@@ -111,5 +152,11 @@ def bring_samples(recorder: Recorder, submitter: Submitter, number: int, folder:
     path = os.path.join(folder, f"{number}-samples.raw")
     target.write_to(path)
     target.close()
-    own = {"width": image.width, "height": image.height, "samples": image.samples, "format": image.format, "path": path}
+    own = {
+        "width": image.width,
+        "height": image.height,
+        "samples": image.samples,
+        "format": image.format,
+        "path": path,
+    }
     emit({"event": "sample", "image": image.name, **own})

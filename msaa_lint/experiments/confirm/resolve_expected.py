@@ -1,14 +1,18 @@
 """The expected result of a resolve, from its samples, and the tolerance around it.
 
-Values are as stored: codes of normalized formats, numbers of floats, integers of integer formats and stencil.
+Values are as stored: codes of normalized formats, numbers of floats, integers of integer formats
+and stencil.
 
-- UNORM and SNORM, averaged: within one code of the exact average, because Vulkan specifies neither the rounding nor the precision.
-- sRGB, averaged: within one code of the encoded average of the decoded samples, because drivers encode by approximations.
-- Floats, averaged: one of the two neighbors of the average in the format, because the rounding is unspecified. If single precision gives
-  different sums for different orders, the order is unspecified too: the result may then be off by half a unit in the last place of the sum
-  for each sample, 2 units in single precision itself for 4 samples. Subnormals may become zero.
-- A single sample, the minimum or the maximum: exactly that value. 24-bit depth may be off by one, because the samples are read back in
-  single precision, which does not distinguish all codes.
+- UNORM and SNORM, averaged: within one code of the exact average, because Vulkan specifies neither
+  the rounding nor the precision.
+- sRGB, averaged: within one code of the encoded average of the decoded samples, because drivers
+  encode by approximations.
+- Floats, averaged: one of the two neighbors of the average in the format, because the rounding is
+  unspecified. If single precision gives different sums for different orders, the order is
+  unspecified too: the result may then be off by half a unit in the last place of the sum for each
+  sample, 2 units in single precision itself for 4 samples. Subnormals may become zero.
+- A single sample, the minimum or the maximum: exactly that value. 24-bit depth may be off by one,
+  because the samples are read back in single precision, which does not distinguish all codes.
 """
 
 from __future__ import annotations
@@ -32,8 +36,10 @@ TWENTY_FOUR = (1 << 24) - 1
 
 
 class Component(NamedTuple):
-    """A component of a format: its name and its position among those that a shader reads. Floats have the number of mantissa bits and the
-    smallest normal exponent (`least`), normalized values the greatest code. `numeric` is UNORM, SNORM, SRGB, FLOAT or WHOLE (integer)."""
+    """A component of a format: its name and its position among those that a shader reads. Floats
+    have the number of mantissa bits and the smallest normal exponent (`least`), normalized values
+    the greatest code. `numeric` is UNORM, SNORM, SRGB, FLOAT or WHOLE (integer).
+    """
 
     name: str
     place: int
@@ -56,7 +62,9 @@ class Expected(NamedTuple):
 
 
 def components(form: Format, aspect: int) -> list[Component]:
-    """The components of an aspect that can be checked; none for formats with unsupported components."""
+    """The components of an aspect that can be checked; none for formats with unsupported
+    components.
+    """
     if aspect == STENCIL:
         return [Component("S", 0, "WHOLE")]
     if aspect != COLOR:
@@ -78,7 +86,9 @@ def components(form: Format, aspect: int) -> list[Component]:
             found.append(Component(name, place, "SRGB", 255))
         elif form.numeric in ("UNORM", "SRGB", "SNORM"):
             signed = form.numeric == "SNORM"
-            found.append(Component(name, place, "SNORM" if signed else "UNORM", (1 << (bits - signed)) - 1))
+            found.append(
+                Component(name, place, "SNORM" if signed else "UNORM", (1 << (bits - signed)) - 1)
+            )
     return found
 
 
@@ -136,12 +146,17 @@ def _float_average(own: Component, samples: Sequence[float]) -> Expected:
 
 
 def _order_slack(samples: Sequence[float]) -> float:
-    """The possible error of the average in single precision due to the order of addition; 0 if every order is exact."""
+    """The possible error of the average in single precision due to the order of addition; 0 if
+    every order is exact.
+    """
     size = math.fsum(map(abs, samples))
     if not size:
         return 0.0
     # Every partial sum is a multiple of the lowest bit that any sample has set.
-    lowest = min((numerator & -numerator) / denominator for numerator, denominator in (abs(s).as_integer_ratio() for s in samples if s))
+    lowest = min(
+        (numerator & -numerator) / denominator
+        for numerator, denominator in (abs(s).as_integer_ratio() for s in samples if s)
+    )
     if size / lowest <= 1 << (SINGLE + 1):
         return 0.0
     unit = math.ldexp(1.0, math.frexp(size)[1] - 1 - SINGLE)
@@ -149,7 +164,9 @@ def _order_slack(samples: Sequence[float]) -> float:
 
 
 def beside(own: Component, number: float) -> tuple[float, float]:
-    """The neighbors of a number in a component's format: the greatest float not above it and the smallest not below it."""
+    """The neighbors of a number in a component's format: the greatest float not above it and the
+    smallest not below it.
+    """
     if not number:
         return 0.0, 0.0
     exponent = max(math.frexp(number)[1] - 1, own.least)
@@ -159,7 +176,11 @@ def beside(own: Component, number: float) -> tuple[float, float]:
 
 def decoded(encoded_value: float) -> float:
     """The linear light of an sRGB value, both from 0 to 1 (IEC 61966-2-1)."""
-    return encoded_value / 12.92 if encoded_value <= 0.04045 else ((encoded_value + 0.055) / 1.055) ** 2.4
+    return (
+        encoded_value / 12.92
+        if encoded_value <= 0.04045
+        else ((encoded_value + 0.055) / 1.055) ** 2.4
+    )
 
 
 def encoded(light: float) -> float:
@@ -168,8 +189,13 @@ def encoded(light: float) -> float:
 
 
 def likeness(own: Component, wrong: Sequence[tuple[float, Sequence[float]]]) -> str:
-    """What incorrect values are instead, if one cause explains all of them; each value comes with its samples."""
-    guesses = {"the minimum of the samples": (LEAST, own), "the maximum of the samples": (GREATEST, own)}
+    """What incorrect values are instead, if one cause explains all of them; each value comes with
+    its samples.
+    """
+    guesses = {
+        "the minimum of the samples": (LEAST, own),
+        "the maximum of the samples": (GREATEST, own),
+    }
     if own.numeric != "WHOLE":
         guesses["the average of the samples"] = AVERAGE, own
     if own.numeric == "SRGB":

@@ -1,6 +1,8 @@
-"""The scene that `confirm` draws: overlapping triangles at different depths, with edges at many angles.
+"""The scene that `confirm` draws: overlapping triangles at different depths, with edges at many
+angles.
 
-Every triangle has its own color (shaders/scene.vert). The first one is a backdrop behind all others that covers every pixel.
+Every triangle has its own color (shaders/scene.vert). The first one is a backdrop behind all others
+that covers every pixel.
 """
 
 from __future__ import annotations
@@ -34,7 +36,9 @@ CORNERS = (
     (47, 94, 56), (56, 37, 56), (101, 56, 56),
     (-118, 8, 126), (-85, -10, 126), (-77, 21, 126),
 )  # fmt: skip
-"""By vertex: x to the right and y down from the center of the picture, and depth; three vertices form a triangle."""
+"""By vertex: x to the right and y down from the center of the picture, and depth; three vertices
+form a triangle.
+"""
 
 BACKDROP = 3
 """The number of vertices of the backdrop, which come first."""
@@ -44,15 +48,21 @@ VERTEX_BYTES = 12
 CLEARED = (0.125, 0.25, 0.5, 1.0)
 CLEARED_INTEGERS = (3, 5, 7, 11)
 CLEARED_STENCIL, DRAWN_STENCIL = 0, 1
-"""The clear values of color attachments, of integer color attachments and of stencil, and the stencil value that the scene writes."""
+"""The clear values of color attachments, of integer color attachments and of stencil, and the
+stencil value that the scene writes.
+"""
 
 POISON = (0.8125, 0.0625, 0.6875, 0.0)
 POISON_INTEGER = 99
 POISON_DEPTH, POISON_STENCIL = 0.0, 0xA5
-"""What undefined contents are overwritten with: a purple that the scene neither draws nor clears to, the components of integer colors, the
-nearest depth (with reversed depth, 1 minus it), and stencil."""
+"""What undefined contents are overwritten with: a purple that the scene neither draws nor clears
+to, the components of integer colors, the nearest depth (with reversed depth, 1 minus it), and
+stencil.
+"""
 
 
 def vertices() -> bytes:
-    """The vertices in the input format of shaders/scene.vert: the position in clip coordinates as three 32-bit floats."""
+    """The vertices in the input format of shaders/scene.vert: the position in clip coordinates as
+    three 32-bit floats.
+    """
     return b"".join(struct.pack("<3f", x / GRID, y / GRID, z / DEPTHS) for x, y, z in CORNERS)

@@ -1,4 +1,6 @@
-"""The parent's side: frames run in one child as long as it lives; a pass that kills it is identified, tried alone, and skipped."""
+"""The parent's side: frames run in one child as long as it lives; a pass that kills it is
+identified, tried alone, and skipped.
+"""
 
 from __future__ import annotations
 
@@ -25,24 +27,33 @@ MAX_DEATHS = 16
 """Deaths in a frame after which its remaining passes are skipped: each costs two new processes."""
 
 OPENING = 30.0
-"""Minimum time limit in seconds for opening a driver: the first run after a reboot loads everything from disk."""
+"""Minimum time limit in seconds for opening a driver: the first run after a reboot loads everything
+from disk.
+"""
 
 
 def environment(device: str | None) -> dict[str, str]:
-    """The `child_environment`, restricted to lavapipe if it is installed and neither the environment nor `device` selects a driver.
+    """The `child_environment`, restricted to lavapipe if it is installed and neither the
+    environment nor `device` selects a driver.
 
     Loading one driver takes a third of the time of loading all of Mesa's.
     """
     variables = child_environment()
     if device is None and not any(variables.get(name) for name in PINNED):
-        found = [path for folder in ICD_FOLDERS for path in sorted(glob.glob(os.path.join(folder, "lvp_icd*.json")))]
+        found = [
+            path
+            for folder in ICD_FOLDERS
+            for path in sorted(glob.glob(os.path.join(folder, "lvp_icd*.json")))
+        ]
         if found:
             variables["VK_DRIVER_FILES"] = found[0]
     return variables
 
 
 class Session:
-    """A device in child processes. `with Session(...) as session:`; afterwards nothing remains in memory or on disk."""
+    """A device in child processes. `with Session(...) as session:`; afterwards nothing remains in
+    memory or on disk.
+    """
 
     def __init__(
         self,
@@ -73,7 +84,12 @@ class Session:
         self._scratch = ScratchFolder()
         return self
 
-    def __exit__(self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None) -> None:
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        value: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
         try:
             self.close()
         finally:
@@ -92,7 +108,14 @@ class Session:
     def start(self) -> None:
         """Lets a child open the device, without waiting for it."""
         if self._child is None:
-            self._start({"do": "open", "device": self.name, "validation": self.validation, "vendors": list(self.vendors)})
+            self._start(
+                {
+                    "do": "open",
+                    "device": self.name,
+                    "validation": self.validation,
+                    "vendors": list(self.vendors),
+                }
+            )
 
     def open(self) -> dict[str, Any]:
         """Opens the device and returns its properties. Unusable if there is none."""
@@ -120,7 +143,9 @@ class Session:
         return path
 
     def run(self, plan: Any, passes: Sequence[int], want: Mapping[str, Any]) -> FrameRun:
-        """Runs passes of a plan in order. The result says how the driver behaved. Unusable if the device cannot be opened any more."""
+        """Runs passes of a plan in order. The result says how the driver behaved. Unusable if the
+        device cannot be opened any more.
+        """
         done: dict[int, PassOutcome] = {}
         left = list(passes)
         failed = ""
@@ -132,7 +157,10 @@ class Session:
                 guilty = collected.at
                 if guilty is None:
                     # It ended before any pass: run each pass alone to find the cause.
-                    done.update((number, self._alone(plan, number, want, ended)) for number in left[:MAX_DEATHS])
+                    done.update(
+                        (number, self._alone(plan, number, want, ended))
+                        for number in left[:MAX_DEATHS]
+                    )
                     done.update((number, _left(number)) for number in left[MAX_DEATHS:])
                     return FrameRun(done, tuple(collected.messages), {}, False)
                 done[guilty] = self._alone(plan, guilty, want, ended)
@@ -143,7 +171,14 @@ class Session:
                     whole = not done and not failed
                     done.update((number, collected.outcome(number)) for number in left)
                     images = collected.images if whole else {}
-                    return FrameRun(done, tuple(collected.messages), images, whole, failed, frozenset(collected.defined if whole else ()))
+                    return FrameRun(
+                        done,
+                        tuple(collected.messages),
+                        images,
+                        whole,
+                        failed,
+                        frozenset(collected.defined if whole else ()),
+                    )
                 done[guilty] = collected.outcome(guilty)
             left.remove(guilty)
             if sum(ran.end != "" for ran in done.values()) >= MAX_DEATHS:
@@ -152,15 +187,20 @@ class Session:
         return FrameRun(done, whole=False, failed=failed)
 
     def time(self, items: Sequence[Item], want: TimingOptions) -> TimedRun:
-        """Times items in turn. An item that kills the driver is left out, and the others are timed again. Unusable if the device cannot be
-        opened any more."""
+        """Times items in turn. An item that kills the driver is left out, and the others are timed
+        again. Unusable if the device cannot be opened any more.
+        """
         ended: dict[int, str] = {}
         while True:
             left = [number for number in range(len(items)) if number not in ended]
             collected = TimedCollector(left, ended)
             try:
                 if left:
-                    request = {"do": "time", "items": [items[number] for number in left], "want": want._asdict()}
+                    request = {
+                        "do": "time",
+                        "items": [items[number] for number in left],
+                        "want": want._asdict(),
+                    }
                     self._answered(request, collected)
             except ChildExit as died:
                 guilty = left[collected.at or 0]
@@ -171,8 +211,12 @@ class Session:
                 collected = TimedCollector([], ended)
             return collected.run(len(items))
 
-    def _alone(self, plan: Any, number: int, want: Mapping[str, Any], ended: ChildExit) -> PassOutcome:
-        """Runs a pass during which the child died, alone in a fresh child. A pass that timed out is not repeated."""
+    def _alone(
+        self, plan: Any, number: int, want: Mapping[str, Any], ended: ChildExit
+    ) -> PassOutcome:
+        """Runs a pass during which the child died, alone in a fresh child. A pass that timed out is
+        not repeated.
+        """
         if ended.how == "timed-out":
             return PassOutcome(number, end="timed-out", reason=str(ended))
         self.close()
@@ -181,14 +225,24 @@ class Session:
             self._collect(plan, [number], want, collected)
         except ChildExit as again:
             how = "timed-out" if again.how == "timed-out" else "died"
-            return collected.outcome(number)._replace(end=how, signal=again.signal, reason=str(again))
+            return collected.outcome(number)._replace(
+                end=how, signal=again.signal, reason=str(again)
+            )
         finally:
             self.close()
         ran = collected.outcome(number)
-        return ran._replace(end="died", signal=ended.signal, reason=f"{ended} (only together with other passes, not alone)")
+        return ran._replace(
+            end="died",
+            signal=ended.signal,
+            reason=f"{ended} (only together with other passes, not alone)",
+        )
 
-    def _collect(self, plan: Any, passes: Sequence[int], want: Mapping[str, Any], into: RunCollector) -> None:
-        self._answered({"do": "run", "plan": plan, "passes": list(passes), "want": dict(want)}, into)
+    def _collect(
+        self, plan: Any, passes: Sequence[int], want: Mapping[str, Any], into: RunCollector
+    ) -> None:
+        self._answered(
+            {"do": "run", "plan": plan, "passes": list(passes), "want": dict(want)}, into
+        )
 
     def _answered(self, request: Mapping[str, Any], into: RunCollector | TimedCollector) -> None:
         """Sends a request and collects the answers."""
@@ -235,11 +289,21 @@ class SessionOptions(NamedTuple):
     def session(self) -> Session:
         """Such a session."""
         variables = environment(self.device)
-        return Session(self.device, validation=self.validation, limits=self.limits, environment=variables, execute=self.execute)
+        return Session(
+            self.device,
+            validation=self.validation,
+            limits=self.limits,
+            environment=variables,
+            execute=self.execute,
+        )
 
 
 def _left(number: int) -> PassOutcome:
-    return PassOutcome(number, end="left", reason=f"skipped: {MAX_DEATHS} passes of this frame failed or killed the driver")
+    return PassOutcome(
+        number,
+        end="left",
+        reason=f"skipped: {MAX_DEATHS} passes of this frame failed or killed the driver",
+    )
 
 
 def _advice(found: Event) -> str:

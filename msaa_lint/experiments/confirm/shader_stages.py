@@ -1,4 +1,6 @@
-"""Stages of a plan for a fragment shader from outside: the shader with its descriptors, and a vertex shader that writes its inputs."""
+"""Stages of a plan for a fragment shader from outside: the shader with its descriptors, and a
+vertex shader that writes its inputs.
+"""
 
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
@@ -29,9 +31,12 @@ class ReflectedStage(NamedTuple):
     layouts: Layouts
 
 
-def reflected_stage(module: Module, entry: Entry, number: int, path: str, constants: Sequence[tuple[int, float]]) -> ReflectedStage:
-    """A stage with the descriptors and push constants that it uses. Raises SpirvError for an invalid module, and Unmakeable if it needs
-    what cannot be created on any device."""
+def reflected_stage(
+    module: Module, entry: Entry, number: int, path: str, constants: Sequence[tuple[int, float]]
+) -> ReflectedStage:
+    """A stage with the descriptors and push constants that it uses. Raises SpirvError for an
+    invalid module, and Unmakeable if it needs what cannot be created on any device.
+    """
     specialization: Mapping[int, float] = dict(constants)
     values = Constants(module, specialization)
     layouts = Layouts(module, values)
@@ -45,24 +50,34 @@ def reflected_stage(module: Module, entry: Entry, number: int, path: str, consta
     contents = BufferContents(layouts)
     pushed = packed(contents.of(found.push_constants)) if found.push_constants else ""
     if any(descriptor.writes for descriptor in found.descriptors):
-        features = (*features, "fragmentStoresAndAtomics" if number == FRAGMENT else "vertexPipelineStoresAndAtomics")
+        features = (
+            *features,
+            "fragmentStoresAndAtomics" if number == FRAGMENT else "vertexPipelineStoresAndAtomics",
+        )
     stage = Stage(
-        number, path, entry.name, tuple(constants), "", planned(found.descriptors, contents), pushed, features, found.version
+        number, path, entry.name, tuple(constants), "", planned(found.descriptors, contents),
+        pushed, features, found.version
     )  # fmt: skip
     return ReflectedStage(stage, found, layouts)
 
 
 def scene_stage(fragment: ReflectedStage) -> Stage:
-    """The vertex shader that draws the scene for a fragment shader. Raises Unmakeable if one of the inputs cannot be written."""
+    """The vertex shader that draws the scene for a fragment shader. Raises Unmakeable if one of the
+    inputs cannot be written.
+    """
     try:
         code = vertex_shader(fragment.interface, fragment.layouts)
     except SpirvError as error:
-        raise Unmakeable(f"has inputs that no vertex shader can be generated for: {error}") from None
+        raise Unmakeable(
+            f"has inputs that no vertex shader can be generated for: {error}"
+        ) from None
     return Stage(VERTEX, "", "main", code=packed(code))
 
 
 def fragment_entry(module: Module, name: str | None) -> Entry:
-    """The fragment shader with a name; without one `main`, or the first. Raises SpirvError if there is none."""
+    """The fragment shader with a name; without one `main`, or the first. Raises SpirvError if there
+    is none.
+    """
     entries = [entry for entry in module.entries if entry.model == op.FRAGMENT]
     if not entries:
         raise SpirvError("it has no fragment shader")

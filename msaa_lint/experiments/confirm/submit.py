@@ -20,13 +20,19 @@ class Submitter:
         self.opened = opened
         self.vk = vk = opened.vk
         # A pool of its own, which is reset whenever the buffer is recorded.
-        self.pool = vk.vkCreateCommandPool(opened.handle, vk.VkCommandPoolCreateInfo(queueFamilyIndex=opened.device.family), None)
-        allocate = vk.VkCommandBufferAllocateInfo(commandPool=self.pool, level=0, commandBufferCount=1)
+        self.pool = vk.vkCreateCommandPool(
+            opened.handle, vk.VkCommandPoolCreateInfo(queueFamilyIndex=opened.device.family), None
+        )
+        allocate = vk.VkCommandBufferAllocateInfo(
+            commandPool=self.pool, level=0, commandBufferCount=1
+        )
         self.buffer = vk.vkAllocateCommandBuffers(opened.handle, allocate)[0]
         self.fence = vk.vkCreateFence(opened.handle, vk.VkFenceCreateInfo(), None)
         self.queries: Any = None
         if timed and opened.device.timestamp_bits:
-            self.queries = vk.vkCreateQueryPool(opened.handle, vk.VkQueryPoolCreateInfo(queryType=2, queryCount=2), None)
+            self.queries = vk.vkCreateQueryPool(
+                opened.handle, vk.VkQueryPoolCreateInfo(queryType=2, queryCount=2), None
+            )
         self.source = "timestamp" if self.queries is not None else "wall"
         self.mask = (1 << opened.device.timestamp_bits) - 1
         self.period: float = opened.session.device["properties"]["limits"]["timestampPeriod"]
@@ -59,11 +65,14 @@ class Submitter:
         self.vk.vkEndCommandBuffer(self.buffer)
 
     def submit(self, timed: bool = False) -> float:
-        """Submits what was recorded, and waits. Returns the milliseconds between `start` and `stop`, or those of submitting and waiting if
-        the device has no timestamps."""
+        """Submits what was recorded, and waits. Returns the milliseconds between `start` and
+        `stop`, or those of submitting and waiting if the device has no timestamps.
+        """
         vk, opened = self.vk, self.opened
         before = time.perf_counter()
-        vk.vkQueueSubmit(opened.queue, 1, [vk.VkSubmitInfo(pCommandBuffers=[self.buffer])], self.fence)
+        vk.vkQueueSubmit(
+            opened.queue, 1, [vk.VkSubmitInfo(pCommandBuffers=[self.buffer])], self.fence
+        )
         vk.vkWaitForFences(opened.handle, 1, [self.fence], 1, FOREVER)
         passed = (time.perf_counter() - before) * 1000
         vk.vkResetFences(opened.handle, 1, [self.fence])

@@ -1,4 +1,6 @@
-"""What is timed in turn, and the times of it, as requested from a child process and collected from its events."""
+"""What is timed in turn, and the times of it, as requested from a child process and collected from
+its events.
+"""
 
 from __future__ import annotations
 
@@ -11,8 +13,10 @@ from .protocol import Event
 
 
 class Work(NamedTuple):
-    """The work of an invocation of a built-in fragment shader (shaders/shaded.frag): `operations` multiply-adds, each of which needs the
-    previous one, and `fetches` of four bytes from a texture of at most `footprint` bytes."""
+    """The work of an invocation of a built-in fragment shader (shaders/shaded.frag): `operations`
+    multiply-adds, each of which needs the previous one, and `fetches` of four bytes from a texture
+    of at most `footprint` bytes.
+    """
 
     operations: int = 0
     fetches: int = 0
@@ -27,8 +31,10 @@ class Item(NamedTuple):
 
 
 class TimingOptions(NamedTuple):
-    """The options of a request: the number of `rounds`, of `frames` of each item in a round, and of seconds after which warming ends.
-    After `seconds`, if not 0, there are no more rounds, once there are `least_rounds`."""
+    """The options of a request: the number of `rounds`, of `frames` of each item in a round, and of
+    seconds after which warming ends. After `seconds`, if not 0, there are no more rounds, once
+    there are `least_rounds`.
+    """
 
     rounds: int
     frames: int = 3
@@ -38,8 +44,10 @@ class TimingOptions(NamedTuple):
 
 
 class TimedItem(NamedTuple):
-    """The times of an item: for each of its works the median of every round, in milliseconds. `counts` are the fragment shader invocations
-    of each pass of a frame, by its number, None where the device does not count them. `reason` says why there are no times."""
+    """The times of an item: for each of its works the median of every round, in milliseconds.
+    `counts` are the fragment shader invocations of each pass of a frame, by its number, None where
+    the device does not count them. `reason` says why there are no times.
+    """
 
     times: tuple[tuple[float, ...], ...] = ()
     counts: Mapping[int, int] | None = None
@@ -49,12 +57,15 @@ class TimedItem(NamedTuple):
         """The fragment shader invocations of a frame, or of some of its passes."""
         if self.counts is None:
             return None
-        return sum(count for number, count in self.counts.items() if passes is None or number in passes)
+        return sum(
+            count for number, count in self.counts.items() if passes is None or number in passes
+        )
 
 
 class TimedRun(NamedTuple):
-    """The times of all items. `source` is `timestamp`, the GPU's clock, or `wall`; `stable` says whether times settled before the first
-    round."""
+    """The times of all items. `source` is `timestamp`, the GPU's clock, or `wall`; `stable` says
+    whether times settled before the first round.
+    """
 
     items: Sequence[TimedItem]
     source: str
@@ -67,7 +78,9 @@ class TimedRun(NamedTuple):
 
 
 class TimedCollector:
-    """Collects the events of a request. `at` is the last item that the child announced, as numbered in the request."""
+    """Collects the events of a request. `at` is the last item that the child announced, as numbered
+    in the request.
+    """
 
     def __init__(self, numbers: Sequence[int], ended: Mapping[int, str]) -> None:
         self.at: int | None = None
@@ -109,5 +122,7 @@ class TimedCollector:
         if item in self.reasons:
             return TimedItem(reason=self.reasons[item])
         works = sorted(work for number, work in self._times if number == item)
-        times = tuple(tuple(median(frames) for frames in self._times[item, work].values()) for work in works)
+        times = tuple(
+            tuple(median(frames) for frames in self._times[item, work].values()) for work in works
+        )
         return TimedItem(times, self._counts.get(item), "" if times else "no time was measured")

@@ -56,13 +56,17 @@ RESULTS = {
     1000483000: "VK_PIPELINE_BINARY_MISSING_KHR",
     -1000483000: "VK_ERROR_NOT_ENOUGH_SPACE_KHR",
 }
-"""VkResult from the Vulkan registry 1.4.366. The package `vulkan` lacks some results and has the wrong sign for others."""
+"""VkResult from the Vulkan registry 1.4.366. The package `vulkan` lacks some results and has the
+wrong sign for others.
+"""
 
 
 class VulkanError(Exception):
-    """A call that did not return VK_SUCCESS: `result` is the VkResult, `name` its name (`VK_ERROR_DEVICE_LOST`), `call` the function.
+    """A call that did not return VK_SUCCESS: `result` is the VkResult, `name` its name
+    (`VK_ERROR_DEVICE_LOST`), `call` the function.
 
-    Positive results (VK_TIMEOUT, VK_NOT_READY, VK_INCOMPLETE) raise it too: callers that expect them must catch it.
+    Positive results (VK_TIMEOUT, VK_NOT_READY, VK_INCOMPLETE) raise it too: callers that expect
+    them must catch it.
     """
 
     def __init__(self, result: int, call: str) -> None:
@@ -73,7 +77,9 @@ class VulkanError(Exception):
 
 
 class Unusable(Exception):
-    """No device is available (no package, loader, driver or layer); the message says why, and what to install."""
+    """No device is available (no package, loader, driver or layer); the message says why, and what
+    to install.
+    """
 
 
 class NotWritten(Exception):

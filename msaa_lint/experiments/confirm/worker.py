@@ -1,8 +1,10 @@
-"""The child process that calls a driver: `python -m msaa_lint.experiments.confirm.worker`, started by `session` only.
+"""The child process that calls a driver: `python -m msaa_lint.experiments.confirm.worker`, started
+by `session` only.
 
-Requests arrive as JSON lines on standard input; answers go to a duplicate of standard output that no library knows. The output of drivers
-and layers goes to standard error, which the parent reads and limits. Each pass is announced before it is touched, so that the parent knows
-what killed this process.
+Requests arrive as JSON lines on standard input; answers go to a duplicate of standard output that
+no library knows. The output of drivers and layers goes to standard error, which the parent reads
+and limits. Each pass is announced before it is touched, so that the parent knows what killed this
+process.
 """
 
 from __future__ import annotations
@@ -25,8 +27,9 @@ INTERLEAVED = "msaa_lint.experiments.confirm.interleaved"
 
 
 def main(arguments: list[str]) -> int:
-    """Answers requests until there are no more. The only argument is JSON: `memory`, a limit in bytes; `execute`, the module that runs
-    plans; and `parent`, the process to end with."""
+    """Answers requests until there are no more. The only argument is JSON: `memory`, a limit in
+    bytes; `execute`, the module that runs plans; and `parent`, the process to end with.
+    """
     limits = json.loads(arguments[0]) if arguments else {}
     end_with_parent(limits.get("parent", os.getppid()))
     with os.fdopen(_private(), "wb", buffering=0) as answers:
@@ -35,7 +38,9 @@ def main(arguments: list[str]) -> int:
 
 
 def _private() -> int:
-    """A descriptor of the original standard output; standard output itself is redirected to standard error."""
+    """A descriptor of the original standard output; standard output itself is redirected to
+    standard error.
+    """
     own = os.dup(1)
     os.dup2(2, 1)
     os.set_inheritable(own, False)
@@ -68,7 +73,14 @@ def _serve(requests: IO[bytes], answers: IO[bytes], execute: str) -> int:
         except MemoryError:
             emit({"event": "failed", "kind": "memory", "reason": "out of memory"})
         except ImportError as error:
-            emit({"event": "failed", "kind": "environment", "reason": str(error)[:400], "missing": error.name})
+            emit(
+                {
+                    "event": "failed",
+                    "kind": "environment",
+                    "reason": str(error)[:400],
+                    "missing": error.name,
+                }
+            )
         except Exception as error:
             kind = "environment" if isinstance(error, Unusable) else "program"
             reason = str(error) if kind == "environment" else f"{type(error).__name__}: {error}"
@@ -77,22 +89,34 @@ def _serve(requests: IO[bytes], answers: IO[bytes], execute: str) -> int:
     return 0
 
 
-def _answer(module: Any, session: Any, request: dict[str, Any], emit: Callable[[Event], None]) -> Any:
+def _answer(
+    module: Any, session: Any, request: dict[str, Any], emit: Callable[[Event], None]
+) -> Any:
     """Handles a request and returns the session, which an `open` request creates."""
     if request["do"] == "devices":
         emit({"event": "devices", "devices": module.devices()})
     elif request["do"] == "open":
-        session = module.Session(request["device"], request["validation"], tuple(request["vendors"]))
+        session = module.Session(
+            request["device"], request["validation"], tuple(request["vendors"])
+        )
         emit({"event": "opened", "device": session.device, "layer": session.layer})
     elif request["do"] == "time":
         importlib.import_module(INTERLEAVED).run(session, request["items"], request["want"], emit)
     else:
-        module.run(session, module.from_json(request["plan"]), request["passes"], module.RunOptions(**request["want"]), emit)
+        module.run(
+            session,
+            module.from_json(request["plan"]),
+            request["passes"],
+            module.RunOptions(**request["want"]),
+            emit,
+        )
     return session
 
 
 def _alarm(seconds: float) -> None:
-    """Lets the system end this process after `seconds` in case the parent is gone; 0 cancels the alarm."""
+    """Lets the system end this process after `seconds` in case the parent is gone; 0 cancels the
+    alarm.
+    """
     if hasattr(signal, "setitimer"):
         signal.signal(signal.SIGALRM, signal.SIG_DFL)
         signal.setitimer(signal.ITIMER_REAL, seconds)

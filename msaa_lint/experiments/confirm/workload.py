@@ -1,4 +1,6 @@
-"""The work of shaders/shaded.frag: how many operations and texture fetches an invocation does, and the texture that it fetches from."""
+"""The work of shaders/shaded.frag: how many operations and texture fetches an invocation does, and
+the texture that it fetches from.
+"""
 
 from __future__ import annotations
 
@@ -21,7 +23,9 @@ MIN_SIDE = 16
 
 
 def side(footprint: int) -> int:
-    """The side of the largest square texture, a power of two, that has at most `footprint` bytes."""
+    """The side of the largest square texture, a power of two, that has at most `footprint`
+    bytes.
+    """
     texels = MIN_SIDE
     while (2 * texels) ** 2 * TEXEL <= footprint:
         texels *= 2
@@ -48,27 +52,66 @@ class Workload(DeviceObjects):
         vk.vkCmdBindDescriptorSets(buffer, 0, layout, 0, 1, [self._sets[texels]], 0, None)
         pushed = struct.pack("=iif", work.operations, work.fetches, 1 / texels)
         # The caller keeps the bytes alive until the call returns.
-        vk.vkCmdPushConstants(buffer, layout, 16, 16, len(pushed), vk.ffi.from_buffer("char[]", pushed))
+        vk.vkCmdPushConstants(
+            buffer, layout, 16, 16, len(pushed), vk.ffi.from_buffer("char[]", pushed)
+        )
 
     def _descriptor(self, texels: int) -> Any:
         vk, handle = self.vk, self.opened.handle
         pool_size = vk.VkDescriptorPoolSize(type=1, descriptorCount=1)
-        pool = vk.vkCreateDescriptorPool(handle, vk.VkDescriptorPoolCreateInfo(maxSets=1, pPoolSizes=[pool_size]), None)
+        pool = vk.vkCreateDescriptorPool(
+            handle, vk.VkDescriptorPoolCreateInfo(maxSets=1, pPoolSizes=[pool_size]), None
+        )
         self.own(vk.vkDestroyDescriptorPool, pool)
         layouts = [self.opened.layout("shaded")[1]]
-        descriptor_set = vk.vkAllocateDescriptorSets(handle, vk.VkDescriptorSetAllocateInfo(descriptorPool=pool, pSetLayouts=layouts))[0]
+        descriptor_set = vk.vkAllocateDescriptorSets(
+            handle, vk.VkDescriptorSetAllocateInfo(descriptorPool=pool, pSetLayouts=layouts)
+        )[0]
         sampler = resources(self.opened).sampler(Descriptor(0, 0, SAMPLER))
-        image = vk.VkDescriptorImageInfo(sampler=sampler, imageView=self._texture(texels), imageLayout=READ_LAYOUT)
-        write = vk.VkWriteDescriptorSet(dstSet=descriptor_set, dstBinding=0, descriptorCount=1, descriptorType=1, pImageInfo=[image])
+        image = vk.VkDescriptorImageInfo(
+            sampler=sampler, imageView=self._texture(texels), imageLayout=READ_LAYOUT
+        )
+        write = vk.VkWriteDescriptorSet(
+            dstSet=descriptor_set,
+            dstBinding=0,
+            descriptorCount=1,
+            descriptorType=1,
+            pImageInfo=[image],
+        )
         vk.vkUpdateDescriptorSets(handle, 1, [write], 0, None)
         return descriptor_set
 
     def _texture(self, texels: int) -> Any:
         """A view of a texture of random texels, which no hardware compresses."""
         vk = self.vk
-        image = Image("", FORMAT, 1, SAMPLED | TRANSFER_TARGET, texels, texels, 1, 1, 1, 1, 0, 0, False, COLOR, "UNORM", TEXEL)
+        image = Image(
+            "",
+            FORMAT,
+            1,
+            SAMPLED | TRANSFER_TARGET,
+            texels,
+            texels,
+            1,
+            1,
+            1,
+            1,
+            0,
+            0,
+            False,
+            COLOR,
+            "UNORM",
+            TEXEL,
+        )
         created = create_image(self, image)
-        fill(self.opened, created, image, random.Random(texels).randbytes(texels * texels * TEXEL), READ_LAYOUT)
+        fill(
+            self.opened,
+            created,
+            image,
+            random.Random(texels).randbytes(texels * texels * TEXEL),
+            READ_LAYOUT,
+        )
         whole = vk.VkImageSubresourceRange(aspectMask=COLOR, levelCount=1, layerCount=1)
-        view = vk.VkImageViewCreateInfo(image=created, viewType=1, format=FORMAT, subresourceRange=whole)
+        view = vk.VkImageViewCreateInfo(
+            image=created, viewType=1, format=FORMAT, subresourceRange=whole
+        )
         return self.own(vk.vkDestroyImageView, vk.vkCreateImageView(self.opened.handle, view, None))

@@ -1,1 +1,3 @@
-"""Accuracy against time: scenes, the samples that techniques take of them, the exact picture, and the error between the two."""
+"""Accuracy against time: scenes, the samples that techniques take of them, the exact picture, and
+the error between the two.
+"""

@@ -1,7 +1,7 @@
 """The folder that a sweep resumes from: a file for each point and each time.
 
-The name of a file depends on everything that its contents depend on (text, size, precision, version). A file that cannot be read is
-ignored.
+The name of a file depends on everything that its contents depend on (text, size, precision,
+version). A file that cannot be read is ignored.
 """
 
 from __future__ import annotations
@@ -50,30 +50,51 @@ class Checkpoint:
         """Stores a point."""
         self._write(_key(task), _name(task), point._replace(technique=Technique("", 0)))
 
-    def cost(self, source: CostSource, technique: Technique, shading: Shading, size: tuple[int, int]) -> Cost | None:
+    def cost(
+        self, source: CostSource, technique: Technique, shading: Shading, size: tuple[int, int]
+    ) -> Cost | None:
         """The stored cost of a technique under a cost of shading, if any."""
-        values = self._read(_cost_key(source, technique, shading, size), f"time-{technique.name}", Cost)
+        values = self._read(
+            _cost_key(source, technique, shading, size), f"time-{technique.name}", Cost
+        )
         return None if values is None else Cost(**values)
 
-    def save_cost(self, source: CostSource, technique: Technique, shading: Shading, size: tuple[int, int], cost: Cost) -> None:
+    def save_cost(
+        self,
+        source: CostSource,
+        technique: Technique,
+        shading: Shading,
+        size: tuple[int, int],
+        cost: Cost,
+    ) -> None:
         """Stores the cost of a technique under a cost of shading."""
         self._write(_cost_key(source, technique, shading, size), f"time-{technique.name}", cost)
 
     def _path(self, key: Mapping[str, Any], name: str) -> str:
         digest = sha256(json.dumps(key, sort_keys=True).encode()).hexdigest()[:16]
-        return os.path.join(self.folder, f"{re.sub('[^A-Za-z0-9]+', '-', name)[-60:].strip('-')}-{digest}.json")
+        return os.path.join(
+            self.folder, f"{re.sub('[^A-Za-z0-9]+', '-', name)[-60:].strip('-')}-{digest}.json"
+        )
 
-    def _read(self, key: Mapping[str, Any], name: str, kind: type[Point] | type[Cost]) -> dict[str, Any] | None:
+    def _read(
+        self, key: Mapping[str, Any], name: str, kind: type[Point] | type[Cost]
+    ) -> dict[str, Any] | None:
         try:
             data = json.loads(read(self._path(key, name), MAX_BYTES, self.folder))
         except (OSError, ValueError, RecursionError):
             return None
-        values = data.get("values") if isinstance(data, dict) and data.get("schema") == SCHEMA and data.get("key") == key else None
+        values = (
+            data.get("values")
+            if isinstance(data, dict) and data.get("schema") == SCHEMA and data.get("key") == key
+            else None
+        )
         if not isinstance(values, dict) or set(values) != set(kind._fields):
             return None
         hints = get_type_hints(kind)
         values = {name: _tuple(value) for name, value in values.items()}
-        return values if all(_has_type(value, hints[name]) for name, value in values.items()) else None
+        return (
+            values if all(_has_type(value, hints[name]) for name, value in values.items()) else None
+        )
 
     def _write(self, key: Mapping[str, Any], name: str, values: Point | Cost) -> None:
         data = {"schema": SCHEMA, "key": key, "values": values._asdict()}
@@ -92,7 +113,9 @@ def _tuple(value: Any) -> Any:
 
 
 def _has_type(value: object, hint: Any) -> bool:
-    """Whether a value has the type of a member: a scalar, an optional one, or a tuple; that of techniques is not checked."""
+    """Whether a value has the type of a member: a scalar, an optional one, or a tuple; that of
+    techniques is not checked.
+    """
     if hint is float:
         return type(value) in (int, float)
     if hint in (int, str, bool, type(None)):
@@ -114,7 +137,11 @@ def _name(task: Task) -> str:
 def _key(task: Task) -> dict[str, Any]:
     """Everything that a point depends on."""
     subject = task.input
-    content = _contents(subject.path) if subject.kind == "mesh" else subject.text.encode("utf-8", "surrogatepass")
+    content = (
+        _contents(subject.path)
+        if subject.kind == "mesh"
+        else subject.text.encode("utf-8", "surrogatepass")
+    )
     return {
         "version": VERSION,
         "kind": subject.kind,
@@ -139,13 +166,27 @@ def _contents(path: str) -> bytes:
         return b""
 
 
-def _cost_key(source: CostSource, technique: Technique, shading: Shading, size: tuple[int, int]) -> dict[str, Any]:
+def _cost_key(
+    source: CostSource, technique: Technique, shading: Shading, size: tuple[int, int]
+) -> dict[str, Any]:
     # Calibrations of the same cost differ a little from run to run.
-    return {"version": VERSION, "source": identity(source), "technique": list(technique), "shading": shading.name, "size": list(size)}
+    return {
+        "version": VERSION,
+        "source": identity(source),
+        "technique": list(technique),
+        "shading": shading.name,
+        "size": list(size),
+    }
 
 
 def identity(source: CostSource) -> list[Any]:
-    """Everything that the answers of a source depend on: the device, the triangles, and the parameters of the cost model."""
+    """Everything that the answers of a source depend on: the device, the triangles, and the
+    parameters of the cost model.
+    """
     model = getattr(source, "model", source)
-    parameters = [source.name, getattr(source, "content", ""), *(getattr(model, name, None) for name in ("hdr", "depth", "fps"))]
+    parameters = [
+        source.name,
+        getattr(source, "content", ""),
+        *(getattr(model, name, None) for name in ("hdr", "depth", "fps")),
+    ]
     return [*parameters, repr(getattr(model, "device", None))]

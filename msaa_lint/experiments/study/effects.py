@@ -1,7 +1,9 @@
-"""Effects: independent stages of a draw. A scene enables those it needs; the others are neither called nor allocated.
+"""Effects: independent stages of a draw. A scene enables those it needs; the others are neither
+called nor allocated.
 
-A stage of `TABLE` either removes samples from fragments (`fragment`), combines a color with the one behind it (`blend`), or rounds a color
-to what an attachment stores (`store`). Effects of the resolve (`depth-resolve`, `tone-mapping`) are in `resolve`.
+A stage of `TABLE` either removes samples from fragments (`fragment`), combines a color with the one
+behind it (`blend`), or rounds a color to what an attachment stores (`store`). Effects of the
+resolve (`depth-resolve`, `tone-mapping`) are in `resolve`.
 """
 
 from __future__ import annotations
@@ -20,7 +22,9 @@ SAMPLE_SHADING = "sample-shading"
 ALPHA_THRESHOLD = 0.5
 """The alpha test discards invocations whose alpha is below this."""
 
-BAYER = np.array([[0, 8, 2, 10], [12, 4, 14, 6], [3, 11, 1, 9], [15, 7, 13, 5]], np.float32) / 16 + np.float32(1 / 32)
+BAYER = np.array(
+    [[0, 8, 2, 10], [12, 4, 14, 6], [3, 11, 1, 9], [15, 7, 13, 5]], np.float32
+) / 16 + np.float32(1 / 32)
 """Dither thresholds by row and column of a 4x4 block, evenly spaced from 1/32 to 31/32."""
 
 COMPARE: dict[str, Callable[[Any, Any], NDArray[np.bool_]]] = {
@@ -35,14 +39,18 @@ COMPARE: dict[str, Callable[[Any, Any], NDArray[np.bool_]]] = {
 
 
 def sample_mask(batch: Batch, band: Band, drawing: Drawing) -> None:
-    """Keeps the samples of `settings["sample-mask"]`: those whose bit is unset are never drawn (pSampleMask, specification 28.4)."""
+    """Keeps the samples of `settings["sample-mask"]`: those whose bit is unset are never drawn
+    (pSampleMask, specification 28.4).
+    """
     mask = drawing.settings["sample-mask"]
     assert isinstance(mask, int)
     batch.mask = batch.mask & np.uint16(mask & 0xFFFF)
 
 
 def alpha_test(batch: Batch, band: Band, drawing: Drawing) -> None:
-    """Discards invocations below the threshold, with all their samples (OpKill, OpTerminateInvocation). NaN passes."""
+    """Discards invocations below the threshold, with all their samples (OpKill,
+    OpTerminateInvocation). NaN passes.
+    """
     for number, bits in enumerate(drawing.groups):
         discarded = batch.color[:, number, 3] < ALPHA_THRESHOLD
         batch.mask = np.where(discarded, batch.mask & np.uint16(~bits & 0xFFFF), batch.mask)
@@ -53,21 +61,25 @@ def alpha_to_coverage(batch: Batch, band: Band, drawing: Drawing) -> None:
 
     The specification leaves the pattern open. `settings["alpha-to-coverage"]` selects a model:
 
-    - `dithered`: alpha * N plus one of 16 thresholds chosen by the pixel's position in a 4x4 block, rounded down; the average over a block
-      is accurate to 1/(16 N);
-    - `ceil`: alpha * N rounded up, the same in every pixel, so that a fragment with any alpha above 0 covers at least one sample.
+    - `dithered`: alpha * N plus one of 16 thresholds chosen by the pixel's position in a 4x4 block,
+      rounded down; the average over a block is accurate to 1/(16 N);
+    - `ceil`: alpha * N rounded up, the same in every pixel, so that a fragment with any alpha above
+      0 covers at least one sample.
     """
     thresholds: Floats | None = None
     if drawing.settings.get("alpha-to-coverage", "dithered") == "dithered":
         thresholds = BAYER[batch.y & 3, batch.x & 3]
     mask = np.zeros_like(batch.mask)
     for number, bits in enumerate(drawing.groups):
-        mask |= alpha_coverage(batch.color[:, number, 3], thresholds, drawing.samples) & np.uint16(bits)
+        mask |= alpha_coverage(batch.color[:, number, 3], thresholds, drawing.samples) & np.uint16(
+            bits
+        )
     batch.mask = batch.mask & mask
 
 
 def alpha_coverage(alpha: Floats, thresholds: Floats | None, samples: int) -> Bits:
-    """A bit mask of the first samples that each alpha covers: dithered by `thresholds`, or rounded up without them.
+    """A bit mask of the first samples that each alpha covers: dithered by `thresholds`, or rounded
+    up without them.
 
     Alpha that is 0, negative or NaN covers no sample; 1 and above cover all of them.
     """
@@ -75,7 +87,8 @@ def alpha_coverage(alpha: Floats, thresholds: Floats | None, samples: int) -> Bi
     if thresholds is None:
         count = np.ceil(share)
     else:
-        # As floor(share + thresholds), but exact: that sum is rounded, up to the next integer where it is just below.
+        # As floor(share + thresholds), but exact: that sum is rounded, up to the next integer where
+        # it is just below.
         count = np.floor(share)
         count += share - count >= np.float32(1) - thresholds
     bits: Bits = ((1 << count.astype(np.uint32)) - 1).astype(np.uint16)
@@ -83,10 +96,11 @@ def alpha_coverage(alpha: Floats, thresholds: Floats | None, samples: int) -> Bi
 
 
 def stencil_test(batch: Batch, band: Band, drawing: Drawing) -> None:
-    """Lets some triangles mark samples (write 1 to stencil, and no color) and draws others only on marked samples (EQUAL 1).
+    """Lets some triangles mark samples (write 1 to stencil, and no color) and draws others only on
+    marked samples (EQUAL 1).
 
-    `settings["stencil"]` are three triangle indices: from the first up to the second triangles mark, from the second up to the third they
-    are tested; all others are unaffected.
+    `settings["stencil"]` are three triangle indices: from the first up to the second triangles
+    mark, from the second up to the third they are tested; all others are unaffected.
     """
     assert band.stencil is not None
     limits = drawing.settings["stencil"]
@@ -107,14 +121,17 @@ def stencil_test(batch: Batch, band: Band, drawing: Drawing) -> None:
 def depth_test(batch: Batch, band: Band, drawing: Drawing) -> None:
     """Removes samples that fail the comparison and stores the depth of those that pass.
 
-    A triangle's depth is evaluated at each sample location in double precision and rounded once to D32_SFLOAT, so the line where surfaces
-    intersect is an edge too. Equal depth fails LESS: the first surface drawn stays.
+    A triangle's depth is evaluated at each sample location in double precision and rounded once to
+    D32_SFLOAT, so the line where surfaces intersect is an edge too. Equal depth fails LESS: the
+    first surface drawn stays.
     """
     assert band.depth is not None and drawing.planes is not None
     compare = COMPARE[str(drawing.settings.get("depth-test", "LESS"))]
     plane_of = batch.plane
     # Most batches are of one triangle.
-    slope_x, slope_y, base = drawing.planes[plane_of[0] if (plane_of == plane_of[0]).all() else plane_of].T
+    slope_x, slope_y, base = drawing.planes[
+        plane_of[0] if (plane_of == plane_of[0]).all() else plane_of
+    ].T
     corner = slope_x * batch.x + slope_y * batch.y + base
     mask = np.zeros_like(batch.mask)
     for sample, (x, y) in enumerate(drawing.locations):
@@ -127,12 +144,16 @@ def depth_test(batch: Batch, band: Band, drawing: Drawing) -> None:
 
 
 def clear_depth(comparison: object) -> float:
-    """The farthest depth, which attachments are cleared to: 0 with reversed depth, where greater is nearer, otherwise 1."""
+    """The farthest depth, which attachments are cleared to: 0 with reversed depth, where greater is
+    nearer, otherwise 1.
+    """
     return 0.0 if str(comparison).startswith("GREATER") else 1.0
 
 
 def blend(source: Floats, behind: Floats) -> Floats:
-    """Colors (F, 4) over those behind, in linear light: color by SRC_ALPHA and ONE_MINUS_SRC_ALPHA, alpha by ONE, ONE_MINUS_SRC_ALPHA."""
+    """Colors (F, 4) over those behind, in linear light: color by SRC_ALPHA and ONE_MINUS_SRC_ALPHA,
+    alpha by ONE, ONE_MINUS_SRC_ALPHA.
+    """
     alpha = source[:, 3:4]
     part = source * alpha
     part[:, 3:4] = alpha
@@ -141,7 +162,9 @@ def blend(source: Floats, behind: Floats) -> Floats:
 
 
 def store_half(color: Floats) -> Floats:
-    """Colors as R16G16B16A16_SFLOAT stores them: rounded to nearest, ties to even; 65520 and above become infinity."""
+    """Colors as R16G16B16A16_SFLOAT stores them: rounded to nearest, ties to even; 65520 and above
+    become infinity.
+    """
     with np.errstate(over="ignore"):
         return color.astype(np.float16).astype(np.float32)
 
@@ -156,8 +179,10 @@ def store_srgb(color: Floats) -> Floats:
 
 
 class Effect(NamedTuple):
-    """An effect and its stage, if it has one: `fragment` updates a batch of shaded fragments before anything is written; `blend` combines a
-    color with the one behind it; `store` rounds colors to what the attachment holds, for samples and for resolved pixels."""
+    """An effect and its stage, if it has one: `fragment` updates a batch of shaded fragments before
+    anything is written; `blend` combines a color with the one behind it; `store` rounds colors to
+    what the attachment holds, for samples and for resolved pixels.
+    """
 
     name: str
     description: str
@@ -169,8 +194,14 @@ class Effect(NamedTuple):
 TABLE: tuple[Effect, ...] = (
     Effect("sample-mask", "samples outside pSampleMask are not drawn", fragment=sample_mask),
     Effect(SAMPLE_SHADING, "the shader runs for groups of samples instead of once per pixel"),
-    Effect("alpha-test", "the shader discards where alpha is below a threshold", fragment=alpha_test),
-    Effect("alpha-to-coverage", "alpha determines how many samples are covered", fragment=alpha_to_coverage),
+    Effect(
+        "alpha-test", "the shader discards where alpha is below a threshold", fragment=alpha_test
+    ),
+    Effect(
+        "alpha-to-coverage",
+        "alpha determines how many samples are covered",
+        fragment=alpha_to_coverage,
+    ),
     Effect("stencil", "samples are drawn where stencil is marked", fragment=stencil_test),
     Effect("depth-test", "each sample keeps the nearest surface", fragment=depth_test),
     Effect("blending", "colors are blended sample by sample", blend=blend),

@@ -1,8 +1,10 @@
-"""Flicker: how much the error of a picture changes from frame to frame while the scene moves by fractions of a pixel.
+"""Flicker: how much the error of a picture changes from frame to frame while the scene moves by
+fractions of a pixel.
 
-The scene moves in 64 steps of 1/64 of a pixel to the right and, at the same time, down in one sweep and up in another, so that every edge
-moves across its own direction in at least one of them, and edges along the axes in both. After 64 steps it has moved by whole pixels: the
-errors are those of the beginning, a pixel further on, and so every position of an edge within a pixel counts once.
+The scene moves in 64 steps of 1/64 of a pixel to the right and, at the same time, down in one sweep
+and up in another, so that every edge moves across its own direction in at least one of them, and
+edges along the axes in both. After 64 steps it has moved by whole pixels: the errors are those of
+the beginning, a pixel further on, and so every position of an edge within a pixel counts once.
 """
 
 from __future__ import annotations
@@ -36,7 +38,9 @@ SHARE, MIN_WINDOWS, MAX_WINDOWS = 64, 4, 32
 """One in SHARE of the windows that an edge crosses is looked at, within these limits."""
 
 OFFSET = 77 / 256
-"""How far the scene has moved, in pixels, where edges are looked for: edges that lie between pixels, as many do, are within pixels then."""
+"""How far the scene has moved, in pixels, where edges are looked for: edges that lie between
+pixels, as many do, are within pixels then.
+"""
 
 SWEEPS_AT_A_TIME = 8
 """Sweeps whose exact pictures are computed together."""
@@ -47,16 +51,19 @@ Sweep = list[Part]
 
 
 class _Exact(NamedTuple):
-    """What errors are measured against, in the windows of every step of every sweep: coverage (S, STEPS + 1, pixels, 1) or displayed color
-    (..., 3), and the pixels that an edge crosses."""
+    """What errors are measured against, in the windows of every step of every sweep: coverage (S,
+    STEPS + 1, pixels, 1) or displayed color (..., 3), and the pixels that an edge crosses.
+    """
 
     values: NDArray[np.floating]
     edges: NDArray[np.bool_]
 
 
 def flicker(scene: Scene, technique: Technique, bits: int = 8) -> float:
-    """The root mean square of the change of the error in one step, over the pixels that an edge crosses before or after the step: of
-    coverage, or of the displayed color (sRGB codes in [0, 1]) for scenes without coverage."""
+    """The root mean square of the change of the error in one step, over the pixels that an edge
+    crosses before or after the step: of coverage, or of the displayed color (sRGB codes in [0, 1])
+    for scenes without coverage.
+    """
     simulator = Simulator(scene, technique, bits)
     sweeps = [_sweep(window, direction) for window in windows(scene, bits) for direction in SWEEPS]
     exact = _exact(simulator, sweeps)
@@ -76,26 +83,40 @@ def _measured(simulator: Simulator, sweeps: Sequence[Sweep]) -> NDArray[np.float
 
 
 def _exact(simulator: Simulator, sweeps: Sequence[Sweep]) -> _Exact:
-    """The exact values, as the technique snaps the triangles; the last ones of multisampling are cached."""
+    """The exact values, as the technique snaps the triangles; the last ones of multisampling are
+    cached.
+    """
     scene, bits, grid = simulator.scene, simulator.bits, simulator.grid
     for cached_scene, cached_bits, cached in _EXACT:
         if cached_scene is scene and (cached_bits, 1) == (bits, grid):
             return cached
     values, edges = [], []
     for which in _slices(len(sweeps), SWEEPS_AT_A_TIME):
-        truth = scene.exact(simulator.snapped([part for sweep in sweeps[which] for part in sweep]).view())
+        truth = scene.exact(
+            simulator.snapped([part for sweep in sweeps[which] for part in sweep]).view()
+        )
         count = len(sweeps[which])
         values.append(_by_step(_quantity(scene, truth.image, truth.image[..., 3]), count))
         edges.append(truth.edge_pixels.reshape(count, STEPS + 1, -1))
-    exact = _Exact(np.concatenate(values), np.concatenate(edges)) if values else _Exact(np.empty(0), np.empty(0, bool))
+    exact = (
+        _Exact(np.concatenate(values), np.concatenate(edges))
+        if values
+        else _Exact(np.empty(0), np.empty(0, bool))
+    )
     if grid == 1:
         _EXACT[:] = [(scene, bits, exact)]
     return exact
 
 
-def _quantity(scene: Scene, image: NDArray[np.floating], coverage: NDArray[np.floating] | None) -> NDArray[np.floating]:
+def _quantity(
+    scene: Scene, image: NDArray[np.floating], coverage: NDArray[np.floating] | None
+) -> NDArray[np.floating]:
     """What errors are of: coverage (..., 1), or displayed color (..., 3)."""
-    return coverage[..., None] if scene.coverage_matter and coverage is not None else display_codes(scene, image)
+    return (
+        coverage[..., None]
+        if scene.coverage_matter and coverage is not None
+        else display_codes(scene, image)
+    )
 
 
 def _by_step(values: NDArray[np.floating], sweeps: int) -> NDArray[np.floating]:
@@ -112,7 +133,9 @@ def _sweep(window: Part, direction: tuple[int, int]) -> Sweep:
 
 
 def windows(scene: Scene, bits: int = 8) -> list[Part]:
-    """The windows of a scene that are looked at: some of those that an edge crosses, evenly spread. The last scene's are cached."""
+    """The windows of a scene that are looked at: some of those that an edge crosses, evenly spread.
+    The last scene's are cached.
+    """
     for cached_scene, cached_bits, cached in _WINDOWS:
         if cached_scene is scene and cached_bits == bits:
             return cached
@@ -120,11 +143,16 @@ def windows(scene: Scene, bits: int = 8) -> list[Part]:
     for top in range(0, scene.height - SIDE + 1, SIDE):
         band = Part(0, top, scene.width, SIDE, OFFSET, OFFSET)
         edge_pixels = scene.exact(snapped(scene.triangles, [band], bits=bits).view()).edge_pixels[0]
-        columns = edge_pixels.any(axis=0)[: scene.width // SIDE * SIDE].reshape(-1, SIDE).any(axis=1)
+        columns = (
+            edge_pixels.any(axis=0)[: scene.width // SIDE * SIDE].reshape(-1, SIDE).any(axis=1)
+        )
         crossed += [Part(int(column) * SIDE, top, SIDE, SIDE) for column in np.flatnonzero(columns)]
     count = min(max(-(-len(crossed) // SHARE), MIN_WINDOWS), MAX_WINDOWS, len(crossed))
-    # One from each of as many equal parts of the list, at varying places, so that no pattern of the scene recurs.
-    chosen = [crossed[int((number + spread(number)) * len(crossed) / count)] for number in range(count)]
+    # One from each of as many equal parts of the list, at varying places, so that no pattern of the
+    # scene recurs.
+    chosen = [
+        crossed[int((number + spread(number)) * len(crossed) / count)] for number in range(count)
+    ]
     _WINDOWS[:] = [(scene, bits, chosen)]
     return chosen
 

@@ -1,7 +1,9 @@
-"""How often a fragment shader runs: its invocations, and the helper invocations that complete quads of 2x2 pixels.
+"""How often a fragment shader runs: its invocations, and the helper invocations that complete quads
+of 2x2 pixels.
 
-GPUs shade quads, as derivatives need neighbors (specification 29.5, Helper Invocations): a quad in which a triangle covers one pixel takes
-the time of four. Helpers are not among the invocations that a device counts.
+GPUs shade quads, as derivatives need neighbors (specification 29.5, Helper Invocations): a quad in
+which a triangle covers one pixel takes the time of four. Helpers are not among the invocations that
+a device counts.
 """
 
 from __future__ import annotations
@@ -17,8 +19,10 @@ from .shade import groups
 
 
 class Invocations(NamedTuple):
-    """The samples of a frame that triangles cover; its invocations with one per covered pixel of a triangle, and their helpers; and those
-    that sample shading adds, and theirs. Depth, stencil, and discarding are not considered."""
+    """The samples of a frame that triangles cover; its invocations with one per covered pixel of a
+    triangle, and their helpers; and those that sample shading adds, and theirs. Depth, stencil, and
+    discarding are not considered.
+    """
 
     covered: int = 0
     pixels: int = 0
@@ -32,24 +36,43 @@ class Invocations(NamedTuple):
         return self.pixels + self.samples
 
 
-def count(triangles: NDArray[np.float64], size: tuple[int, int], technique: Technique, bits: int = 8) -> Invocations:
-    """The invocations of a technique that draws triangles (T, 3, 2), in pixels, into a picture of a size."""
+def count(
+    triangles: NDArray[np.float64], size: tuple[int, int], technique: Technique, bits: int = 8
+) -> Invocations:
+    """The invocations of a technique that draws triangles (T, 3, 2), in pixels, into a picture of a
+    size.
+    """
     grid = technique.grid if technique.kind == SSAA else 1
     samples = 1 if technique.kind == SSAA else technique.samples
     places = locations.standard(samples)
-    rows = coverage.rows(snap.snapped(triangles * grid, bits), size[0] * grid, size[1] * grid, places)
-    every_sample, shared = groups(samples, 1), groups(samples, technique.shaded if technique.kind == SAMPLE_SHADING else 1)
+    rows = coverage.rows(
+        snap.snapped(triangles * grid, bits), size[0] * grid, size[1] * grid, places
+    )
+    every_sample, shared = (
+        groups(samples, 1),
+        groups(samples, technique.shaded if technique.kind == SAMPLE_SHADING else 1),
+    )
     pixels, lanes = _counted(rows, every_sample)
     invocations, all_lanes = _counted(rows, shared) if shared != every_sample else (pixels, lanes)
     covered = int((rows.right - rows.left).sum(dtype=np.int64))
-    return Invocations(covered, pixels, lanes - pixels, invocations - pixels, max(all_lanes - invocations - (lanes - pixels), 0))
+    return Invocations(
+        covered,
+        pixels,
+        lanes - pixels,
+        invocations - pixels,
+        max(all_lanes - invocations - (lanes - pixels), 0),
+    )
 
 
 def _counted(rows: coverage.Rows, sample_groups: tuple[int, ...]) -> tuple[int, int]:
-    """The invocations of spans, and the lanes of their quads, which are four for each quad of a triangle."""
+    """The invocations of spans, and the lanes of their quads, which are four for each quad of a
+    triangle.
+    """
     count = rows.left.shape[1]
     # The rows of a triangle follow each other: those of a quad are next to each other.
-    starts = np.concatenate(([True], (np.diff(rows.triangle) != 0) | (np.diff(rows.row >> 1) != 0)))[: len(rows.row)]
+    starts = np.concatenate(
+        ([True], (np.diff(rows.triangle) != 0) | (np.diff(rows.row >> 1) != 0))
+    )[: len(rows.row)]
     pair, second = np.cumsum(starts) - 1, (~starts).astype(np.intp)
     invocations = lanes = 0
     for bits in sample_groups:

@@ -12,10 +12,14 @@ SUBPIXELS = 256
 
 
 def standard(samples: int) -> NDArray[np.int64]:
-    """The standard pattern of a sample count: (samples, 2), x and y in 1/256 pixel, in sample order.
+    """The standard pattern of a sample count: (samples, 2), x and y in 1/256 pixel, in sample
+    order.
 
     ValueError for a count without a standard pattern, such as 32 and 64.
     """
     if samples not in STANDARD:
-        raise ValueError(f"there are no standard sample locations for {samples} samples, only for {', '.join(map(str, STANDARD))}")
+        raise ValueError(
+            f"there are no standard sample locations for {samples} samples, only for "
+            f"{', '.join(map(str, STANDARD))}"
+        )
     return np.array(STANDARD[samples], dtype=np.int64) * (SUBPIXELS // 16)

@@ -1,4 +1,6 @@
-"""The error of a picture against the exact one, band by band, so that memory does not grow with the picture."""
+"""The error of a picture against the exact one, band by band, so that memory does not grow with the
+picture.
+"""
 
 from __future__ import annotations
 
@@ -19,9 +21,12 @@ from .sums import ErrorSum, Sum, difference
 ONE = Technique(MSAA, 1)
 
 
-def truth(scene: Scene, technique: Technique = ONE, bits: int = 8, part: Part | None = None) -> Truth:
-    """The exact picture of the triangles as the technique snaps them, so that only the error of sampling remains; of the whole scene or
-    of a part."""
+def truth(
+    scene: Scene, technique: Technique = ONE, bits: int = 8, part: Part | None = None
+) -> Truth:
+    """The exact picture of the triangles as the technique snaps them, so that only the error of
+    sampling remains; of the whole scene or of a part.
+    """
     whole = part or Part(0, 0, scene.width, scene.height)
     image, edge_pixels = scene.exact(snapped(scene.triangles, [whole], technique.grid, bits).view())
     return Truth(image[0], edge_pixels[0])
@@ -30,7 +35,9 @@ def truth(scene: Scene, technique: Technique = ONE, bits: int = 8, part: Part | 
 _LAST: list[tuple[Scene, tuple[object, ...], Point]] = []
 
 
-def point(scene: Scene, technique: Technique, bits: int = 8, ssim: bool = False, flip: bool = False) -> Point:
+def point(
+    scene: Scene, technique: Technique, bits: int = 8, ssim: bool = False, flip: bool = False
+) -> Point:
     """A point without time, bytes, power and memory. Errors are of sampling alone."""
     rendered = same_picture(scene, technique)
     key = (rendered, bits, ssim, flip)
@@ -45,8 +52,14 @@ def point(scene: Scene, technique: Technique, bits: int = 8, ssim: bool = False,
 
 
 def same_picture(scene: Scene, technique: Technique) -> Technique:
-    """The technique to simulate: without a shader, sample shading gives the picture of multisampling."""
-    return Technique(MSAA, technique.samples) if technique.kind == SAMPLE_SHADING and scene.shade is None else technique
+    """The technique to simulate: without a shader, sample shading gives the picture of
+    multisampling.
+    """
+    return (
+        Technique(MSAA, technique.samples)
+        if technique.kind == SAMPLE_SHADING and scene.shade is None
+        else technique
+    )
 
 
 class _Sums:
@@ -77,13 +90,19 @@ class _Sums:
     def _shown(self, measured: displayed.Floats, exact: NDArray[np.float64]) -> NDArray[np.float64]:
         """The difference of what the display shows."""
         if self.kept is not None:
-            codes = displayed.display_codes(self.scene, measured), displayed.display_codes(self.scene, exact)
+            codes = (
+                displayed.display_codes(self.scene, measured),
+                displayed.display_codes(self.scene, exact),
+            )
             self.kept.append((codes[0][0], codes[1][0]))
             return difference(*codes)
         differences = np.zeros((*measured.shape[:-1], 3))
         # Most pixels of a scene of coverage are inside or outside of shapes, and are not encoded.
         differ = (measured != exact).any(axis=-1)
-        codes = displayed.display_codes(self.scene, measured[differ]), displayed.display_codes(self.scene, exact[differ])
+        codes = (
+            displayed.display_codes(self.scene, measured[differ]),
+            displayed.display_codes(self.scene, exact[differ]),
+        )
         differences[differ] = difference(*codes)
         return differences
 

@@ -1,4 +1,6 @@
-"""The error by which the techniques of a scene are compared: what people look at in such a picture."""
+"""The error by which the techniques of a scene are compared: what people look at in such a
+picture.
+"""
 
 from __future__ import annotations
 
@@ -20,11 +22,19 @@ class Measure(NamedTuple):
     name: str
 
     def of(self, point: Point) -> float | None:
-        """The error, of which less is better, or NaN; None where it was not measured. Of PSNR it is the RMSE, in units of display white."""
+        """The error, of which less is better, or NaN; None where it was not measured. Of PSNR it is
+        the RMSE, in units of display white.
+        """
         value: float | None = getattr(point, self.key)
         if value is None or self.key != "psnr_display_db":
             return value
-        return 10.0 ** (-min(max(value, -1000.0), 1000.0) / 20) if not math.isinf(value) else 0.0 if value > 0 else math.inf
+        return (
+            10.0 ** (-min(max(value, -1000.0), 1000.0) / 20)
+            if not math.isinf(value)
+            else 0.0
+            if value > 0
+            else math.inf
+        )
 
     def is_finite(self, point: Point) -> bool:
         """Whether the error was measured, and is a finite number that is not negative."""
@@ -46,8 +56,10 @@ MEASURES = (ERROR, DISPLAY, FLIP, FLICKER)
 
 
 def measure_of(about: Sequence[str], points: Sequence[Point]) -> Measure:
-    """The error that decides between the points of a scene: of HDR the one on the display, FLIP if it was measured, else that of PSNR; of
-    thin lines their flicker; otherwise, and where that was not measured of all points, the RMSE."""
+    """The error that decides between the points of a scene: of HDR the one on the display, FLIP if
+    it was measured, else that of PSNR; of thin lines their flicker; otherwise, and where that was
+    not measured of all points, the RMSE.
+    """
     preferred = (FLIP, DISPLAY) if HDR in about else (FLICKER,) if THIN_LINES in about else ()
     for measure in preferred:
         finite = [point for point in points if ERROR.is_finite(point)]

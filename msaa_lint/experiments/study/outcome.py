@@ -18,9 +18,11 @@ from .time_model import TimeModel
 
 
 class SceneSummary(NamedTuple):
-    """A scene of a study: what it shows, in one sentence; its effects, each with the reason; whether its error is of coverage, in [0, 1],
-    or of linear color; what it is about (study/scenes/about.py), and the error by which its techniques are therefore compared; what is
-    assumed of a frame that a device timed."""
+    """A scene of a study: what it shows, in one sentence; its effects, each with the reason;
+    whether its error is of coverage, in [0, 1], or of linear color; what it is about
+    (study/scenes/about.py), and the error by which its techniques are therefore compared; what is
+    assumed of a frame that a device timed.
+    """
 
     name: str
     description: str
@@ -41,14 +43,16 @@ class UntimedTechnique(NamedTuple):
 class Study(NamedTuple):
     """A study.
 
-    `device` is the source of the times, empty without any; `model` is the device whose traffic the cost model estimates, empty for none in
-    particular. `points` are in the order of the scenes, shading costs, and techniques. `wrong` are findings that say why an input could not
-    be used; `records` and `pictures` are the paths of the files written, `crops` the crops by
-    scene, if they were asked for. `answer.conclude` marks the Pareto-optimal points, and adds
-    `steps`, `recommendations`, and `advice`.
+    `device` is the source of the times, empty without any; `model` is the device whose traffic the
+    cost model estimates, empty for none in particular. `points` are in the order of the scenes,
+    shading costs, and techniques. `wrong` are findings that say why an input could not be used;
+    `records` and `pictures` are the paths of the files written, `crops` the crops by scene, if they
+    were asked for. `answer.conclude` marks the Pareto-optimal points, and adds `steps`,
+    `recommendations`, and `advice`.
 
-    `software` says that the device is a CPU: its times are labelled as such, and advice does not use them. `shadings` are the costs of
-    shading, as calibrated, and `models` the fitted times of the scenes. `budget_ms` is what a technique may add to the time of one sample.
+    `software` says that the device is a CPU: its times are labelled as such, and advice does not
+    use them. `shadings` are the costs of shading, as calibrated, and `models` the fitted times of
+    the scenes. `budget_ms` is what a technique may add to the time of one sample.
     """
 
     device: str
@@ -73,8 +77,14 @@ class Study(NamedTuple):
 
     def of(self, scene: str, shading: str | None = None) -> list[Point]:
         """The points of one scene, or those of one of its shading costs."""
-        return [point for point in self.points if point.scene == scene and shading in (None, point.shading)]
+        return [
+            point
+            for point in self.points
+            if point.scene == scene and shading in (None, point.shading)
+        ]
 
     def shading_names(self, scene: str) -> list[str]:
-        """The names of the costs of shading that a scene was timed under, in the order of its points; one empty name without times."""
+        """The names of the costs of shading that a scene was timed under, in the order of its
+        points; one empty name without times.
+        """
         return list(dict.fromkeys(point.shading for point in self.points if point.scene == scene))

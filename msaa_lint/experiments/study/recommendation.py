@@ -1,4 +1,6 @@
-"""Which technique to take: the best that fits a budget; and at which costs of shading steps up are worth their time."""
+"""Which technique to take: the best that fits a budget; and at which costs of shading steps up are
+worth their time.
+"""
 
 from __future__ import annotations
 
@@ -14,14 +16,17 @@ from .steps import MAX_ADDED, AddedTime, added_time, is_enough, percent
 from .time_model import TimeModel
 
 DEFAULT_BUDGET_MS = 1.0
-"""What a technique may add to the time of one sample where no budget is stated: 6 % of a frame at 60 Hz."""
+"""What a technique may add to the time of one sample where no budget is stated: 6 % of a frame at
+60 Hz.
+"""
 
 BISECTIONS = 60
 
 
 class Recommendation(NamedTuple):
-    """The technique to take on one scene under one cost of shading, what it adds to the time of one sample, and why; `following` says what
-    the next better one needs."""
+    """The technique to take on one scene under one cost of shading, what it adds to the time of one
+    sample, and why; `following` says what the next better one needs.
+    """
 
     scene: str
     shading: str
@@ -36,9 +41,13 @@ class Recommendation(NamedTuple):
         return f"take {self.technique.name}"
 
 
-def recommendation(points: Sequence[Point], measure: Measure, budget_ms: float) -> Recommendation | None:
-    """What to take of the points of one scene under one cost of shading: the least error of those whose added time fits with its upper
-    bound. None where one sample, or nothing else, was timed."""
+def recommendation(
+    points: Sequence[Point], measure: Measure, budget_ms: float
+) -> Recommendation | None:
+    """What to take of the points of one scene under one cost of shading: the least error of
+    those whose added time fits with its upper bound. None where one sample, or nothing else, was
+    timed.
+    """
     timed = [point for point in points if has_time(point) and measure.is_finite(point)]
     one = next((point for point in timed if point.technique == Technique(MSAA, 1)), None)
     if one is None or len(timed) < 2:
@@ -47,18 +56,34 @@ def recommendation(points: Sequence[Point], measure: Measure, budget_ms: float) 
     choice = _front(fitting, measure)[-1]
     reason = f"every other technique adds more than {budget_ms:.4g} ms"
     if len(fitting) > 1:
-        reason = f"adds {_bounds(_added(choice, one))} and has the least {measure.name} of the {len(fitting)} that fit"
-    better = [point for point in _front(timed, measure) if measure.rounded(point) < measure.rounded(choice)]
+        reason = (
+            f"adds {_bounds(_added(choice, one))} and has the least {measure.name} of the "
+            f"{len(fitting)} that fit"
+        )
+    better = [
+        point
+        for point in _front(timed, measure)
+        if measure.rounded(point) < measure.rounded(choice)
+    ]
     following = f"no technique has less {measure.name}"
     if better:
         nearest = min(better, key=lambda point: (_added(point, one).high_ms, point.technique))
-        following = f"{nearest.technique.name} has {_less(measure, nearest, choice)} and needs {_added(nearest, one).high_ms:.3g} ms"
-    return Recommendation(one.scene, one.shading, choice.technique, _added(choice, one), reason, following)
+        following = (
+            f"{nearest.technique.name} has {_less(measure, nearest, choice)} and needs "
+            f"{_added(nearest, one).high_ms:.3g} ms"
+        )
+    return Recommendation(
+        one.scene, one.shading, choice.technique, _added(choice, one), reason, following
+    )
 
 
 def _front(points: Sequence[Point], measure: Measure) -> list[Point]:
-    best = [point for point, optimal in zip(points, fastest(points, measure), strict=True) if optimal]
-    return sorted(best, key=lambda point: (-measure.rounded(point), point.time_ms or 0.0, point.technique))
+    best = [
+        point for point, optimal in zip(points, fastest(points, measure), strict=True) if optimal
+    ]
+    return sorted(
+        best, key=lambda point: (-measure.rounded(point), point.time_ms or 0.0, point.technique)
+    )
 
 
 def _added(point: Point, one: Point) -> AddedTime:
@@ -76,14 +101,17 @@ def _bounds(added: AddedTime) -> str:
     if not added.ms and added.low_ms == added.high_ms:
         return "nothing"
     low, high = f"{added.low_ms:.3g}", f"{added.high_ms:.3g}"
-    return f"{added.ms:.3g} ms ({'' if low == high else f'{low} to {high}, '}{percent(added.share)})"
+    return (
+        f"{added.ms:.3g} ms ({'' if low == high else f'{low} to {high}, '}{percent(added.share)})"
+    )
 
 
 class Worth(NamedTuple):
     """At which costs of shading a step up is worth its time, of those up to the greatest measured.
 
-    `at_least` and `at_greatest` say whether it is without shading and at the greatest. If it is at one of them, `full_screen_ms` is the
-    cost between them where that ends, in milliseconds of a full screen at one sample, with the bounds that the model's residuals leave it.
+    `at_least` and `at_greatest` say whether it is without shading and at the greatest. If it is at
+    one of them, `full_screen_ms` is the cost between them where that ends, in milliseconds of a
+    full screen at one sample, with the bounds that the model's residuals leave it.
     """
 
     before: Technique
@@ -95,26 +123,42 @@ class Worth(NamedTuple):
     high_ms: float | None
 
 
-def worth(points: Sequence[Point], measure: Measure, model: TimeModel, shadings: Sequence[Shading]) -> Iterator[Worth]:
-    """For each step up from a sample count to the next that removes enough of the error, the costs at which it is worth its time, by the
-    model of times; `points` are those of one scene under one cost."""
-    counts = sorted((point for point in points if point.technique.kind == MSAA), key=lambda point: point.technique)
+def worth(
+    points: Sequence[Point], measure: Measure, model: TimeModel, shadings: Sequence[Shading]
+) -> Iterator[Worth]:
+    """For each step up from a sample count to the next that removes enough of the error, the costs
+    at which it is worth its time, by the model of times; `points` are those of one scene under one
+    cost.
+    """
+    counts = sorted(
+        (point for point in points if point.technique.kind == MSAA),
+        key=lambda point: point.technique,
+    )
     greatest = max((shading.nanoseconds or 0.0 for shading in shadings), default=0.0)
     for before, after in pairwise(counts):
         timed = model.predict(before.technique, 0.0) and model.predict(after.technique, 0.0)
         if greatest > 0 and timed and is_enough(measure, before, after):
-            excess, *bounds = (_excess(model, before.technique, after.technique, bound) for bound in (0, -1, 1))
+            excess, *bounds = (
+                _excess(model, before.technique, after.technique, bound) for bound in (0, -1, 1)
+            )
             scale = after.width * after.height * 1e-12
             cost = _crossing(excess, greatest)
-            ends = sorted(end for bound in bounds if (end := _crossing(bound, greatest)) is not None)
+            ends = sorted(
+                end for bound in bounds if (end := _crossing(bound, greatest)) is not None
+            )
             low, high = (ends[0], ends[1]) if len(ends) == 2 else (None, None)
             figures = (None if figure is None else figure * scale for figure in (cost, low, high))
-            yield Worth(before.technique, after.technique, excess(0.0) <= 0, excess(greatest) <= 0, *figures)
+            yield Worth(
+                before.technique, after.technique, excess(0.0) <= 0, excess(greatest) <= 0, *figures
+            )
 
 
-def _excess(model: TimeModel, before: Technique, after: Technique, bound: int) -> Callable[[float], float]:
-    """How far the time of a step exceeds what is worth it where a million invocations take so many nanoseconds: by the prediction, or by
-    its lower (-1) or upper (1) bound."""
+def _excess(
+    model: TimeModel, before: Technique, after: Technique, bound: int
+) -> Callable[[float], float]:
+    """How far the time of a step exceeds what is worth it where a million invocations take so many
+    nanoseconds: by the prediction, or by its lower (-1) or upper (1) bound.
+    """
 
     def excess(nanoseconds: float) -> float:
         one, other = model.predict(after, nanoseconds), model.predict(before, nanoseconds)
@@ -126,7 +170,9 @@ def _excess(model: TimeModel, before: Technique, after: Technique, bound: int) -
 
 
 def _crossing(excess: Callable[[float], float], greatest: float) -> float | None:
-    """The argument between 0 and `greatest` at which a monotonic function becomes or stops being positive; None if there is none."""
+    """The argument between 0 and `greatest` at which a monotonic function becomes or stops being
+    positive; None if there is none.
+    """
     begins = excess(0.0) > 0
     if begins == (excess(greatest) > 0):
         return None

@@ -1,8 +1,10 @@
-"""A scene rendered with a technique: coverage, the effects that the scene needs, and the resolve. Nothing else is computed or allocated.
+"""A scene rendered with a technique: coverage, the effects that the scene needs, and the resolve.
+Nothing else is computed or allocated.
 
-What is rendered are parts of the picture: bands of rows, so that memory does not grow with the picture, or windows anywhere, with the scene
-moved by fractions of a pixel. Parts of one size are rendered together, one below the other. The fragments go through the stages in batches
-of distinct pixels, in the order of the triangles.
+What is rendered are parts of the picture: bands of rows, so that memory does not grow with the
+picture, or windows anywhere, with the scene moved by fractions of a pixel. Parts of one size are
+rendered together, one below the other. The fragments go through the stages in batches of distinct
+pixels, in the order of the triangles.
 """
 
 from __future__ import annotations
@@ -31,10 +33,14 @@ BAND_SAMPLES = 1 << 19
 """Approximate number of samples in a band: 8 MiB of color."""
 
 BAND_MIN_DENSITY = 4
-"""Bands with fewer samples per pixel than this are no higher than with this many: their exact pictures take most of the memory."""
+"""Bands with fewer samples per pixel than this are no higher than with this many: their exact
+pictures take most of the memory.
+"""
 
 BAND_ROWS = 16
-"""The height of a band is a multiple of this where more rows fit: exact pictures are made of tiles of as many rows."""
+"""The height of a band is a multiple of this where more rows fit: exact pictures are made of tiles
+of as many rows.
+"""
 
 
 BATCH = 1 << 15
@@ -45,9 +51,11 @@ LARGE_TRIANGLE = 256
 
 
 class Simulation(NamedTuple):
-    """Resolved parts of a picture (P, H, W, 4), or one whole picture (H, W, 4), in linear color. `coverage` (..., H, W) is the share of
-    samples that were drawn to, None for scenes without coverage; `depth` (..., H, W) is resolved depth for scenes that need it. `effects`
-    are the stages that ran."""
+    """Resolved parts of a picture (P, H, W, 4), or one whole picture (H, W, 4), in linear color.
+    `coverage` (..., H, W) is the share of samples that were drawn to, None for scenes without
+    coverage; `depth` (..., H, W) is resolved depth for scenes that need it. `effects` are the
+    stages that ran.
+    """
 
     image: Floats
     coverage: NDArray[np.float64] | None
@@ -55,19 +63,28 @@ class Simulation(NamedTuple):
     depth: Floats | None
 
 
-def simulate(scene: Scene, technique: Technique, bits: int = 8, part: Part | None = None) -> Simulation:
-    """The scene rendered with the technique, or a part of it, with corners snapped to 2^-bits pixels."""
+def simulate(
+    scene: Scene, technique: Technique, bits: int = 8, part: Part | None = None
+) -> Simulation:
+    """The scene rendered with the technique, or a part of it, with corners snapped to 2^-bits
+    pixels.
+    """
     simulator = Simulator(scene, technique, bits)
     parts = [simulator.render([band]) for band in (simulator.bands() if part is None else [part])]
     image, covered, depth = (
-        None if parts[0][column] is None else np.concatenate([np.asarray(each[column])[0] for each in parts]) for column in (0, 1, 3)
+        None
+        if parts[0][column] is None
+        else np.concatenate([np.asarray(each[column])[0] for each in parts])
+        for column in (0, 1, 3)
     )
     assert image is not None
     return Simulation(image, covered, simulator.effect_names, depth)
 
 
 class Simulator:
-    """Renders parts of the picture of a scene and a technique. `times` accumulates what the stages take."""
+    """Renders parts of the picture of a scene and a technique. `times` accumulates what the stages
+    take.
+    """
 
     def __init__(self, scene: Scene, technique: Technique, bits: int = 8) -> None:
         self.scene, self.bits = scene, bits
@@ -76,15 +93,22 @@ class Simulator:
         self.sample_locations = locations.standard(self.samples)
         # Without a shader, every invocation gives the triangle's color.
         sample_shading = technique.kind == SAMPLE_SHADING and scene.shade is not None
-        self.effects = effects.ordered((*scene.effects, effects.SAMPLE_SHADING) if sample_shading else scene.effects)
+        self.effects = effects.ordered(
+            (*scene.effects, effects.SAMPLE_SHADING) if sample_shading else scene.effects
+        )
         self.effect_names = tuple(effect.name for effect in self.effects)
         self.times = StageTimes(self.effect_names)
         self.sample_groups = groups(self.samples, technique.shaded if sample_shading else 1)
         self.pixel_locations = self.sample_locations.astype(np.float64) / SUBPIXELS
         self.shading_positions = positions(self.pixel_locations, self.sample_groups)
         self.colors = scene.colors.astype(np.float32)
-        self.fragment_stages = [(effect.name, effect.fragment) for effect in self.effects if effect.fragment is not None]
-        self.blend = next(((effect.name, effect.blend) for effect in self.effects if effect.blend is not None), None)
+        self.fragment_stages = [
+            (effect.name, effect.fragment) for effect in self.effects if effect.fragment is not None
+        ]
+        self.blend = next(
+            ((effect.name, effect.blend) for effect in self.effects if effect.blend is not None),
+            None,
+        )
         self.store = self._store()
 
     def has(self, name: str) -> bool:
@@ -96,13 +120,18 @@ class Simulator:
             (effect.name, effect.store) for effect in self.effects if effect.store is not None
         ]
         if len(storing) > 1:
-            raise ValueError(f"{' and '.join(name for name, _ in storing)} exclude each other: a sample is stored in one format")
+            raise ValueError(
+                f"{' and '.join(name for name, _ in storing)} exclude each other: a sample is "
+                f"stored in one format"
+            )
         return storing[0] if storing else None
 
     def bands(self) -> Iterator[Part]:
         """The picture in bands of rows."""
         width, height = self.scene.width, self.scene.height
-        step = max(BAND_SAMPLES // (width * max(self.grid * self.grid * self.samples, BAND_MIN_DENSITY)), 1)
+        step = max(
+            BAND_SAMPLES // (width * max(self.grid * self.grid * self.samples, BAND_MIN_DENSITY)), 1
+        )
         if step > BAND_ROWS:
             step -= step % BAND_ROWS
         for top in range(0, height, step):
@@ -120,7 +149,9 @@ class Simulator:
         band = self.band(size[0] * size[1] * size[2] * self.grid * self.grid)
         self._draw(band, triangles)
         image = self._color(band, size[2]).reshape(*size, 4)
-        covered = None if band.written is None else self._coverage(band.written, size[2]).reshape(size)
+        covered = (
+            None if band.written is None else self._coverage(band.written, size[2]).reshape(size)
+        )
         depth = self._depth(band, size[2]).reshape(size) if self.has("depth-resolve") else None
         return Simulation(image, covered, self.effect_names, depth)
 
@@ -146,12 +177,18 @@ class Simulator:
         scene_to_stack = (offsets(parts) - (first.left, first.top)) * grid
         corners = triangles.corners + scene_to_stack[triangles.part][:, None] * SUBPIXELS
         rows_of = triangles.part[:, None] * height + (0, height)
-        rows = coverage.rows(corners, width, height * len(parts), self.sample_locations, limits=rows_of)
+        rows = coverage.rows(
+            corners, width, height * len(parts), self.sample_locations, limits=rows_of
+        )
         drawn = fragments.fragments(rows, self.samples)
         planes = None
         if self.has("depth-test") and self.scene.depths is not None:
-            planes = depth_planes(triangles.corners / SUBPIXELS, self.scene.depths[triangles.triangle])
-        drawing = Drawing(self.samples, self.pixel_locations, self.sample_groups, self.scene.settings, planes)
+            planes = depth_planes(
+                triangles.corners / SUBPIXELS, self.scene.depths[triangles.triangle]
+            )
+        drawing = Drawing(
+            self.samples, self.pixel_locations, self.sample_groups, self.scene.settings, planes
+        )
         motion = np.array([(part.dx, part.dy) for part in parts])
         moves = self.scene.shade is not None and bool(motion.any())
         pixel = drawn.y.astype(np.intp) * width + drawn.x
@@ -160,11 +197,19 @@ class Simulator:
             number = drawn.triangle[which]
             part = 0 if len(parts) == 1 else triangles.part[number]
             shift = in_scene[part].T
-            batch = Batch(number_of[number], pixel[which], drawn.x[which] + shift[0], drawn.y[which] + shift[1], drawn.mask[which])
+            batch = Batch(
+                number_of[number],
+                pixel[which],
+                drawn.x[which] + shift[0],
+                drawn.y[which] + shift[1],
+                drawn.mask[which],
+            )
             batch.plane = number
             moved = np.broadcast_to(motion[part], (len(number), 2)) if moves else None
             with self.times.stage(effects.SAMPLE_SHADING):
-                batch.color = shade(self.scene, batch, self.shading_positions, grid, self.colors, moved)
+                batch.color = shade(
+                    self.scene, batch, self.shading_positions, grid, self.colors, moved
+                )
             for name, stage in self.fragment_stages:
                 with self.times.stage(name):
                     stage(batch, band, drawing)
@@ -176,7 +221,8 @@ class Simulator:
         color, per_group = _pack(batch.color), batch.color.shape[1] > 1
         for sample in range(self.samples):
             mask = has_sample(batch.mask, sample)
-            # Most fragments are inside shapes and have every sample: whole batches are then moved without indexing.
+            # Most fragments are inside shapes and have every sample: whole batches are then moved
+            # without indexing.
             drawn = slice(None) if mask.all() else mask
             pixels, plane = batch.pixel[drawn], _pack(band.color[sample])
             texels = color[drawn, group_of(sample, self.sample_groups) if per_group else 0]
@@ -191,7 +237,11 @@ class Simulator:
     def _color(self, band: Band, width: int) -> Floats:
         """The resolved color of samples (P, 4), after any tone mapping."""
         samples = self._per_pixel(band.color, width)
-        tone_mapping = str(self.scene.settings.get("tone-mapping", "after-resolve")) if self.has("tone-mapping") else ""
+        tone_mapping = (
+            str(self.scene.settings.get("tone-mapping", "after-resolve"))
+            if self.has("tone-mapping")
+            else ""
+        )
         encoded = self.has("srgb") and self.scene.settings.get("srgb") == "encoded"
         if tone_mapping == "before-resolve":
             with self.times.stage("tone-mapping"):
@@ -199,7 +249,9 @@ class Simulator:
         if encoded:
             with self.times.stage("srgb"):
                 samples = resolve.encode(samples)
-        color = resolve.weighted(samples) if tone_mapping == "weighted" else resolve.average(samples)
+        color = (
+            resolve.weighted(samples) if tone_mapping == "weighted" else resolve.average(samples)
+        )
         if encoded:
             with self.times.stage("srgb"):
                 color = resolve.decode(color)
@@ -214,7 +266,9 @@ class Simulator:
     def _coverage(self, written: NDArray[np.uint16], width: int) -> NDArray[np.float64]:
         """The share of each pixel's samples that were drawn to (P,)."""
         counts = self._per_pixel(np.bitwise_count(written)[None, :, None], width)
-        shares: NDArray[np.float64] = counts.sum(axis=0, dtype=np.int64)[..., 0] / (self.samples * self.grid * self.grid)
+        shares: NDArray[np.float64] = counts.sum(axis=0, dtype=np.int64)[..., 0] / (
+            self.samples * self.grid * self.grid
+        )
         return shares
 
     def _depth(self, band: Band, width: int) -> Floats:
@@ -222,10 +276,14 @@ class Simulator:
         assert band.depth is not None
         mode = str(self.scene.settings.get("depth-resolve", "SAMPLE_ZERO"))
         with self.times.stage("depth-resolve"):
-            return resolve.resolve_depth(self._per_pixel(band.depth[..., None], width)[..., 0], mode)
+            return resolve.resolve_depth(
+                self._per_pixel(band.depth[..., None], width)[..., 0], mode
+            )
 
     def _per_pixel(self, samples: NDArray[T], width: int) -> NDArray[T]:
-        """Rendered samples (N, P, C) as samples of the resolved picture: for SSAA the pixels of a block, row by row."""
+        """Rendered samples (N, P, C) as samples of the resolved picture: for SSAA the pixels of a
+        block, row by row.
+        """
         if self.grid == 1:
             return samples
         grid, channels = self.grid, samples.shape[-1]
@@ -234,8 +292,9 @@ class Simulator:
 
 
 def _pack(color: Floats) -> NDArray[np.complex128]:
-    """Colors (..., 4) as (...), each in one number of the same size, which NumPy moves faster; in the same memory if a color's
-    components are adjacent."""
+    """Colors (..., 4) as (...), each in one number of the same size, which NumPy moves faster; in
+    the same memory if a color's components are adjacent.
+    """
     adjacent = color if color.strides[-1] == color.itemsize else np.ascontiguousarray(color)
     texels: NDArray[np.complex128] = adjacent.view(np.complex128)[..., 0]
     return texels
@@ -246,8 +305,12 @@ def _unpack(texels: NDArray[np.complex128]) -> Floats:
     return np.ascontiguousarray(texels)[..., None].view(np.float32)
 
 
-def _batches(pixel: NDArray[np.intp], triangle: NDArray[np.int32]) -> Iterator[slice | NDArray[np.intp]]:
-    """Fragments, ordered by triangle, in batches of distinct pixels that fit the cache; fragments of one pixel stay in order."""
+def _batches(
+    pixel: NDArray[np.intp], triangle: NDArray[np.int32]
+) -> Iterator[slice | NDArray[np.intp]]:
+    """Fragments, ordered by triangle, in batches of distinct pixels that fit the cache; fragments
+    of one pixel stay in order.
+    """
     count = len(pixel)
     if not count:
         return
@@ -267,12 +330,17 @@ def _batches(pixel: NDArray[np.intp], triangle: NDArray[np.int32]) -> Iterator[s
     by_rank = order[np.argsort(rank, kind="stable")]
     begin = 0
     for size in np.bincount(rank):
-        yield from (by_rank[start : min(start + BATCH, begin + size)] for start in range(begin, begin + size, BATCH))
+        yield from (
+            by_rank[start : min(start + BATCH, begin + size)]
+            for start in range(begin, begin + size, BATCH)
+        )
         begin += size
 
 
 def _runs(pixel: NDArray[np.intp], limits: NDArray[np.intp]) -> Iterator[tuple[int, int]]:
-    """The begins and ends of the longest runs of triangles, whose fragments begin and end at `limits`, that do not overlap."""
+    """The begins and ends of the longest runs of triangles, whose fragments begin and end at
+    `limits`, that do not overlap.
+    """
     run_of = np.zeros(int(pixel.max()) + 1, np.int32)
     number, begin = 1, 0
     for start, end in pairwise(limits.tolist()):

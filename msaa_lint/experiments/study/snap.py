@@ -8,14 +8,17 @@ from numpy.typing import NDArray
 from .locations import SUBPIXELS
 
 MAX_DISTANCE = 2.0**40
-"""Maximum distance from the origin in pixels: far beyond what any device draws, and within it scaling is exact."""
+"""Maximum distance from the origin in pixels: far beyond what any device draws, and within it
+scaling is exact.
+"""
 
 
 def snapped(points_px: NDArray[np.float64], bits: int = 8) -> NDArray[np.int64]:
-    """Positions in pixels, rounded to the nearest multiple of 2^-bits pixel, ties to the even multiple; in 1/256 pixel.
+    """Positions in pixels, rounded to the nearest multiple of 2^-bits pixel, ties to the even
+    multiple; in 1/256 pixel.
 
-    `bits` is the device's subPixelPrecisionBits, 4 to 8: 4 is the minimum of Vulkan; lavapipe and most GPUs have 8. ValueError for other
-    bits, for NaN, and for positions beyond 2^40 pixels.
+    `bits` is the device's subPixelPrecisionBits, 4 to 8: 4 is the minimum of Vulkan; lavapipe and
+    most GPUs have 8. ValueError for other bits, for NaN, and for positions beyond 2^40 pixels.
     """
     if not 4 <= bits <= 8:
         raise ValueError(f"subpixel precision must be 4 to 8 bits, found {bits}")

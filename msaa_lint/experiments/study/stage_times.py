@@ -8,7 +8,9 @@ from collections.abc import Iterator, Sequence
 
 
 class StageTimes:
-    """The milliseconds that each effect's stage has taken; stages of other effects are not timed."""
+    """The milliseconds that each effect's stage has taken; stages of other effects are not
+    timed.
+    """
 
     def __init__(self, effects: Sequence[str]) -> None:
         self._milliseconds = dict.fromkeys(effects, 0.0)

@@ -15,19 +15,25 @@ from .points import MSAA, SAMPLE_SHADING, Point, Technique
 from .scenes.about import ALPHA, TEXTURE
 
 MAX_REMAINING = 0.75
-"""The largest share of the error that a step up may leave to be worth its time. Theory gives 0.59 for twice the samples at edges of all
-slopes (the error falls as N^-0.75, Mitchell 1996); this requires somewhat more than half of that gain."""
+"""The largest share of the error that a step up may leave to be worth its time. Theory gives 0.59
+for twice the samples at edges of all slopes (the error falls as N^-0.75, Mitchell 1996); this
+requires somewhat more than half of that gain.
+"""
 
 MAX_ADDED = 0.10
-"""The largest share of the time that a step up may add to be worth it where no budget is stated: a convention, not a measurement. Of
-all the time of a 60 Hz frame it is 1.7 ms; whether more is worth it depends on what else the frame needs, which a budget states."""
+"""The largest share of the time that a step up may add to be worth it where no budget is stated: a
+convention, not a measurement. Of all the time of a 60 Hz frame it is 1.7 ms; whether more is worth
+it depends on what else the frame needs, which a budget states.
+"""
 
 
 class AddedTime(NamedTuple):
-    """The difference of two times in milliseconds, its bounds with 95 % confidence, and it as a share of the time that it is added to.
+    """The difference of two times in milliseconds, its bounds with 95 % confidence, and it as a
+    share of the time that it is added to.
 
-    Techniques are timed in turn, so it is the median of the differences in each round. Without rounds, it is that of the times; as their
-    errors are then independent, their half-widths add up as squares (MOVER, Zou and Donner 2008).
+    Techniques are timed in turn, so it is the median of the differences in each round. Without
+    rounds, it is that of the times; as their errors are then independent, their half-widths add up
+    as squares (MOVER, Zou and Donner 2008).
     """
 
     ms: float
@@ -38,11 +44,13 @@ class AddedTime(NamedTuple):
 
 
 class Step(NamedTuple):
-    """A step up from one technique to another on one scene under one cost of shading, whose name is empty where times do not count.
+    """A step up from one technique to another on one scene under one cost of shading, whose name is
+    empty where times do not count.
 
-    `added` is what it adds in time, None where a time is not known; with `same_time` that is within the noise. `changes` are the relative
-    changes of the errors, by the keys of their measures: -0.5 where the error halves. `worth` says whether it removes enough of the error
-    for its time; None where that is not known.
+    `added` is what it adds in time, None where a time is not known; with `same_time` that is within
+    the noise. `changes` are the relative changes of the errors, by the keys of their measures: -0.5
+    where the error halves. `worth` says whether it removes enough of the error for its time; None
+    where that is not known.
     """
 
     scene: str
@@ -58,20 +66,38 @@ class Step(NamedTuple):
     def text(self) -> str:
         """`2x to 4x: +0.31 ms (+9 %), error -42 %, flicker -55 %`."""
         parts = [added_text(self.added, self.same_time)] if self.added is not None else []
-        parts += [change_text(measure, self.changes[measure.key]) for measure in MEASURES if measure.key in self.changes]
+        parts += [
+            change_text(measure, self.changes[measure.key])
+            for measure in MEASURES
+            if measure.key in self.changes
+        ]
         return f"{self.before.name} to {self.after.name}: {', '.join(parts) or 'no error before'}"
 
 
-def steps(points: Sequence[Point], about: Sequence[str], measure: Measure, *, timed: bool) -> Iterator[Step]:
-    """The steps of one scene under one cost of shading: from each sample count to the next, and where the error may lie inside triangles,
-    from each count to shading every sample of it."""
+def steps(
+    points: Sequence[Point], about: Sequence[str], measure: Measure, *, timed: bool
+) -> Iterator[Step]:
+    """The steps of one scene under one cost of shading: from each sample count to the next, and
+    where the error may lie inside triangles, from each count to shading every sample of it.
+    """
     known = [point for point in points if has_time(point)] if timed else []
     # Where a device lacks a count, the step is to the next that it has.
-    counts = sorted((point for point in known or points if point.technique.kind == MSAA), key=lambda point: point.technique)
+    counts = sorted(
+        (point for point in known or points if point.technique.kind == MSAA),
+        key=lambda point: point.technique,
+    )
     pairs = list(pairwise(counts))
     if not {ALPHA, TEXTURE}.isdisjoint(about):
-        shaded = {point.technique.samples: point for point in points if point.technique == _all_shaded(point.technique)}
-        pairs += [(count, shaded[count.technique.samples]) for count in counts if count.technique.samples in shaded]
+        shaded = {
+            point.technique.samples: point
+            for point in points
+            if point.technique == _all_shaded(point.technique)
+        }
+        pairs += [
+            (count, shaded[count.technique.samples])
+            for count in counts
+            if count.technique.samples in shaded
+        ]
     for before, after in pairs:
         yield _step(before, after, measure, timed)
 
@@ -82,11 +108,24 @@ def _all_shaded(technique: Technique) -> Technique:
 
 def _step(before: Point, after: Point, measure: Measure, timed: bool) -> Step:
     shown = (ERROR, FLIP, FLICKER) if measure != DISPLAY else (ERROR, DISPLAY, FLICKER)
-    changes = {each.key: change for each in shown if (change := _change(each, before, after)) is not None}
+    changes = {
+        each.key: change for each in shown if (change := _change(each, before, after)) is not None
+    }
     difference = added_time(after, before) if timed else None
-    worth = None if difference is None else is_enough(measure, before, after) and difference.low_share <= MAX_ADDED
+    worth = (
+        None
+        if difference is None
+        else is_enough(measure, before, after) and difference.low_share <= MAX_ADDED
+    )
     return Step(
-        before.scene, before.shading if timed else "", before.technique, after.technique, difference, tie(before, after), changes, worth
+        before.scene,
+        before.shading if timed else "",
+        before.technique,
+        after.technique,
+        difference,
+        tie(before, after),
+        changes,
+        worth,
     )
 
 
@@ -109,7 +148,13 @@ def added_time(one: Point, other: Point) -> AddedTime | None:
         return None
     if one.rounds and len(one.rounds) == len(other.rounds):
         found = timing([time - base for time, base in zip(one.rounds, other.rounds, strict=True)])
-        return AddedTime(found.median, found.low, found.high, found.median / other.time_ms, found.low / other.time_ms)
+        return AddedTime(
+            found.median,
+            found.low,
+            found.high,
+            found.median / other.time_ms,
+            found.low / other.time_ms,
+        )
     (one_low, one_high), (other_low, other_high) = interval(one), interval(other)
     added = one.time_ms - other.time_ms
     low = added - math.hypot(one.time_ms - one_low, other_high - other.time_ms)
@@ -119,12 +164,18 @@ def added_time(one: Point, other: Point) -> AddedTime | None:
 
 def added_text(added: AddedTime, same_time: bool) -> str:
     """`+0.31 ms (+9 %)`, or that it is the same time."""
-    return "same time, within noise" if same_time else f"{added.ms:+.3g} ms ({percent(added.share)})"
+    return (
+        "same time, within noise" if same_time else f"{added.ms:+.3g} ms ({percent(added.share)})"
+    )
 
 
 def change_text(measure: Measure, change: float) -> str:
     """`error -42 %`, or that it is unchanged."""
-    return f"{measure.name} {percent(change)}" if percent(change).strip("+-") != "0 %" else f"{measure.name} unchanged"
+    return (
+        f"{measure.name} {percent(change)}"
+        if percent(change).strip("+-") != "0 %"
+        else f"{measure.name} unchanged"
+    )
 
 
 def percent(share: float) -> str:

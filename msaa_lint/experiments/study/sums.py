@@ -1,4 +1,5 @@
-"""Sums in double precision of values that come in pieces: blocks by NumPy's pairwise sum, their totals by math.fsum.
+"""Sums in double precision of values that come in pieces: blocks by NumPy's pairwise sum, their
+totals by math.fsum.
 
 A sum depends on the values and their order alone, not on the pieces.
 """
@@ -18,7 +19,9 @@ BLOCK = 1 << 16
 
 
 class Errors(NamedTuple):
-    """The root mean square, greatest magnitude and mean (measured minus exact) of differences, and their number."""
+    """The root mean square, greatest magnitude and mean (measured minus exact) of differences, and
+    their number.
+    """
 
     rmse: float
     greatest: float
@@ -55,9 +58,17 @@ class Sum:
                 return float(np.sum(sums))
 
     def psnr(self) -> float:
-        """The peak signal-to-noise ratio in dB, with a peak of 1.0, of squared differences; infinite where nothing differs."""
+        """The peak signal-to-noise ratio in dB, with a peak of 1.0, of squared differences;
+        infinite where nothing differs.
+        """
         square = self.total() / self.count
-        return math.inf if square == 0 else -10 * math.log10(square) if math.isfinite(square) else -square
+        return (
+            math.inf
+            if square == 0
+            else -10 * math.log10(square)
+            if math.isfinite(square)
+            else -square
+        )
 
 
 class ErrorSum:
@@ -78,7 +89,12 @@ class ErrorSum:
         count = self._values.count
         if not count:
             return Errors(0.0, 0.0, 0.0, 0)
-        return Errors(math.sqrt(self._squares.total() / count), self._greatest, self._values.total() / count, count)
+        return Errors(
+            math.sqrt(self._squares.total() / count),
+            self._greatest,
+            self._values.total() / count,
+            count,
+        )
 
 
 def total(values: NDArray[np.floating]) -> float:
@@ -96,4 +112,6 @@ def _block_sum(values: NDArray[np.floating]) -> float:
 def difference(measured: NDArray[np.floating], exact: NDArray[np.floating]) -> Floats:
     """Measured minus exact, in double precision; 0 where they are equal, including infinities."""
     with np.errstate(invalid="ignore"):
-        return np.where(measured == exact, 0.0, measured.astype(np.float64) - exact.astype(np.float64))
+        return np.where(
+            measured == exact, 0.0, measured.astype(np.float64) - exact.astype(np.float64)
+        )

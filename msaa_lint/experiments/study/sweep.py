@@ -1,4 +1,6 @@
-"""The points of a study, simulated on all cores or on a cluster, and stored one by one so that a sweep can resume."""
+"""The points of a study, simulated on all cores or on a cluster, and stored one by one so that a
+sweep can resume.
+"""
 
 from __future__ import annotations
 
@@ -19,13 +21,16 @@ from .times import Cost, Costs, CostSource
 
 Measure = Callable[[Task], Point]
 Progress = Callable[[int, int, str], None]
-"""Called with the number of finished points, the number of all points, and the last finished point."""
+"""Called with the number of finished points, the number of all points, and the last finished
+point.
+"""
 
 
 @lru_cache(maxsize=2)
 def picture(source: StudyInput, width: int, height: int) -> Any:
-    """The scene (study/scenes) of an input; the last ones are cached. LookupError for an unknown name, and the errors of the readers of
-    meshes and descriptions."""
+    """The scene (study/scenes) of an input; the last ones are cached. LookupError for an unknown
+    name, and the errors of the readers of meshes and descriptions.
+    """
     if source.kind == "mesh":
         from .scenes.mesh import from_mesh
 
@@ -54,7 +59,13 @@ def measure_point(task: Task) -> Point:
     """A point as simulated: without times and the cost model's amounts."""
     from . import measure
 
-    point: Point = measure.point(picture(task.input, task.width, task.height), task.technique, task.bits, task.ssim, task.flip)
+    point: Point = measure.point(
+        picture(task.input, task.width, task.height),
+        task.technique,
+        task.bits,
+        task.ssim,
+        task.flip,
+    )
     return point._replace(scene=task.input.name)
 
 
@@ -65,15 +76,24 @@ def costs(
     source: CostSource,
     checkpoint: Checkpoint | None = None,
 ) -> Costs:
-    """The cost of each technique under each cost of shading, and of one sample in any case, because ratios are to it. Call it while no
-    points are simulated, which would slow the device down. Techniques that the checkpoint does not have are measured together."""
+    """The cost of each technique under each cost of shading, and of one sample in any case, because
+    ratios are to it. Call it while no points are simulated, which would slow the device down.
+    Techniques that the checkpoint does not have are measured together.
+    """
     found: dict[tuple[Technique, str], Cost] = {}
     missing: list[Technique] = []
     for technique in dict.fromkeys((Technique(MSAA, 1), *techniques)):
-        stored = {shading: checkpoint.cost(source, technique, shading, size) if checkpoint is not None else None for shading in shadings}
+        stored = {
+            shading: checkpoint.cost(source, technique, shading, size)
+            if checkpoint is not None
+            else None
+            for shading in shadings
+        }
         if None in stored.values():
             missing.append(technique)
-        found |= {(technique, shading.name): cost for shading, cost in stored.items() if cost is not None}
+        found |= {
+            (technique, shading.name): cost for shading, cost in stored.items() if cost is not None
+        }
     measured = source.costs(missing, shadings, size) if missing else {}
     for shading in shadings:
         for technique in missing:
@@ -93,11 +113,12 @@ def sweep(
     progress: Progress | None = None,
     measure: Measure = measure_point,
 ) -> Iterator[Point | FailedPoint]:
-    """The points of the tasks in the order in which they finish. A failed point does not stop the others. Unusable where a backend is not
-    available.
+    """The points of the tasks in the order in which they finish. A failed point does not stop the
+    others. Unusable where a backend is not available.
 
-    With one job and no backend everything runs in this process; None is as many jobs as there are cores, or workers of a cluster. Closing
-    the iterator stops the sweep; finished points stay stored.
+    With one job and no backend everything runs in this process; None is as many jobs as there are
+    cores, or workers of a cluster. Closing the iterator stops the sweep; finished points stay
+    stored.
     """
     done = 0
     remaining: list[Task] = []
@@ -117,12 +138,21 @@ def sweep(
             checkpoint.save_point(task, result)
         if progress is not None:
             progress(done, len(tasks), _label(task))
-        yield result if isinstance(result, Point) else FailedPoint(task.input.name, task.technique, result)
+        yield (
+            result
+            if isinstance(result, Point)
+            else FailedPoint(task.input.name, task.technique, result)
+        )
 
 
 def with_cost(point: Point, costs: Costs, shading: Shading, source: str) -> Point:
-    """The point under a cost of shading: with its time, the ratio to the time of one sample, bytes and power."""
-    cost, one = costs[point.technique, shading.name], costs[Technique(MSAA, 1), shading.name].time_ms
+    """The point under a cost of shading: with its time, the ratio to the time of one sample, bytes
+    and power.
+    """
+    cost, one = (
+        costs[point.technique, shading.name],
+        costs[Technique(MSAA, 1), shading.name].time_ms,
+    )
     return point._replace(
         shading=shading.name,
         time_ms=cost.time_ms,
@@ -165,7 +195,11 @@ def _results(
             results = opened.results(attempt_all, sorted(groups, key=_work, reverse=True), _singles)
             with contextlib.closing(results):  # type: ignore[type-var]
                 for group, found in results:
-                    yield from ((number, found.reason) for number, _ in group) if isinstance(found, Failure) else found
+                    yield from (
+                        ((number, found.reason) for number, _ in group)
+                        if isinstance(found, Failure)
+                        else found
+                    )
     except NoBackend as error:
         raise Unusable(f"--backend {backend}: {error}") from None
 
@@ -186,17 +220,25 @@ def _singles(group: Group) -> list[Group]:
 
 
 def _work(group: Group) -> int:
-    """About how long a picture takes: what takes longest begins first, so that all workers end together."""
+    """About how long a picture takes: what takes longest begins first, so that all workers end
+    together.
+    """
     return max(task.technique.samples + task.technique.shaded * task.shader for _, task in group)
 
 
 def _attempt_all(measure: Measure, group: Group) -> list[tuple[int, Point | str]]:
     results = ((number, attempt(measure, task)) for number, task in group)
-    return [(number, found.reason if isinstance(found, Failure) else found) for number, found in results]
+    return [
+        (number, found.reason if isinstance(found, Failure) else found) for number, found in results
+    ]
 
 
-def ordered(results: Iterable[Point | FailedPoint], names: Sequence[str], techniques: Sequence[Technique]) -> list[Point | FailedPoint]:
+def ordered(
+    results: Iterable[Point | FailedPoint], names: Sequence[str], techniques: Sequence[Technique]
+) -> list[Point | FailedPoint]:
     """Results in the order of the scenes and of the techniques."""
     scene_order = {name: n for n, name in enumerate(names)}
     technique_order = {technique: n for n, technique in enumerate(techniques)}
-    return sorted(results, key=lambda result: (scene_order[result.scene], technique_order[result.technique]))
+    return sorted(
+        results, key=lambda result: (scene_order[result.scene], technique_order[result.technique])
+    )

@@ -6,7 +6,9 @@ from .points import MSAA, SAMPLE_SHADING, Technique
 
 
 class StudyInput(NamedTuple):
-    """A scene by name, a mesh, or a document of a description. `name` identifies it in reports; `text` is a description's."""
+    """A scene by name, a mesh, or a document of a description. `name` identifies it in reports;
+    `text` is a description's.
+    """
 
     kind: str
     name: str
@@ -17,8 +19,9 @@ class StudyInput(NamedTuple):
 
 
 class Task(NamedTuple):
-    """A point to simulate. `shader` says whether the scene has one: without it, sample shading gives the picture of multisampling, and
-    one simulation gives the points of both."""
+    """A point to simulate. `shader` says whether the scene has one: without it, sample shading
+    gives the picture of multisampling, and one simulation gives the points of both.
+    """
 
     input: StudyInput
     technique: Technique

@@ -1,1 +1,3 @@
-"""What a frame costs: bytes read and written, memory, power, fragment shader invocations, and what fits on a tile."""
+"""What a frame costs: bytes read and written, memory, power, fragment shader invocations, and what
+fits on a tile.
+"""

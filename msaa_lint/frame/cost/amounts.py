@@ -1,7 +1,9 @@
-"""The results of the cost model. MB is 10^6 bytes, MiB 2^20 bytes; a frame is one round of the description's commands.
+"""The results of the cost model. MB is 10^6 bytes, MiB 2^20 bytes; a frame is one round of the
+description's commands.
 
-Every figure is given twice: by plain arithmetic, `width * height * bytes * samples * fps`, and corrected by the device's measured
-compression, which is a range: `corrected` at least, `corrected_most` at most.
+Every figure is given twice: by plain arithmetic, `width * height * bytes * samples * fps`, and
+corrected by the device's measured compression, which is a range: `corrected` at least,
+`corrected_most` at most.
 """
 
 from typing import NamedTuple
@@ -25,12 +27,14 @@ class Amount(NamedTuple):
 
 
 class Line(NamedTuple):
-    """One cause of traffic per frame: an aspect of an attachment, or of a command's image, that is read or written.
+    """One cause of traffic per frame: an aspect of an attachment, or of a command's image, that is
+    read or written.
 
-    `action` is `load`, `store`, `resolve`, `resolve command`, `copy`, `clear`, `read`, `write` (by a shader; on an immediate-mode GPU also
-    what a pass draws) or `input`; `direction` is `read` or `write`. `bytes` are those of a frame by plain arithmetic, exact;
-    `corrected` is the least and `corrected_most` the most that the device's compression leaves of them, None where none is known.
-    `samples` is the number of samples moved per pixel. `place` is where the input states it.
+    `action` is `load`, `store`, `resolve`, `resolve command`, `copy`, `clear`, `read`, `write` (by
+    a shader; on an immediate-mode GPU also what a pass draws) or `input`; `direction` is `read` or
+    `write`. `bytes` are those of a frame by plain arithmetic, exact; `corrected` is the least and
+    `corrected_most` the most that the device's compression leaves of them, None where none is
+    known. `samples` is the number of samples moved per pixel. `place` is where the input states it.
     """
 
     attachment: str
@@ -46,12 +50,14 @@ class Line(NamedTuple):
 
 
 class Shading(NamedTuple):
-    """Fragment shader invocations of a pass in a frame, in millions, for one layer of triangles that cover all that it renders to.
+    """Fragment shader invocations of a pass in a frame, in millions, for one layer of triangles
+    that cover all that it renders to.
 
-    `msaa` is once a pixel, the limit of large triangles. `sample_shading` is once a sample (minSampleShading 1), `super_sampling` that of
-    the smallest grid of k x k single-sampled pixels that has as many samples; `demanded` what the pipelines of the pass state, None where
-    they do not say. `edges` holds, for triangles of 1, 2, 4, ... pixels, by what to multiply `msaa`: (leg in pixels, invocations for each
-    pixel of area), see `shading.EDGES`.
+    `msaa` is once a pixel, the limit of large triangles. `sample_shading` is once a sample
+    (minSampleShading 1), `super_sampling` that of the smallest grid of k x k single-sampled pixels
+    that has as many samples; `demanded` what the pipelines of the pass state, None where they do
+    not say. `edges` holds, for triangles of 1, 2, 4, ... pixels, by what to multiply `msaa`: (leg
+    in pixels, invocations for each pixel of area), see `shading.EDGES`.
     """
 
     pixels: int
@@ -64,10 +70,11 @@ class Shading(NamedTuple):
 
 
 class PassCost(NamedTuple):
-    """One pass, or one command outside of passes (`kind` is `renderPass`, `rendering` or `command`), as often as a frame begins it.
+    """One pass, or one command outside of passes (`kind` is `renderPass`, `rendering` or
+    `command`), as often as a frame begins it.
 
-    `memory_mib` of its amounts is that of the images it uses, which other passes may use too. `unknown` describes what could not be
-    counted, and what information is missing.
+    `memory_mib` of its amounts is that of the images it uses, which other passes may use too.
+    `unknown` describes what could not be counted, and what information is missing.
     """
 
     name: str
@@ -86,10 +93,12 @@ class PassCost(NamedTuple):
 
 
 class ImageMemory(NamedTuple):
-    """The memory of an image: `bytes` in full, `committed` without what lazy allocation saves; None if a size is unknown.
+    """The memory of an image: `bytes` in full, `committed` without what lazy allocation saves; None
+    if a size is unknown.
 
-    Only usage and memory decide what is committed, so that the prices of findings add up. `committed_by_use`: a pass loads or stores an
-    image that is counted as not committed, so the driver has to commit it after all.
+    Only usage and memory decide what is committed, so that the prices of findings add up.
+    `committed_by_use`: a pass loads or stores an image that is counted as not committed, so the
+    driver has to commit it after all.
     """
 
     name: str
@@ -99,11 +108,13 @@ class ImageMemory(NamedTuple):
 
 
 class FrameCost(NamedTuple):
-    """A whole frame. `total` counts each image's memory once. `assumed` lists the assumptions (60 fps, a size).
+    """A whole frame. `total` counts each image's memory once. `assumed` lists the assumptions (60
+    fps, a size).
 
-    `share` is the fraction of a program's frames that are like this one, by which its traffic is weighted; None if it is not stated.
-    `budget_milliwatts` is None where power has no budget to be set against. `tiler` is the device's, by which the model is chosen: if it is
-    None, the figures are those on a tile-based GPU.
+    `share` is the fraction of a program's frames that are like this one, by which its traffic is
+    weighted; None if it is not stated. `budget_milliwatts` is None where power has no budget to be
+    set against. `tiler` is the device's, by which the model is chosen: if it is None, the figures
+    are those on a tile-based GPU.
     """
 
     passes: tuple[PassCost, ...]
@@ -122,15 +133,23 @@ class FrameCost(NamedTuple):
 
     @property
     def budget_share(self) -> float | None:
-        """The share of the power budget that the traffic takes by plain arithmetic; 1 is all of it. None without a budget."""
-        return None if self.budget_milliwatts is None else self.total.milliwatts / self.budget_milliwatts
+        """The share of the power budget that the traffic takes by plain arithmetic; 1 is all of it.
+        None without a budget.
+        """
+        return (
+            None
+            if self.budget_milliwatts is None
+            else self.total.milliwatts / self.budget_milliwatts
+        )
 
 
 class Terms(NamedTuple):
-    """The terms of an estimate that a caller may set; None takes the description's, then the device's, then the default.
+    """The terms of an estimate that a caller may set; None takes the description's, then the
+    device's, then the default.
 
-    `milliwatts_per_gbps` is the power of 10^9 bytes a second (default 100, Arm's figure for LPDDR4-class memory), `budget_milliwatts` what
-    it is set against (default 2500, a phone's sustained budget by the same source, unless the device is not known to be tile-based).
+    `milliwatts_per_gbps` is the power of 10^9 bytes a second (default 100, Arm's figure for
+    LPDDR4-class memory), `budget_milliwatts` what it is set against (default 2500, a phone's
+    sustained budget by the same source, unless the device is not known to be tile-based).
     """
 
     fps: float | None = None

@@ -16,8 +16,9 @@ SAME, CHANGED, ADDED, REMOVED = "same", "changed", "added", "removed"
 class Change(NamedTuple):
     """A pass, or all of a frame, before and after; None on the side where there is none.
 
-    `status` is `same`, `changed`, `added` or `removed`; `difference` is what the new one costs more, negative where it costs less;
-    `corrected` the same as the device compresses, None where that is not known of one of the two, or is a range.
+    `status` is `same`, `changed`, `added` or `removed`; `difference` is what the new one costs
+    more, negative where it costs less; `corrected` the same as the device compresses, None where
+    that is not known of one of the two, or is a range.
     """
 
     name: str
@@ -36,7 +37,8 @@ class Change(NamedTuple):
 
 
 class Comparison(NamedTuple):
-    """Two frames: their passes in the order of the new one, those that are gone after the one that they stood behind; and the total.
+    """Two frames: their passes in the order of the new one, those that are gone after the one that
+    they stood behind; and the total.
 
     `remarks` say what makes the two hard to compare, such as different rates.
     """
@@ -49,11 +51,13 @@ class Comparison(NamedTuple):
 def compare(old: FrameCost | None, new: FrameCost | None) -> Comparison:
     """What the new frame costs more than the old one; None is a frame that is not there.
 
-    Passes are matched by their names, commands by what they are and the images they move; of several with one name the first with the
-    first.
+    Passes are matched by their names, commands by what they are and the images they move; of
+    several with one name the first with the first.
     """
     before, after = _named(old.passes if old else ()), _named(new.passes if new else ())
-    changes = [_change(before.get(key), after.get(key)) for key in _merged(list(before), list(after))]
+    changes = [
+        _change(before.get(key), after.get(key)) for key in _merged(list(before), list(after))
+    ]
     total = _between("total", "total", _amounts(old), _amounts(new))
     return Comparison(tuple(changes), total, tuple(_remarks(old, new)))
 
@@ -62,10 +66,14 @@ Key = tuple[str, str, int]
 
 
 def title(each: PassCost) -> str:
-    """What tables call a pass: its name; a command with the images it moves (`resolveImage color_ms, color`)."""
+    """What tables call a pass: its name; a command with the images it moves (`resolveImage
+    color_ms, color`).
+    """
     if each.kind != "command":
         return each.name
-    return " ".join([each.name, ", ".join(dict.fromkeys(line.attachment for line in each.lines))]).rstrip()
+    return " ".join(
+        [each.name, ", ".join(dict.fromkeys(line.attachment for line in each.lines))]
+    ).rstrip()
 
 
 def _named(passes: Iterable[PassCost]) -> dict[Key, PassCost]:
@@ -101,7 +109,9 @@ def _change(old: PassCost | None, new: PassCost | None) -> Change:
 
 
 Amounts = tuple[Amount | None, Amount | None]
-"""What a pass or a frame costs by plain arithmetic, None where there is none; and as the device compresses, None where that is unknown."""
+"""What a pass or a frame costs by plain arithmetic, None where there is none; and as the device
+compresses, None where that is unknown.
+"""
 
 
 def _amounts(cost: PassCost | FrameCost | None) -> Amounts:
@@ -117,8 +127,14 @@ def _between(name: str, kind: str, before: Amounts, after: Amounts) -> Change:
         status = ADDED if old is None else REMOVED
     else:
         status = SAME if old == new else CHANGED
-    corrected = difference(new_corrected, old_corrected) if new_corrected is not None and old_corrected is not None else None
-    return Change(name, kind, status, old, new, difference(new or NOTHING, old or NOTHING), corrected)
+    corrected = (
+        difference(new_corrected, old_corrected)
+        if new_corrected is not None and old_corrected is not None
+        else None
+    )
+    return Change(
+        name, kind, status, old, new, difference(new or NOTHING, old or NOTHING), corrected
+    )
 
 
 def _remarks(old: FrameCost | None, new: FrameCost | None) -> Iterable[str]:
@@ -127,6 +143,12 @@ def _remarks(old: FrameCost | None, new: FrameCost | None) -> Iterable[str]:
     if old.fps != new.fps:
         yield f"the old frame is shown {old.fps:g} times a second, the new one {new.fps:g}"
     if old.device != new.device:
-        yield f"the old frame is for {old.device or 'no device'}, the new one for {new.device or 'no device'}"
+        yield (
+            f"the old frame is for {old.device or 'no device'}, the new one for "
+            f"{new.device or 'no device'}"
+        )
     if old.milliwatts_per_gbps != new.milliwatts_per_gbps:
-        yield f"a GB/s takes {old.milliwatts_per_gbps:g} mW in the old frame, {new.milliwatts_per_gbps:g} mW in the new one"
+        yield (
+            f"a GB/s takes {old.milliwatts_per_gbps:g} mW in the old frame, "
+            f"{new.milliwatts_per_gbps:g} mW in the new one"
+        )

@@ -1,7 +1,7 @@
 """Edits of a joined frame: other commands, images or sample counts than the description states.
 
-A frame belongs to the caller that joined it: its passes, attachments and targets may be changed in place. Records are shared by all frames
-of a document and are copied instead.
+A frame belongs to the caller that joined it: its passes, attachments and targets may be changed in
+place. Records are shared by all frames of a document and are copied instead.
 """
 
 from __future__ import annotations
@@ -42,14 +42,19 @@ def make_command(kind: str, body: Record | None, like: Record) -> Command:
 def command_order(frame: Frame) -> CommandOrder:
     """The commands of a frame; if it states none, commands that run every pass once."""
     if frame.has_commands:
-        begins = {position: render_pass for render_pass in frame.passes for position in render_pass.begun}
+        begins = {
+            position: render_pass for render_pass in frame.passes for position in render_pass.begun
+        }
         return [(command, begins.get(position)) for position, command in enumerate(frame.commands)]
     order: CommandOrder = []
     for render_pass in frame.passes:
         record = render_pass.record
         body = blank_record(BeginRenderPass, record, "beginRenderPass")
         body.renderPass = render_pass.name
-        order += [(make_command("beginRenderPass", body, record), render_pass), (make_command("endRenderPass", None, record), None)]
+        order += [
+            (make_command("beginRenderPass", body, record), render_pass),
+            (make_command("endRenderPass", None, record), None),
+        ]
     return order
 
 
@@ -74,13 +79,18 @@ def own_image(target: Target) -> Image | None:
 
 
 def effective_resolves(render_pass: Pass) -> list[Resolve]:
-    """The resolves of a pass that certainly take effect: with a stated mode, of more than one sample and with a target."""
+    """The resolves of a pass that certainly take effect: with a stated mode, of more than one
+    sample and with a target.
+    """
     if render_pass.suspends:
         return []
     return [
         resolve
         for resolve in render_pass.resolves
-        if resolve.is_certain and resolve.source is not None and resolve.source.samples != 1 and resolve.written_part is not None
+        if resolve.is_certain
+        and resolve.source is not None
+        and resolve.source.samples != 1
+        and resolve.written_part is not None
     ]
 
 

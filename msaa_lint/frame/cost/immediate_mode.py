@@ -1,8 +1,9 @@
 """What a pass moves on an immediate-mode GPU, by plain arithmetic: exact bytes of one frame.
 
-Such a GPU writes what it draws to memory, whatever the store operation, and loads nothing when a pass begins: load and store operations are
-hints to its driver. A resolve in the pass reads the samples and writes one value each. Each pixel counts as drawn once; overdraw, tests,
-blending, clears, and compression are not known and not counted.
+Such a GPU writes what it draws to memory, whatever the store operation, and loads nothing when a
+pass begins: load and store operations are hints to its driver. A resolve in the pass reads the
+samples and writes one value each. Each pixel counts as drawn once; overdraw, tests, blending,
+clears, and compression are not known and not counted.
 """
 
 from __future__ import annotations
@@ -14,8 +15,10 @@ from .sizes import Area
 from .traffic import NOT_STATED, Lines, Stored, aspect_bytes, pass_pixels, resolve_write
 
 ASSUMED = (
-    "{} is an immediate-mode GPU: a pass writes each sample that it draws once, and its resolves read the samples; load and store"
-    " operations are hints to the driver; overdraw, tests, blending, clears, and compression are not known"
+    "{} is an immediate-mode GPU: a pass writes each sample that it draws once, and its resolves "
+    "read the samples; load and store"
+    " operations are hints to the driver; overdraw, tests, blending, clears, and compression are "
+    "not known"
 )
 
 
@@ -36,7 +39,9 @@ def immediate_lines(render_pass: Pass, area: Area, device: DeviceProfile) -> Lin
 
 
 def _implicit_samples(render_pass: Pass, lines: Lines) -> dict[int, int]:
-    """The sample counts at which single-sampled attachments are drawn (multisampledRenderToSingleSampled), by their identity."""
+    """The sample counts at which single-sampled attachments are drawn
+    (multisampledRenderToSingleSampled), by their identity.
+    """
     found: dict[int, int] = {}
     for subpass in render_pass.subpasses:
         if not subpass.single_sampled:
@@ -50,8 +55,12 @@ def _implicit_samples(render_pass: Pass, lines: Lines) -> dict[int, int]:
     return found
 
 
-def _attachment(lines: Lines, render_pass: Pass, attachment: Attachment, area: Area, implicit: int | None) -> None:
-    """What is drawn to an attachment and read from it as an input; of one with implicit samples, also their resolve."""
+def _attachment(
+    lines: Lines, render_pass: Pass, attachment: Attachment, area: Area, implicit: int | None
+) -> None:
+    """What is drawn to an attachment and read from it as an input; of one with implicit samples,
+    also their resolve.
+    """
     # A resumed rendering goes on with what the suspended one draws.
     drawn = attachment.drawn and not render_pass.resumes
     actions = []
@@ -83,14 +92,35 @@ def _resolve(lines: Lines, render_pass: Pass, resolve: Resolve, area: Area) -> N
 
 
 def _add(
-    lines: Lines, render_pass: Pass, attachment: Attachment, aspect: str, action: str, direction: str, samples: int | None, area: Area
+    lines: Lines,
+    render_pass: Pass,
+    attachment: Attachment,
+    aspect: str,
+    action: str,
+    direction: str,
+    samples: int | None,
+    area: Area,
 ) -> None:
     texel = aspect_bytes(attachment.format, aspect) if attachment.format is not None else None
     if texel is None or samples is None:
-        lines.missing(f"`{attachment.title}`: {NOT_STATED['format' if texel is None else 'samples']}")
+        lines.missing(
+            f"`{attachment.title}`: {NOT_STATED['format' if texel is None else 'samples']}"
+        )
         return
     target = attachment.targets[0] if attachment.targets else None
     image = target.name if target is not None and target.image is not None else ""
     size = pass_pixels(render_pass, attachment, area) * texel * samples
-    stored = Stored(attachment.format, attachment.samples or 1, target.image if target is not None else None)
-    lines.add(attachment.name, image, aspect, samples, action, direction, size, attachment.record.head, stored)
+    stored = Stored(
+        attachment.format, attachment.samples or 1, target.image if target is not None else None
+    )
+    lines.add(
+        attachment.name,
+        image,
+        aspect,
+        samples,
+        action,
+        direction,
+        size,
+        attachment.record.head,
+        stored,
+    )

@@ -1,4 +1,6 @@
-"""The cost of a frame: traffic, memory and power of its passes, once by plain arithmetic and once as the device compresses."""
+"""The cost of a frame: traffic, memory and power of its passes, once by plain arithmetic and once
+as the device compresses.
+"""
 
 from __future__ import annotations
 
@@ -19,10 +21,11 @@ from .traffic import MOVING, Lines, command_lines, pass_lines
 
 
 def frame_cost(frame: Frame, device: DeviceProfile | None, terms: Terms | None = None) -> FrameCost:
-    """What a frame costs: the passes that its commands begin and the commands that move images, in their order.
+    """What a frame costs: the passes that its commands begin and the commands that move images, in
+    their order.
 
-    Without commands every pass runs once. What an input does not say is not counted, and `unknown` names it. It never raises: the frame may
-    be any that a reader gives.
+    Without commands every pass runs once. What an input does not say is not counted, and `unknown`
+    names it. It never raises: the frame may be any that a reader gives.
     """
     terms = terms if terms is not None else Terms()
     frame_rates = rates(frame.description, device, terms)
@@ -32,13 +35,17 @@ def frame_cost(frame: Frame, device: DeviceProfile | None, terms: Terms | None =
     costs: list[PassCost] = []
     entries, unknown = _entries(frame, device, sizes, frame_rates)
     read = written = 0
-    corrected: Moved | None = ((0.0, 0.0), (0.0, 0.0)) if device is not None and device.compression is not None else None
+    corrected: Moved | None = (
+        ((0.0, 0.0), (0.0, 0.0)) if device is not None and device.compression is not None else None
+    )
     taken: dict[str, None] = {}
     for name, path, kind, each, area, lines in entries:
         lines.move_planes()
         used = dict.fromkeys(line.image for line in lines.found)
         if each is not None:
-            used.update(dict.fromkeys(t.name for a in each.attachments if a.used for t in a.targets[:1]))
+            used.update(
+                dict.fromkeys(t.name for a in each.attachments if a.used for t in a.targets[:1])
+            )
         memory = sum(committed.get(image, 0) for image in used)
         reads, writes = _bytes(lines.found)
         measured = _corrected(lines.found, device)
@@ -63,7 +70,9 @@ def frame_cost(frame: Frame, device: DeviceProfile | None, terms: Terms | None =
         unknown += [f"`{name}`: {text}" for text in lines.unknown]
         taken.update(lines.assumed)
     everything = sum(committed.values())
-    unknown += [f"`{image.name}`: what it takes of memory" for image in images if image.bytes is None]
+    unknown += [
+        f"`{image.name}`: what it takes of memory" for image in images if image.bytes is None
+    ]
     return FrameCost(
         tuple(costs),
         tuple(images),
@@ -87,8 +96,12 @@ _NO_AREA = Area(1, 0, 0, None, None, True, ())
 """A command outside of passes runs once and renders nothing."""
 
 
-def _entries(frame: Frame, device: DeviceProfile | None, sizes: Sizes, frame_rates: Rates) -> tuple[list[Entry], list[str]]:
-    """The passes and commands of a frame, with their lines, in the order in which they first come; and the passes that never do."""
+def _entries(
+    frame: Frame, device: DeviceProfile | None, sizes: Sizes, frame_rates: Rates
+) -> tuple[list[Entry], list[str]]:
+    """The passes and commands of a frame, with their lines, in the order in which they first come;
+    and the passes that never do.
+    """
     entries: dict[int, Entry] = {}
     for each in frame.passes if not frame.has_commands else ():
         entries[id(each)] = _pass_entry(each, device, sizes)
@@ -100,7 +113,10 @@ def _entries(frame: Frame, device: DeviceProfile | None, sizes: Sizes, frame_rat
                 entries[id(render_pass)] = _pass_entry(render_pass, device, sizes)
             if id(render_pass) not in attached:
                 attached[id(render_pass)] = _attached_images(render_pass)
-        elif command.kind not in MOVING or getattr(command.body, "access", None) == "INPUT_ATTACHMENT_READ":
+        elif (
+            command.kind not in MOVING
+            or getattr(command.body, "access", None) == "INPUT_ATTACHMENT_READ"
+        ):
             # An input attachment is counted with its pass.
             continue
         elif render_pass is None:
@@ -110,13 +126,22 @@ def _entries(frame: Frame, device: DeviceProfile | None, sizes: Sizes, frame_rat
         elif getattr(command.body, "image", None) not in attached[id(render_pass)]:
             # What a pass has attached it reads on the tile.
             command_lines(entries[id(render_pass)][5], command, frame, sizes)
-    never = [f"`{each.name}`: no command begins it" for each in frame.passes if frame.has_commands and not each.begun]
+    never = [
+        f"`{each.name}`: no command begins it"
+        for each in frame.passes
+        if frame.has_commands and not each.begun
+    ]
     return list(entries.values()), never
 
 
 def _attached_images(render_pass: Pass) -> set[str]:
     """The images of a pass's attachments."""
-    return {target.name for attachment in render_pass.attachments for target in attachment.targets if target.image is not None}
+    return {
+        target.name
+        for attachment in render_pass.attachments
+        for target in attachment.targets
+        if target.image is not None
+    }
 
 
 def _pass_entry(each: Pass, device: DeviceProfile | None, sizes: Sizes) -> Entry:
@@ -145,7 +170,9 @@ def _tile(each: Pass, device: DeviceProfile | None) -> TileUse | None:
 
 
 def _bytes(lines: list[Line]) -> tuple[int, int]:
-    return sum(line.bytes for line in lines if line.direction == "read"), sum(line.bytes for line in lines if line.direction == "write")
+    return sum(line.bytes for line in lines if line.direction == "read"), sum(
+        line.bytes for line in lines if line.direction == "write"
+    )
 
 
 Moved = tuple[tuple[float, float], tuple[float, float]]
@@ -153,7 +180,9 @@ Moved = tuple[tuple[float, float], tuple[float, float]]
 
 
 def _corrected(lines: list[Line], device: DeviceProfile | None) -> Moved | None:
-    """Read and written bytes as the device compresses; None where that is not known of one of the lines."""
+    """Read and written bytes as the device compresses; None where that is not known of one of the
+    lines.
+    """
     if device is None or device.compression is None:
         return None
     moved: Moved = ((0.0, 0.0), (0.0, 0.0))
@@ -161,7 +190,10 @@ def _corrected(lines: list[Line], device: DeviceProfile | None) -> Moved | None:
         low, high = line.corrected, line.corrected_most
         if low is None or high is None:
             return None
-        moved = _sum(moved, ((low, 0.0), (high, 0.0)) if line.direction == "read" else ((0.0, low), (0.0, high)))
+        moved = _sum(
+            moved,
+            ((low, 0.0), (high, 0.0)) if line.direction == "read" else ((0.0, low), (0.0, high)),
+        )
     return moved
 
 
@@ -170,7 +202,9 @@ def _sum(one: Moved, other: Moved) -> Moved:
     return (a[0] + c[0], a[1] + c[1]), (b[0] + d[0], b[1] + d[1])
 
 
-def _assumed(frame: Frame, device: DeviceProfile | None, terms: Terms, frame_rates: Rates) -> list[str]:
+def _assumed(
+    frame: Frame, device: DeviceProfile | None, terms: Terms, frame_rates: Rates
+) -> list[str]:
     """What was taken for granted of the frame as a whole."""
     found = []
     size = frame.description.frame
@@ -179,11 +213,15 @@ def _assumed(frame: Frame, device: DeviceProfile | None, terms: Terms, frame_rat
     if MAX_RATE in frame_rates:
         found.append(f"rates above {MAX_RATE:g} are taken for that")
     if device is not None and device.tiler is None:
-        found.append(f"{device.name} may be a tile-based GPU or not: the traffic is that on a tile-based GPU")
+        found.append(
+            f"{device.name} may be a tile-based GPU or not: the traffic is that on a tile-based GPU"
+        )
     if device is not None and device.tiler is False:
         found.append(ASSUMED.format(device.name))
         if terms.milliwatts_per_gbps is None and device.milliwatts_per_gbps is None:
-            found.append(f"{MILLIWATTS_PER_GBPS:g} mW per GB/s is Arm's figure for a phone's memory")
+            found.append(
+                f"{MILLIWATTS_PER_GBPS:g} mW per GB/s is Arm's figure for a phone's memory"
+            )
     return found
 
 

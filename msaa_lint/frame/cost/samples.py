@@ -3,7 +3,15 @@
 from __future__ import annotations
 
 from msaa_lint.frame.facts.frame import Frame
-from msaa_lint.frame.facts.parts import RENDERING, Aspect, Attachment, Pass, PassSubpass, Resolve, Target
+from msaa_lint.frame.facts.parts import (
+    RENDERING,
+    Aspect,
+    Attachment,
+    Pass,
+    PassSubpass,
+    Resolve,
+    Target,
+)
 
 from .frame_edits import (
     attachments_by_target,
@@ -33,8 +41,13 @@ def is_multisampled(frame: Frame) -> bool:
 
 def set_samples(frame: Frame, samples: int) -> None:
     """Gives everything that has more than one sample another sample count."""
-    attachments = [attachment for render_pass in frame.passes for attachment in render_pass.attachments]
-    targets = [*frame.targets.values(), *(target for attachment in attachments for target in attachment.targets)]
+    attachments = [
+        attachment for render_pass in frame.passes for attachment in render_pass.attachments
+    ]
+    targets = [
+        *frame.targets.values(),
+        *(target for attachment in attachments for target in attachment.targets),
+    ]
     multisampled: list[Target | Attachment] = [*targets, *attachments]
     for part in multisampled:
         if part.samples is not None and part.samples > 1:
@@ -48,7 +61,8 @@ def set_samples(frame: Frame, samples: int) -> None:
 def remove_multisampling(frame: Frame) -> None:
     """Removes multisampling: nothing is resolved, and passes draw to what they resolved to.
 
-    If a pass resolves a source to several images, it draws to the last; the others are written as before.
+    If a pass resolves a source to several images, it draws to the last; the others are written as
+    before.
     """
     inline(frame)
     replacements: dict[str, dict[str, Target]] = {}
@@ -73,7 +87,10 @@ def remove_multisampling(frame: Frame) -> None:
     for render_pass in frame.passes:
         for subpass in render_pass.subpasses:
             subpass.single_sampled, subpass.single_sampled_count = False, None
-    _replace_images(frame, {name: images.popitem()[1] for name, images in replacements.items() if len(images) == 1})
+    _replace_images(
+        frame,
+        {name: images.popitem()[1] for name, images in replacements.items() if len(images) == 1},
+    )
     used, named = attachments_by_target(frame), images_of_commands(frame)
     for name in replacements:
         if id(frame.targets[name]) not in used and name not in named:
@@ -81,38 +98,58 @@ def remove_multisampling(frame: Frame) -> None:
 
 
 def _draw_to_attachment(render_pass: Pass, source: Attachment, target: Attachment) -> None:
-    """Puts a resolve target of a render pass in place of its source: loaded like the source, stored if either was."""
+    """Puts a resolve target of a render pass in place of its source: loaded like the source, stored
+    if either was.
+    """
     resolved_aspects = {aspect for aspects in target.resolve.values() for aspect in aspects}
     stores = {aspect.name: aspect.store for aspect in target.aspects}
     for index in source.color | source.depth_stencil:
         subpass = render_pass.subpasses[index]
-        subpass.color = [target if attachment is source else attachment for attachment in subpass.color]
-        subpass.depth_stencil = [target if attachment is source else attachment for attachment in subpass.depth_stencil]
-        subpass.resolves = [resolve for resolve in subpass.resolves if resolve.source is not source or resolve.target is not target]
+        subpass.color = [
+            target if attachment is source else attachment for attachment in subpass.color
+        ]
+        subpass.depth_stencil = [
+            target if attachment is source else attachment for attachment in subpass.depth_stencil
+        ]
+        subpass.resolves = [
+            resolve
+            for resolve in subpass.resolves
+            if resolve.source is not source or resolve.target is not target
+        ]
         target.resolve.pop(index, None)
     target.color |= source.color
     target.depth_stencil |= source.depth_stencil
     target.input |= source.input
     source.color, source.depth_stencil, source.input = set(), set(), set()
     target.aspects = [
-        aspect._replace(store=_either_store(aspect.store, stores.get(aspect.name)) if aspect.name in resolved_aspects else aspect.store)
+        aspect._replace(
+            store=_either_store(aspect.store, stores.get(aspect.name))
+            if aspect.name in resolved_aspects
+            else aspect.store
+        )
         for aspect in source.aspects
     ]
-    for image, source_image in zip(target.targets, source.targets * len(target.targets), strict=False):
+    for image, source_image in zip(
+        target.targets, source.targets * len(target.targets), strict=False
+    ):
         _take_extent(image, source_image)
         _take_wider_format(image, source)
     _take_wider_format(target, source)
 
 
 def _either_store(one: str | None, other: str | None) -> str | None:
-    """The store operation of contents that are stored if either is; None if that depends on an unknown one."""
+    """The store operation of contents that are stored if either is; None if that depends on an
+    unknown one.
+    """
     if "STORE" in (one, other):
         return "STORE"
     return None if None in (one, other) else other
 
 
 def _draw_to_image(subpass: PassSubpass, resolve: Resolve, target: Target) -> None:
-    """Puts the resolve target of a rendering in place of its source; it is stored, as the resolve wrote it whatever storeOp was."""
+    """Puts the resolve target of a rendering in place of its source; it is stored, as the resolve
+    wrote it whatever storeOp was.
+    """
     source = resolve.source
     assert source is not None
     # Depth and stencil belong to one image: the aspect that is not resolved moves along.
@@ -123,14 +160,26 @@ def _draw_to_image(subpass: PassSubpass, resolve: Resolve, target: Target) -> No
             _take_extent(target, image)
         _take_wider_format(target, attachment)
         if id(attachment) in resolved:
-            attachment.aspects = [Aspect(a.name, a.load, "STORE", a.load_member, a.store_member) for a in attachment.aspects]
+            attachment.aspects = [
+                Aspect(a.name, a.load, "STORE", a.load_member, a.store_member)
+                for a in attachment.aspects
+            ]
         attachment.name, attachment.targets = target.name, [target]
-    subpass.resolves = [each for each in subpass.resolves if not any(each.source is attachment for attachment in moved)]
+    subpass.resolves = [
+        each
+        for each in subpass.resolves
+        if not any(each.source is attachment for attachment in moved)
+    ]
 
 
 def _take_extent(target: Target, source: Target) -> None:
     """Gives an image the extent of another, if it states none."""
-    if target.image is not None and target.image.extent is None and source.image is not None and source.image.extent is not None:
+    if (
+        target.image is not None
+        and target.image.extent is None
+        and source.image is not None
+        and source.image.extent is not None
+    ):
         image = own_image(target)
         assert image is not None
         image.extent = source.image.extent
@@ -138,7 +187,9 @@ def _take_extent(target: Target, source: Target) -> None:
 
 def _take_wider_format(target: Target | Attachment, source: Attachment) -> None:
     """Gives an image the format of what is now drawn to it, if that has more aspects."""
-    if source.format is not None and len(source.format.aspects) > len(target.format.aspects if target.format is not None else ()):
+    if source.format is not None and len(source.format.aspects) > len(
+        target.format.aspects if target.format is not None else ()
+    ):
         target.format = source.format
 
 
@@ -148,9 +199,14 @@ def _replace_images(frame: Frame, images: dict[str, Target]) -> None:
         return
     for render_pass in frame.passes:
         for attachment in render_pass.attachments:
-            attachment.targets = [images.get(t.name, t) if t.image is not None else t for t in attachment.targets]
+            attachment.targets = [
+                images.get(t.name, t) if t.image is not None else t for t in attachment.targets
+            ]
             if render_pass.kind == RENDERING and attachment.targets:
                 attachment.name = attachment.targets[0].name
     if frame.has_commands:
         names = {name: target.name for name, target in images.items()}
-        set_commands(frame, [(rename_images(command, names), begun) for command, begun in command_order(frame)])
+        set_commands(
+            frame,
+            [(rename_images(command, names), begun) for command, begun in command_order(frame)],
+        )

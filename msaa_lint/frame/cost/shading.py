@@ -1,7 +1,8 @@
-"""How often a fragment shader runs: multisampling, sample shading, supersampling, and the share of edges of small triangles.
+"""How often a fragment shader runs: multisampling, sample shading, supersampling, and the share of
+edges of small triangles.
 
-A pixel shades a triangle once if the triangle covers any of its samples, so a triangle shades more pixels than its area: those of the
-union of its copies, each moved by one sample.
+A pixel shades a triangle once if the triangle covers any of its samples, so a triangle shades more
+pixels than its area: those of the union of its copies, each moved by one sample.
 """
 
 from __future__ import annotations
@@ -17,12 +18,16 @@ from .sizes import Area
 
 
 def shaded_samples(minimum: float, samples: int) -> int:
-    """Invocations per pixel that sample shading requires: max(ceil(minSampleShading * rasterizationSamples), 1)."""
+    """Invocations per pixel that sample shading requires: max(ceil(minSampleShading *
+    rasterizationSamples), 1).
+    """
     return max(math.ceil(minimum * samples), 1)
 
 
 def supersampling(samples: int) -> int:
-    """Pixels of the smallest k x k grid with at least as many pixels as samples: 4 for 2 and 4, 9 for 8, 16 for 16."""
+    """Pixels of the smallest k x k grid with at least as many pixels as samples: 4 for 2 and 4, 9
+    for 8, 16 for 16.
+    """
     return (math.isqrt(samples - 1) + 1) ** 2
 
 
@@ -33,14 +38,17 @@ EDGES: dict[int, tuple[tuple[int, float], ...]] = {
     8: ((1, 4.1094), (2, 2.4648), (4, 1.71), (8, 1.3494), (16, 1.1733), (32, 1.0863)),
     16: ((1, 5.2617), (2, 2.9717), (4, 1.946), (8, 1.4631), (16, 1.229), (32, 1.1139)),
 }
-"""By sample count: fragment shader invocations per pixel of area of right triangles whose legs, along the pixel grid, are 1 to 32 pixels.
+"""By sample count: fragment shader invocations per pixel of area of right triangles whose legs,
+along the pixel grid, are 1 to 32 pixels.
 
-Means over all positions, computed exactly by `tests/frame/cost/triangles.py` and rounded to four places.
+Means over all positions, computed exactly by `tests/frame/cost/triangles.py` and rounded to four
+places.
 """
 
 
 def pass_shading(each: Pass, area: Area, frame: Frame) -> Shading | None:
-    """The invocations of one layer of triangles over everything a pass renders to; None if the size or every sample count is unknown.
+    """The invocations of one layer of triangles over everything a pass renders to; None if the size
+    or every sample count is unknown.
 
     The subpass with the most samples stands for a pass.
     """
@@ -64,7 +72,9 @@ def pass_shading(each: Pass, area: Area, frame: Frame) -> Shading | None:
 
 
 def _demanded(each: Pass, frame: Frame, samples: int) -> int | None:
-    """Invocations per pixel of the pass's pipeline that requires the most; None if no pipeline is stated, or one does not state it."""
+    """Invocations per pixel of the pass's pipeline that requires the most; None if no pipeline is
+    stated, or one does not state it.
+    """
     if each.kind != RENDER_PASS:
         return None
     demands = []
@@ -74,5 +84,9 @@ def _demanded(each: Pass, frame: Frame, samples: int) -> int | None:
             return None
         if state.sampleShadingEnable and state.minSampleShading is None:
             return None
-        demands.append(shaded_samples(min(state.minSampleShading or 0.0, 1.0), samples) if state.sampleShadingEnable else 1)
+        demands.append(
+            shaded_samples(min(state.minSampleShading or 0.0, 1.0), samples)
+            if state.sampleShadingEnable
+            else 1
+        )
     return max(demands, default=None)

@@ -1,6 +1,8 @@
-"""Trees to records: every member by its shape, every mistake with its place and the nearest right word.
+"""Trees to records: every member by its shape, every mistake with its place and the nearest right
+word.
 
-The description format is strict: an unknown key is an error. Tools' dumps are read more leniently (`dumps`).
+The description format is strict: an unknown key is an error. Tools' dumps are read more leniently
+(`dumps`).
 """
 
 from __future__ import annotations
@@ -40,7 +42,9 @@ UNREAD = "pNext"
 class Binder(ValueBinder):
     """Reads the records of one document. `problems` and `mentions` fill as it goes."""
 
-    def record(self, kind: type[Record], node: Node, path: str, key: str, head: Span | None = None) -> Any:
+    def record(
+        self, kind: type[Record], node: Node, path: str, key: str, head: Span | None = None
+    ) -> Any:
         """The record of that class that a mapping states."""
         record = self.structure(kind, node, path, key, head if head is not None else head_of(node))
         if self.dumped and node.kind == "mapping" and "pNext" in node.value:
@@ -51,16 +55,27 @@ class Binder(ValueBinder):
         """The record of a mapping, without what its pNext chain states."""
         record = kind(node, path, key, head)
         if node.kind != "mapping":
-            self.wrong_structure(node, path, "a mapping", "" if self.dumped else mapping_hint(("record", kind), node))
+            self.wrong_structure(
+                node, path, "a mapping", "" if self.dumped else mapping_hint(("record", kind), node)
+            )
             return record
         self.members(record, node, path)
-        if isinstance(record, DepthStencilResolve) and record.attachment is not None and record.attachment.layout is None:
+        if (
+            isinstance(record, DepthStencilResolve)
+            and record.attachment is not None
+            and record.attachment.layout is None
+        ):
             record.attachment.layout = record.layout
         return record
 
     def wrong_structure(self, node: Node, path: str, expected: str, hint: str = "") -> None:
         """Reports what is not a structure, or not of the right kind, by its whole path."""
-        self.report("MSAA903", f"{structure_of(path)} must be {expected}, found {found(node)}{hint}", head_of(node), path)
+        self.report(
+            "MSAA903",
+            f"{structure_of(path)} must be {expected}, found {found(node)}{hint}",
+            head_of(node),
+            path,
+        )
 
     def members(self, record: Record, node: Node, path: str) -> None:
         """Gives a record the members that a mapping states."""
@@ -78,7 +93,12 @@ class Binder(ValueBinder):
                     # The keys below it are indented by such characters too.
                     break
             elif is_bare and key.start < key.end == value.start == value.end:
-                self.report("MSAA901", f"`:` is missing after the key {quoted(key_text)}", key.span, f"{path}.{name}".lstrip("."))
+                self.report(
+                    "MSAA901",
+                    f"`:` is missing after the key {quoted(key_text)}",
+                    key.span,
+                    f"{path}.{name}".lstrip("."),
+                )
                 break
             elif is_bare and (below := key_below(shape, kind, node, key_text)) is not None:
                 if not hidden_character(below.text):
@@ -86,10 +106,18 @@ class Binder(ValueBinder):
                     break
             elif not (dumped and is_null(value)):
                 record.spelled[name] = (key, value)
-                setattr(record, name, self.value(shape, value, f"{path}.{key_text}" if path else key_text, key_text, key.span))
+                setattr(
+                    record,
+                    name,
+                    self.value(
+                        shape, value, f"{path}.{key_text}" if path else key_text, key_text, key.span
+                    ),
+                )
 
     def chain(self, record: Record, node: Node) -> None:
-        """Gives a record the members that its pNext chain states, and the names of the structures that are not read."""
+        """Gives a record the members that its pNext chain states, and the names of the structures
+        that are not read.
+        """
         path = f"{record.path}.pNext"
         unread: list[str] = []
         while node.kind == "mapping":
@@ -100,7 +128,9 @@ class Binder(ValueBinder):
             elif name is not None and name in record.SHAPE and record.SHAPE[name][0] == "record":
                 key = node.keys["sType"]
                 record.spelled[name] = (key, node)
-                setattr(record, name, self.structure(record.SHAPE[name][1], node, path, name, key.span))
+                setattr(
+                    record, name, self.structure(record.SHAPE[name][1], node, path, name, key.span)
+                )
             elif is_unread(stype, type(record)):
                 unread.append(stype or "UNKNOWN")
             following = node.value.get("pNext")
@@ -117,10 +147,15 @@ class Binder(ValueBinder):
 
     def unindented(self, above: str, key: Node, path: str) -> None:
         """Reports a key that lacks the indentation to be part of the value of the key above it."""
-        message = f"{quoted(key.text)} must be indented deeper than {quoted(above)}, which has no value without it"
+        message = (
+            f"{quoted(key.text)} must be indented deeper than {quoted(above)}, which has no "
+            f"value without it"
+        )
         self.report("MSAA903", message, key.span, f"{path}.{shortened(above)}".lstrip("."))
 
-    def unknown_key(self, kind: type[Record], key: Node, value: Node, path: str, has_known: bool) -> None:
+    def unknown_key(
+        self, kind: type[Record], key: Node, value: Node, path: str, has_known: bool
+    ) -> None:
         if not self.is_full:
             key_path = f"{path}.{shortened(key.text)}".lstrip(".")
             hint = key_hint(kind, key.text, value)
@@ -166,9 +201,17 @@ class Binder(ValueBinder):
         if kind == "subpass":
             return self.subpass(node, path)
         if kind == "counted":
-            return self.items(shape, node, path) if node.kind == "sequence" else tuple(self.mapping(shape, node, path).values())
+            return (
+                self.items(shape, node, path)
+                if node.kind == "sequence"
+                else tuple(self.mapping(shape, node, path).values())
+            )
         if kind == "null":
-            return None if node.kind == "scalar" and node.value is None else self.value(shape[1], node, path, key, head)
+            return (
+                None
+                if node.kind == "scalar" and node.value is None
+                else self.value(shape[1], node, path, key, head)
+            )
         if kind == "either":
             return self.either(shape[1:], node, path, key, head)
         return self.command(node, path, key, shape[1])
@@ -180,25 +223,47 @@ class Binder(ValueBinder):
             return ()
         maximum = shape[2] if len(shape) > 2 else None
         if maximum is not None and len(node.value) > maximum:
-            message = f"{structure_of(path)} must have at most {maximum} items, found {len(node.value)}"
+            message = (
+                f"{structure_of(path)} must have at most {maximum} items, found {len(node.value)}"
+            )
             self.report("MSAA903", message, head_of(node.value[maximum]), f"{path}[{maximum}]")
-        return tuple(self.value(shape[1], item, f"{path}[{n}]", str(n)) for n, item in enumerate(node.value))
+        return tuple(
+            self.value(shape[1], item, f"{path}[{n}]", str(n)) for n, item in enumerate(node.value)
+        )
 
     def mapping(self, shape: Shape, node: Node, path: str) -> dict[str, Any]:
         """The entries of a mapping by name, or by number."""
         is_numbered = shape[0] == "numbered"
         if node.kind != "mapping":
-            self.wrong_structure(node, path, f"a mapping by {'number' if is_numbered else 'name'}", mapping_hint(shape, node))
+            self.wrong_structure(
+                node,
+                path,
+                f"a mapping by {'number' if is_numbered else 'name'}",
+                mapping_hint(shape, node),
+            )
             return {}
         highest = shape[2] if len(shape) > 2 else None
         for key in node.keys.values() if is_numbered else ():
-            if not is_number(key.text) or (highest is not None and (int(key.text) > highest or len(key.text) > len(str(highest)))):
+            if not is_number(key.text) or (
+                highest is not None
+                and (int(key.text) > highest or len(key.text) > len(str(highest)))
+            ):
                 expected = "integers" if highest is None else f"integers from 0 to {highest}"
-                self.report("MSAA903", f"the keys of {structure_of(path)} must be {expected}, found {found(key)}", key.span, path)
+                self.report(
+                    "MSAA903",
+                    f"the keys of {structure_of(path)} must be {expected}, found {found(key)}",
+                    key.span,
+                    path,
+                )
         for key in node.keys.values() if not self.dumped else ():
             if lacks_colon(key):
                 name = key.text.split(" ")[0]
-                self.report("MSAA901", f"`:` is missing after the key {quoted(name)}; write {quoted(f'{name}:')}", key.span, path)
+                self.report(
+                    "MSAA901",
+                    f"`:` is missing after the key {quoted(name)}; write {quoted(f'{name}:')}",
+                    key.span,
+                    path,
+                )
                 return {}
         item = shape[1]
         if item[0] == "record" and not self.dumped:
@@ -210,10 +275,15 @@ class Binder(ValueBinder):
                     self.unindented(above, node.keys[below], path)
                     return {}
         return {
-            name: self.value(shape[1], value, f"{path}.{shortened(name)}", name, node.keys[name].span) for name, value in node.value.items()
+            name: self.value(
+                shape[1], value, f"{path}.{shortened(name)}", name, node.keys[name].span
+            )
+            for name, value in node.value.items()
         }
 
-    def either(self, shapes: tuple[Shape, ...], node: Node, path: str, key: str, head: Span | None) -> Any:
+    def either(
+        self, shapes: tuple[Shape, ...], node: Node, path: str, key: str, head: Span | None
+    ) -> Any:
         """A value by the first shape that is of its kind."""
         for shape in shapes:
             if fits(shape, node):
@@ -222,25 +292,39 @@ class Binder(ValueBinder):
         return None
 
     def slot(self, node: Node, path: str, key: str, head: Span | None) -> AttachmentReference:
-        """An attachment of the same render pass: a name, an index, `{attachment, layout}`, or null."""
+        """An attachment of the same render pass: a name, an index, `{attachment, layout}`, or
+        null.
+        """
         if node.kind == "mapping":
             reference: AttachmentReference = self.record(AttachmentReference, node, path, key, head)
         else:
             reference = AttachmentReference(node, path, key, node.span)
-            if node.kind != "scalar" or isinstance(node.value, (bool, float)) or (isinstance(node.value, int) and node.value < 0):
-                self.mismatch(node, path, "an attachment (a name, an index, {attachment, layout} or null)")
+            if (
+                node.kind != "scalar"
+                or isinstance(node.value, (bool, float))
+                or (isinstance(node.value, int) and node.value < 0)
+            ):
+                self.mismatch(
+                    node, path, "an attachment (a name, an index, {attachment, layout} or null)"
+                )
             elif isinstance(node.value, int):
                 reference.attachment = self.integer(0, MAX_UINT32, node, path)
             elif node.value is not None:
                 reference.attachment = node.text
-        if self.dumped and isinstance(reference.attachment, str) and is_number(reference.attachment):
+        if (
+            self.dumped
+            and isinstance(reference.attachment, str)
+            and is_number(reference.attachment)
+        ):
             reference.attachment = int(reference.attachment)
         if reference.attachment == ATTACHMENT_UNUSED or reference.attachment in UNUSED:
             reference.attachment = None
         return reference
 
     def command(self, node: Node, path: str, key: str, kind: type[Command]) -> Command | None:
-        """A recorded command: a mapping with one key, or a bare word for a command without parameters."""
+        """A recorded command: a mapping with one key, or a bare word for a command without
+        parameters.
+        """
         name, parameters, span = "", None, head_of(node)
         if node.kind == "mapping" and len(node.value) == 1:
             name, parameters = next(iter(node.value.items()))
@@ -254,7 +338,9 @@ class Binder(ValueBinder):
         if shape is None:
             near = None if self.is_full else meant(name, kind.SHAPE)
             hint = "" if self.is_full else question_or_names(near, list(kind.SHAPE), ": ")
-            self.report("MSAA902", f"unknown command {quoted(name)}{hint}", span, path, foreign=near is None)
+            self.report(
+                "MSAA902", f"unknown command {quoted(name)}{hint}", span, path, foreign=near is None
+            )
             return None
         command = kind(node, f"{path}.{name}", key, span)
         command.kind = name
@@ -262,8 +348,14 @@ class Binder(ValueBinder):
         if parameters is None or (parameters.kind == "scalar" and parameters.value is None):
             if shape[0] != "null":
                 body = shape[1].SHAPE if shape[0] == "record" else ()
-                hint = f"; write `{name}: {{{next(iter(body))}: ...}}`" if body else f"; write `{name}: ...`"
-                self.report("MSAA903", f"the command `{name}` needs parameters{hint}", span, command.path)
+                hint = (
+                    f"; write `{name}: {{{next(iter(body))}: ...}}`"
+                    if body
+                    else f"; write `{name}: ...`"
+                )
+                self.report(
+                    "MSAA903", f"the command `{name}` needs parameters{hint}", span, command.path
+                )
                 return None
             return command
         command.body = self.value(shape, parameters, command.path, name, span)
@@ -290,7 +382,14 @@ def fits(shape: Shape, node: Node) -> bool:
     return node.kind == "scalar" and isinstance(node.value, str)
 
 
-_KINDS = {"list": "a list", "int": "an integer", "number": "a number", "share": "a number", "bool": "true or false", "text": "a string"}
+_KINDS = {
+    "list": "a list",
+    "int": "an integer",
+    "number": "a number",
+    "share": "a number",
+    "bool": "true or false",
+    "text": "a string",
+}
 
 
 def _kind_of(shape: Shape) -> str:

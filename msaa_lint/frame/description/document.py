@@ -15,7 +15,8 @@ from .record import Record
 class StencilApart(NamedTuple):
     """A stencil attachment with its own texture, which Vulkan's render passes cannot have.
 
-    `attachment` is its name, `target` the name of the attachment that it is resolved to, `record` the structure that states it.
+    `attachment` is its name, `target` the name of the attachment that it is resolved to, `record`
+    the structure that states it.
     """
 
     attachment: str
@@ -27,7 +28,9 @@ class Lowered(NamedTuple):
     """The origins of the Vulkan records of a frame in Metal's terms."""
 
     attachments: dict[int, Mapping[str, Record]]
-    """By the identity of an attachment's record: the structure that states each aspect; empty for a mere resolve target."""
+    """By the identity of an attachment's record: the structure that states each aspect; empty for a
+    mere resolve target.
+    """
     stencils: dict[int, StencilApart]
     """By the identity of a subpass's record."""
     api: str = "METAL"
@@ -37,8 +40,9 @@ class Lowered(NamedTuple):
 class Basis(NamedTuple):
     """What the values that were read from source code rest on.
 
-    `conditions` are those that were decided for the value at a place, by their subjects; `assumed` are the values that the code does not
-    state, by their places, each with the assumption in words (empty: an assumption of the document).
+    `conditions` are those that were decided for the value at a place, by their subjects; `assumed`
+    are the values that the code does not state, by their places, each with the assumption in words
+    (empty: an assumption of the document).
     """
 
     conditions: Mapping[Span, Set[str]] = {}
@@ -48,8 +52,9 @@ class Basis(NamedTuple):
 class Document(NamedTuple):
     """One frame, or part of one.
 
-    `whole` says that the description lists all passes and pipelines of the frame; it is false for a dump of a single pipeline. `problems`
-    are the mistakes in the description itself; rules check the `rest` of a document with problems.
+    `whole` says that the description lists all passes and pipelines of the frame; it is false for a
+    dump of a single pipeline. `problems` are the mistakes in the description itself; rules check
+    the `rest` of a document with problems.
     """
 
     source: Source
@@ -57,17 +62,27 @@ class Document(NamedTuple):
     problems: tuple[Problem, ...]
     whole: bool = True
     path: str = ""
-    """The prefix of every structural path: `documents[1]` in a stream of several documents, else empty."""
+    """The prefix of every structural path: `documents[1]` in a stream of several documents, else
+    empty.
+    """
     modules: Mapping[str, bytes] = {}
-    """The code of shaders that came with the input, by their names in `pipelines`; the shaders of a description are files beside it."""
+    """The code of shaders that came with the input, by their names in `pipelines`; the shaders of a
+    description are files beside it.
+    """
     tree: Node | None = None
-    """The description as a tree, if it was built from source code or a shorthand; None if the text itself is a description."""
+    """The description as a tree, if it was built from source code or a shorthand; None if the text
+    itself is a description.
+    """
     pieces: bool = False
     """Whether it was built from excerpts of a program on a page, and not from a whole file."""
     ordered: bool = True
-    """Whether the passes run in their order, and the commands are complete. Neither is known of source code."""
+    """Whether the passes run in their order, and the commands are complete. Neither is known of
+    source code.
+    """
     complete: bool = True
-    """Whether everything was read that may use an image or a pass; where not, facts of the whole frame are unknown."""
+    """Whether everything was read that may use an image or a pass; where not, facts of the whole
+    frame are unknown.
+    """
     metal: Lowered | None = None
     """The origins of the Vulkan records, for a frame in Metal's terms."""
     basis: Basis = Basis()
@@ -85,14 +100,23 @@ class Document(NamedTuple):
 
     @property
     def has_unread_structures(self) -> bool:
-        """Whether a pNext chain has a structure that was not read: what nothing that was read uses may be used all the same."""
+        """Whether a pNext chain has a structure that was not read: what nothing that was read uses
+        may be used all the same.
+        """
         records: list[Record] = list(self.description.images.values())
         for render_pass in self.description.renderPasses.values():
             records += (render_pass, *render_pass.attachments, *render_pass.subpasses)
         for command in self.description.commands or ():
             if command is not None and isinstance(command.body, BeginRendering):
-                attachments = (*command.body.colorAttachments, command.body.depthAttachment, command.body.stencilAttachment)
-                records += (command.body, *(attachment for attachment in attachments if attachment is not None))
+                attachments = (
+                    *command.body.colorAttachments,
+                    command.body.depthAttachment,
+                    command.body.stencilAttachment,
+                )
+                records += (
+                    command.body,
+                    *(attachment for attachment in attachments if attachment is not None),
+                )
         return any(getattr(record, "pNext", ()) for record in records)
 
     @property

@@ -25,7 +25,8 @@ MAX_WORDS = 16
 _SAME = tuple(
     frozenset(group.split())
     for group in (
-        "SAMPLES SAMPLECOUNT RASTERIZATIONSAMPLES RASTERSAMPLECOUNT MSAA MSAASAMPLES NUMSAMPLES MULTISAMPLECOUNT",
+        "SAMPLES SAMPLECOUNT RASTERIZATIONSAMPLES RASTERSAMPLECOUNT MSAA MSAASAMPLES NUMSAMPLES "
+        "MULTISAMPLECOUNT",
         "LOADOP LOADACTION",
         "STOREOP STOREACTION",
         "FPS FRAMERATE REFRESHRATE HZ",
@@ -62,7 +63,9 @@ _SAME = tuple(
         "KDEVICETRANSIENT MEMORYLESS LAZY",
     )
 )
-"""Names of other APIs and libraries, or of plain language, for the same thing, as `letters_and_digits` leaves them."""
+"""Names of other APIs and libraries, or of plain language, for the same thing, as
+`letters_and_digits` leaves them.
+"""
 
 _TRUE = ("true", "yes", "on", "y", "1", "vk_true")
 _FALSE = ("false", "no", "off", "n", "0", "vk_false")
@@ -71,22 +74,32 @@ _NUMBER = r"(0x[0-9A-Fa-f]{1,16}|-?[0-9][0-9_,']{0,20}(?:\.[0-9]{1,20})?) ?(%|[A
 _SIZE = r"([1-9][0-9]{0,8}) ?[xX×*,/ ] ?([1-9][0-9]{0,8})"
 
 
-def meant(name: str, candidates: Iterable[str], near: Callable[[str, Iterable[str]], str | None] = nearest) -> str | None:
+def meant(
+    name: str, candidates: Iterable[str], near: Callable[[str, Iterable[str]], str | None] = nearest
+) -> str | None:
     """The candidate that a name means, in other words or misspelled; None if none is near."""
     known = list(candidates)
     plain = letters_and_digits(name) if len(name) <= 64 else ""
     groups = [group for group in _SAME if plain in group]
-    by_letters = {letters_and_digits(candidate): candidate for candidate in reversed(known)} if groups else {}
+    by_letters = (
+        {letters_and_digits(candidate): candidate for candidate in reversed(known)}
+        if groups
+        else {}
+    )
     if plain not in by_letters:
         for group in groups:
-            same = next((candidate for letters, candidate in by_letters.items() if letters in group), None)
+            same = next(
+                (candidate for letters, candidate in by_letters.items() if letters in group), None
+            )
             if same is not None:
                 return same
     return near(name, known)
 
 
 def question_or_names(candidate: str | None, names: Sequence[str], separator: str) -> str:
-    """The end of a message: the name that was most likely meant, or else all names, or as many as a line takes."""
+    """The end of a message: the name that was most likely meant, or else all names, or as many as a
+    line takes.
+    """
     if candidate is not None:
         return f"{separator}did you mean `{candidate}`?"
     more = ", …" if len(names) > MAX_LISTED else ""
@@ -94,8 +107,12 @@ def question_or_names(candidate: str | None, names: Sequence[str], separator: st
 
 
 def hidden_character(name: str) -> str | None:
-    """The first character of a name that cannot be seen, but for ordinary spaces; None if all can."""
-    return next((char for char in name if char != " " and (char.isspace() or not char.isprintable())), None)
+    """The first character of a name that cannot be seen, but for ordinary spaces; None if all
+    can.
+    """
+    return next(
+        (char for char in name if char != " " and (char.isspace() or not char.isprintable())), None
+    )
 
 
 def key_hint(kind: type[Record], name: str, value: Node) -> str:
@@ -108,7 +125,10 @@ def key_hint(kind: type[Record], name: str, value: Node) -> str:
         return f"; write {quoted(f'{first}: {rest}')}"
     hidden = hidden_character(name)
     if hidden is not None:
-        return f": it contains the invisible character U+{ord(hidden):04X}; write ordinary spaces, or delete it"
+        return (
+            f": it contains the invisible character U+{ord(hidden):04X}; write ordinary spaces, "
+            f"or delete it"
+        )
     if value.kind == "mapping" and value.value and all(key in kind.SHAPE for key in value.value):
         return f": write its keys {', '.join(value.value)} directly"
     for member, shape in kind.SHAPE.items():
@@ -118,9 +138,15 @@ def key_hint(kind: type[Record], name: str, value: Node) -> str:
 
 
 def joined_flags(enum: str, text: str) -> str:
-    """`A, B` for flags that are joined by anything but `|`, in quotes or lacking a bracket; empty if not all words are flags."""
+    """`A, B` for flags that are joined by anything but `|`, in quotes or lacking a bracket; empty
+    if not all words are flags.
+    """
     words = re.split(r"[\s,;+&/|]+", text[:512].strip("[]{}\"'“”‘’` "))[: MAX_WORDS + 1]
-    return ", ".join(words) if 1 < len(words) <= MAX_WORDS and all(word and enumerant(enum, word) for word in words) else ""
+    return (
+        ", ".join(words)
+        if 1 < len(words) <= MAX_WORDS and all(word and enumerant(enum, word) for word in words)
+        else ""
+    )
 
 
 def enumerant_hint(enums: str, text: str) -> str:
@@ -129,7 +155,9 @@ def enumerant_hint(enums: str, text: str) -> str:
     if joined:
         return f"; write `{joined}`"
     if text.isascii() and text.isdigit() and len(text) < 20:
-        named = from_value(enums.partition("|")[0], int(text)) if not enums.startswith("MTL") else None
+        named = (
+            from_value(enums.partition("|")[0], int(text)) if not enums.startswith("MTL") else None
+        )
         if named is not None:
             return f"; did you mean `{named}`?"
     if enums == "VkFormat" and enumerant(enums, f"{text}_UNORM"):
@@ -153,9 +181,15 @@ def samples_hint(node: Node) -> str:
     """The count in `4x`, `MSAA4`, `4.0` or `[4]`."""
     if node.kind == "sequence":
         return single_hint(node)
-    text = str(int(node.value)) if isinstance(node.value, float) and node.value.is_integer() else node.text[:64]
+    text = (
+        str(int(node.value))
+        if isinstance(node.value, float) and node.value.is_integer()
+        else node.text[:64]
+    )
     numbers = re.findall(r"[0-9]+", text)
-    is_count = len(numbers) == 1 and numbers[0] in map(str, SAMPLE_COUNTS) and not text.startswith("-")
+    is_count = (
+        len(numbers) == 1 and numbers[0] in map(str, SAMPLE_COUNTS) and not text.startswith("-")
+    )
     return f"; write `{numbers[0]}`" if is_count else ""
 
 
@@ -174,7 +208,11 @@ def single_hint(node: Node) -> str:
         return ""
     items = node.value
     is_single = len(items) == 1 and items[0].kind == "scalar"
-    return f"; write `{shortened(items[0].text, 40)}`, without brackets" if is_single else "; write one value, without brackets"
+    return (
+        f"; write `{shortened(items[0].text, 40)}`, without brackets"
+        if is_single
+        else "; write one value, without brackets"
+    )
 
 
 def number_hint(node: Node, low: float, high: float) -> str:
@@ -199,13 +237,21 @@ def boolean_hint(node: Node) -> str:
         return single_hint(node)
     word = node.text[:16].lower()
     value = "true" if word in _TRUE else "false" if word in _FALSE else None
-    return f"; write `{value}`{'' if node.plain or value != word else ' without quotes'}" if value is not None else ""
+    return (
+        f"; write `{value}`{'' if node.plain or value != word else ' without quotes'}"
+        if value is not None
+        else ""
+    )
 
 
 def mapping_hint(shape: Shape, node: Node) -> str:
     """How to write what was meant by a value that is not a mapping."""
     if shape[0] not in ("record", "command"):
-        return "; write `name: {...}` for each entry, without `- `" if node.kind == "sequence" else null_hint(node)
+        return (
+            "; write `name: {...}` for each entry, without `- `"
+            if node.kind == "sequence"
+            else null_hint(node)
+        )
     kind: type[Record] = shape[1]
     if not kind.SHAPE:
         return "; write the command alone"
@@ -213,7 +259,13 @@ def mapping_hint(shape: Shape, node: Node) -> str:
     if stated is not None and stated.partition(":")[0] in kind.SHAPE:
         return f"; write `{stated}`, with a space after the `:`"
     if "width" in kind.SHAPE and "height" in kind.SHAPE:
-        text = node.text if node.kind == "scalar" else ",".join(item.text for item in node.value[:3]) if node.kind == "sequence" else ""
+        text = (
+            node.text
+            if node.kind == "scalar"
+            else ",".join(item.text for item in node.value[:3])
+            if node.kind == "sequence"
+            else ""
+        )
         size = re.match(_SIZE, text[:64])
         if size is not None:
             return f"; write `{{width: {size[1]}, height: {size[2]}}}`"
@@ -226,7 +278,9 @@ def mapping_hint(shape: Shape, node: Node) -> str:
 
 
 def lacks_colon(key: Node) -> bool:
-    """Whether a key was read that begins with a key, no `:`, and the bracket of its value: `color {samples`."""
+    """Whether a key was read that begins with a key, no `:`, and the bracket of its value: `color
+    {samples`.
+    """
     return key.plain and re.match(r"[\w.-]+ +[\[{]", key.text[:200]) is not None
 
 
@@ -237,7 +291,11 @@ def null_hint(node: Node) -> str:
 
 def items_hint(node: Node) -> str:
     """How to write a value as a list."""
-    return "; begin each item with `- `, or write `[{...}]`" if node.kind == "mapping" else list_hint(node) or null_hint(node)
+    return (
+        "; begin each item with `- `, or write `[{...}]`"
+        if node.kind == "mapping"
+        else list_hint(node) or null_hint(node)
+    )
 
 
 def has_no_value(node: Node) -> bool:
@@ -246,14 +304,20 @@ def has_no_value(node: Node) -> bool:
 
 
 def key_below(shape: Shape, kind: type[Record], node: Node, name: str) -> Node | None:
-    """The key after one without a value, if it was meant to be in that value and lacks its indentation; None if there is none."""
+    """The key after one without a value, if it was meant to be in that value and lacks its
+    indentation; None if there is none.
+    """
     names = iter(node.value)
     below = next((next(names, None) for key in names if key == name), None)
     if below is None or below in kind.SHAPE:
         return None
     if hidden_character(below[:1]):
         return node.keys[below]
-    is_member = below in shape[1].SHAPE if shape[0] == "record" else shape[0] in ("map", "counted") and node.value[below].kind == "mapping"
+    is_member = (
+        below in shape[1].SHAPE
+        if shape[0] == "record"
+        else shape[0] in ("map", "counted") and node.value[below].kind == "mapping"
+    )
     return node.keys[below] if is_member else None
 
 

@@ -1,6 +1,7 @@
 """The types that the structures of a description declare their members with.
 
-Each is a Python type, which is what a record holds, with the shape (`shapes`) in which an input may state it.
+Each is a Python type, which is what a record holds, with the shape (`shapes`) in which an input may
+state it.
 """
 
 from typing import Annotated, Any

@@ -20,7 +20,9 @@ class Problem(NamedTuple):
     labels: tuple[Label, ...] = ()
     help: str = ""
     foreign: bool = False
-    """Whether it is a command, or a key beside known ones, that resembles none: it states something that descriptions do not have."""
+    """Whether it is a command, or a key beside known ones, that resembles none: it states something
+    that descriptions do not have.
+    """
 
 
 class Mention(NamedTuple):
@@ -33,7 +35,9 @@ class Mention(NamedTuple):
 
 
 def head_of(node: Node) -> Span:
-    """The place that stands for a value: a whole scalar, the first key of a mapping, the first character of a list."""
+    """The place that stands for a value: a whole scalar, the first key of a mapping, the first
+    character of a list.
+    """
     if node.kind == "scalar":
         return node.span
     if node.kind == "mapping" and node.keys:
@@ -60,7 +64,9 @@ def found(node: Node) -> str:
 
 def quote_hint(node: Node) -> str:
     """How to write a number or a boolean as a string; nothing for another value."""
-    is_literal = node.kind == "scalar" and not isinstance(node.value, str) and node.value is not None
+    is_literal = (
+        node.kind == "scalar" and not isinstance(node.value, str) and node.value is not None
+    )
     return f'; write "{shortened(node.text, 20)}"' if is_literal else ""
 
 
@@ -73,4 +79,6 @@ def list_hint(node: Node) -> str:
 
 def one_of(words: tuple[object, ...]) -> str:
     """The words as a choice: `A or B`, `one of A, B, C`."""
-    return " or ".join(map(str, words)) if len(words) <= 2 else f"one of {', '.join(map(str, words))}"
+    return (
+        " or ".join(map(str, words)) if len(words) <= 2 else f"one of {', '.join(map(str, words))}"
+    )

@@ -1,7 +1,9 @@
-"""pydantic models of the structures of a description: its JSON Schema, and checks of what a program hands in.
+"""pydantic models of the structures of a description: its JSON Schema, and checks of what a program
+hands in.
 
-Each is made from a class in `models` by the shapes that inputs are read by, so that both accept and refuse the same values. Nothing on the
-path of `check` imports this module: pydantic alone takes longer to import than the rest of a run.
+Each is made from a class in `models` by the shapes that inputs are read by, so that both accept and
+refuse the same values. Nothing on the path of `check` imports this module: pydantic alone takes
+longer to import than the rest of a run.
 """
 
 from __future__ import annotations
@@ -57,11 +59,15 @@ from .shapes import Shape
 JsonSchema = dict[str, Any]
 
 ENUMERANT, FLAGS = "enumerant of", "flags of"
-"""What stands in a schema for the spellings of an enum's names, alone or joined, until `msaa-lint schema` writes each out once."""
+"""What stands in a schema for the spellings of an enum's names, alone or joined, until `msaa-lint
+schema` writes each out once.
+"""
 
 
 class Structure(BaseModel):
-    """The base of the models: an unknown member is an error, and so is null where a value is expected."""
+    """The base of the models: an unknown member is an error, and so is null where a value is
+    expected.
+    """
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
@@ -74,9 +80,13 @@ class Structure(BaseModel):
         return data
 
     @classmethod
-    def __get_pydantic_json_schema__(cls, schema: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchema:
+    def __get_pydantic_json_schema__(
+        cls, schema: CoreSchema, handler: GetJsonSchemaHandler
+    ) -> JsonSchema:
         json_schema = handler(schema)
-        members: dict[str, JsonSchema] = handler.resolve_ref_schema(json_schema).get("properties", {})
+        members: dict[str, JsonSchema] = handler.resolve_ref_schema(json_schema).get(
+            "properties", {}
+        )
         for name, member in members.items():
             if member.get("default", ...) is None:
                 del member["default"]
@@ -106,7 +116,9 @@ def _is_nullable(model: type[BaseModel], name: str) -> bool:
 
 
 NULL = "may be null"
-"""Marks a member for which null says something: that an attachment is unused, that a command has no parameters."""
+"""Marks a member for which null says something: that an attachment is unused, that a command has no
+parameters.
+"""
 
 
 @cache
@@ -120,12 +132,25 @@ def model_of(kind: type[Record]) -> type[Structure]:
             annotation = annotation | None
         text = key_text(kind, name)
         markdown: JsonSchema = {"markdownDescription": text.markdown}
-        members[name] = (annotation, Field(default=absent, title=text.title, description=text.description, json_schema_extra=markdown))
+        members[name] = (
+            annotation,
+            Field(
+                default=absent,
+                title=text.title,
+                description=text.description,
+                json_schema_extra=markdown,
+            ),
+        )
     base = OneCommand if issubclass(kind, Command) else Structure
     with warnings.catch_warnings():
         # `copy` is a method of every model, and the name of a command of Metal's.
         warnings.simplefilter("ignore", UserWarning)
-        model = create_model(kind.__name__, __base__=base, __doc__=(inspect.getdoc(kind) or "").partition("\n\n")[0], **members)
+        model = create_model(
+            kind.__name__,
+            __base__=base,
+            __doc__=(inspect.getdoc(kind) or "").partition("\n\n")[0],
+            **members,
+        )
     model.model_config["title"] = STRUCTURES[kind.__name__].title
     return model
 
@@ -143,20 +168,41 @@ def type_of(shape: Shape) -> Any:
             return Annotated[StrictFloat | StrictInt, AllowInfNan(False), AfterValidator(_finite)]
         case ("number", True):
             positive = WithJsonSchema({"type": "number", "exclusiveMinimum": 0})
-            return Annotated[StrictFloat | StrictInt, Gt(0), AllowInfNan(False), AfterValidator(_finite), positive]
+            return Annotated[
+                StrictFloat | StrictInt,
+                Gt(0),
+                AllowInfNan(False),
+                AfterValidator(_finite),
+                positive,
+            ]
         case ("share",):
             fraction = WithJsonSchema({"type": "number", "exclusiveMinimum": 0, "maximum": 1})
             return Annotated[StrictFloat | StrictInt, Gt(0), Le(1), AllowInfNan(False), fraction]
         case ("samples",):
             pattern = f"^((VK_)?SAMPLE_COUNT_)?({'|'.join(map(str, SAMPLE_COUNTS))})(_BIT)?$"
-            return _checked(sample_count, {"anyOf": [{"enum": list(SAMPLE_COUNTS)}, {"type": "string", "pattern": pattern}]})
+            return _checked(
+                sample_count,
+                {"anyOf": [{"enum": list(SAMPLE_COUNTS)}, {"type": "string", "pattern": pattern}]},
+            )
         case ("shading",):
-            pattern = f"^({'|'.join(SHADING_LEVELS)}|[0-9]{{1,12}}(ops)?|[0-9]{{1,12}}(\\.[0-9]{{1,9}})?(ns|ms))$"
+            pattern = f"^({'|'.join(SHADING_LEVELS)}|[0-9]{{1,12}}(ops)?|[0-9]{{1,12}}(\\.[0-9]{{1,9}})?(ns|ms))$"  # noqa: E501
             operations = {"type": "integer", "minimum": 0, "maximum": MAX_SHADING["ops"]}
-            return _checked(shading_cost, {"anyOf": [{"enum": list(SHADING_LEVELS)}, {"type": "string", "pattern": pattern}, operations]})
+            return _checked(
+                shading_cost,
+                {
+                    "anyOf": [
+                        {"enum": list(SHADING_LEVELS)},
+                        {"type": "string", "pattern": pattern},
+                        operations,
+                    ]
+                },
+            )
         case ("enum", enums):
             names = [{ENUMERANT: enum} for enum in enums.split("|")]
-            return _checked(lambda value: _enumerant(enums, value), names[0] if len(names) == 1 else {"anyOf": names})
+            return _checked(
+                lambda value: _enumerant(enums, value),
+                names[0] if len(names) == 1 else {"anyOf": names},
+            )
         case ("flags", enum):
             spellings = [{"type": "array", "items": {ENUMERANT: enum}}, {FLAGS: enum}]
             none = [{"const": 0}] if "FlagBits" in enum else []
@@ -164,22 +210,41 @@ def type_of(shape: Shape) -> Any:
         case ("word", words):
             literal = _literal(words)
             # 1 is neither true nor 1.0.
-            return literal if all(isinstance(word, str) for word in words) else Annotated[literal, BeforeValidator(_word)]
+            return (
+                literal
+                if all(isinstance(word, str) for word in words)
+                else Annotated[literal, BeforeValidator(_word)]
+            )
         case ("caseless", words):
-            pattern = "^(?:" + "|".join(re.sub("[a-z]", lambda letter: f"[{letter[0].upper()}{letter[0]}]", word) for word in words) + ")$"
+            pattern = (
+                "^(?:"
+                + "|".join(
+                    re.sub("[a-z]", lambda letter: f"[{letter[0].upper()}{letter[0]}]", word)
+                    for word in words
+                )
+                + ")$"
+            )
             spellings = [{"enum": list(words)}, {"type": "string", "pattern": pattern}]
             return _checked(lambda value: caseless(words, value), {"anyOf": spellings})
         case ("name", _):
-            return _checked(lambda value: str(value) if type(value) in (str, int) else None, {"type": ["string", "integer"]})
+            return _checked(
+                lambda value: str(value) if type(value) in (str, int) else None,
+                {"type": ["string", "integer"]},
+            )
         case ("subpass",):
             index = {"type": "integer", "minimum": 0, "maximum": MAX_UINT32}
             return _checked(_subpass, {"anyOf": [{"enum": list(EXTERNAL)}, index]})
         case ("slot",):
-            return Annotated[model_of(AttachmentReference) | StrictStr | type_of(("int", 0, MAX_UINT32)) | None, NULL]
+            return Annotated[
+                model_of(AttachmentReference) | StrictStr | type_of(("int", 0, MAX_UINT32)) | None,
+                NULL,
+            ]
         case ("record", kind):
             return model_of(kind)
         case ("command", kind):
-            words = tuple(name for name, parameters in kind.SHAPE.items() if parameters[0] == "null")
+            words = tuple(
+                name for name, parameters in kind.SHAPE.items() if parameters[0] == "null"
+            )
             return model_of(kind) | _literal(words) if words else model_of(kind)
         case ("list", item):
             return GenericAlias(tuple, (type_of(item), ...))
@@ -191,8 +256,15 @@ def type_of(shape: Shape) -> Any:
             return GenericAlias(dict, (str, type_of(item)))
         case ("numbered", item, *highest):
             pattern = f"^[0-{highest[0]}]$" if highest else "^(0|[1-9][0-9]{0,9})$"
-            numbered = GenericAlias(dict, (Annotated[str, StringConstraints(strict=True, pattern=pattern)], type_of(item)))
-            return numbered if highest else Annotated[numbered, Field(json_schema_extra={"additionalProperties": False})]
+            numbered = GenericAlias(
+                dict,
+                (Annotated[str, StringConstraints(strict=True, pattern=pattern)], type_of(item)),
+            )
+            return (
+                numbered
+                if highest
+                else Annotated[numbered, Field(json_schema_extra={"additionalProperties": False})]
+            )
         case ("null", item):
             return Annotated[type_of(item) | None, NULL]
         case ("either", *items):
@@ -226,8 +298,14 @@ def _flags(enum: str, value: object) -> tuple[str, ...] | None:
         return tuple(flags(enum, value))
     if type(value) is int and value == 0 and "FlagBits" in enum:
         return ()
-    names = [_enumerant(enum, item) for item in value] if isinstance(value, (list, tuple)) else [None]
-    return None if None in names else tuple(dict.fromkeys(name for name in names if name is not None and name != "NONE"))
+    names = (
+        [_enumerant(enum, item) for item in value] if isinstance(value, (list, tuple)) else [None]
+    )
+    return (
+        None
+        if None in names
+        else tuple(dict.fromkeys(name for name in names if name is not None and name != "NONE"))
+    )
 
 
 def _subpass(value: object) -> int | str | None:

@@ -22,11 +22,13 @@ class MemberShapes:
 
 
 class Record:
-    """One structure. A subclass declares the members with their types; the value in the class is what an absent member is.
+    """One structure. A subclass declares the members with their types; the value in the class is
+    what an absent member is.
 
-    None is unknown; an empty list or mapping is none. `key` is the name or index of the structure, `path` its structural path
-    (`renderPasses.forward.attachments.color`), `head` the place that stands for it in a message (its key, or its first member), and
-    `spelled` the key and the value of each member that the input states.
+    None is unknown; an empty list or mapping is none. `key` is the name or index of the structure,
+    `path` its structural path (`renderPasses.forward.attachments.color`), `head` the place that
+    stands for it in a message (its key, or its first member), and `spelled` the key and the value
+    of each member that the input states.
     """
 
     SHAPE: ClassVar[dict[str, Shape]]
@@ -47,7 +49,8 @@ class Record:
         return name in self.spelled
 
     def place(self, *names: str) -> Span:
-        """The place of the value of the first stated member (of its key, for a structure or a list that may take several lines).
+        """The place of the value of the first stated member (of its key, for a structure or a list
+        that may take several lines).
 
         The record's head if none of them is stated.
         """
@@ -59,7 +62,9 @@ class Record:
         return self.head
 
     def flag_place(self, name: str, flags: Container[str]) -> Span:
-        """The place of the first of some flags in the list that states a member; the member's place if it is not written as a list."""
+        """The place of the first of some flags in the list that states a member; the member's place
+        if it is not written as a list.
+        """
         if name in self.spelled and self.spelled[name][1].kind == "sequence":
             items: list[Node] = self.spelled[name][1].value
             for item in items:
@@ -69,7 +74,9 @@ class Record:
 
 
 def _is_wide(value: Node) -> bool:
-    """Whether a value takes, or may take, several lines: a structure, a list of structures, a list with more than `, ` between items."""
+    """Whether a value takes, or may take, several lines: a structure, a list of structures, a list
+    with more than `, ` between items.
+    """
     if value.kind != "sequence":
         return value.kind == "mapping"
     items: list[Node] = value.value

@@ -21,7 +21,9 @@ SHADING_LEVELS = ("none", "light", "medium", "heavy")
 """The costs of shading that have a name."""
 
 MAX_SHADING = {"ops": 1_000_000, "ns": 1e9, "ms": 1000.0}
-"""The greatest cost of shading by unit: operations of an invocation, nanoseconds of a million invocations, milliseconds of a screen."""
+"""The greatest cost of shading by unit: operations of an invocation, nanoseconds of a million
+invocations, milliseconds of a screen.
+"""
 
 _SHADING = re.compile(r"([0-9]{1,12}(?:\.[0-9]{1,9})?)(ops|ns|ms)?")
 
@@ -29,7 +31,9 @@ _COUNT = re.compile(r"(?:(?:VK_)?SAMPLE_COUNT_)?(1|2|4|8|16|32|64)(?:_BIT)?")
 
 
 def sample_count(value: object) -> int | None:
-    """The sample count that `4`, `"4"`, `SAMPLE_COUNT_4` or `VK_SAMPLE_COUNT_4_BIT` states; None for other values."""
+    """The sample count that `4`, `"4"`, `SAMPLE_COUNT_4` or `VK_SAMPLE_COUNT_4_BIT` states; None
+    for other values.
+    """
     if isinstance(value, str):
         match = _COUNT.fullmatch(value)
         value = int(match[1]) if match else None
@@ -39,8 +43,10 @@ def sample_count(value: object) -> int | None:
 
 
 def shading_cost(value: object) -> str | None:
-    """The cost of shading that `medium`, `200` or `200ops` (operations), `500000ns` (of a million invocations), or `4.2ms` (of a
-    full screen at one sample) states, in one spelling for each cost; None for other values."""
+    """The cost of shading that `medium`, `200` or `200ops` (operations), `500000ns` (of a million
+    invocations), or `4.2ms` (of a full screen at one sample) states, in one spelling for each cost;
+    None for other values.
+    """
     text = str(value) if type(value) in (str, int) else ""
     if text in SHADING_LEVELS:
         return text
@@ -54,25 +60,34 @@ def shading_cost(value: object) -> str | None:
 
 
 def enumerant(enums: str, text: str) -> str | None:
-    """The canonical name in the first of the enums, joined by `|`, that has it; None if none has. Metal's enums begin with `MTL`."""
+    """The canonical name in the first of the enums, joined by `|`, that has it; None if none has.
+    Metal's enums begin with `MTL`.
+    """
     found = _canonical.get((enums, text))
     if found is None:
         if enums.startswith("MTL"):
             from msaa_lint.frame.metal.names import parse
 
             return parse(enums, text)
-        found = next((name for enum in enums.split("|") if (name := parse_enum(enum, text)) is not None), None)
+        found = next(
+            (name for enum in enums.split("|") if (name := parse_enum(enum, text)) is not None),
+            None,
+        )
         if found is not None:
             _canonical[enums, text] = found
     return found
 
 
 _canonical: dict[tuple[str, str], str] = {}
-"""Spellings seen so far, as a frame repeats a few words. Unknown words are not added, so that no input makes this grow."""
+"""Spellings seen so far, as a frame repeats a few words. Unknown words are not added, so that no
+input makes this grow.
+"""
 
 
 def flags(enum: str, text: str) -> list[str]:
-    """The canonical names in a text that joins them by `|`, as `names.parse_flags`. Raises ValueError with the unknown part."""
+    """The canonical names in a text that joins them by `|`, as `names.parse_flags`. Raises
+    ValueError with the unknown part.
+    """
     if enum.startswith("MTL"):
         from msaa_lint.frame.metal.names import parse_options
 
@@ -88,7 +103,9 @@ def nearest_enumerant(enums: str, text: str) -> str | None:
         return nearest_to(enums, text)
     from msaa_lint.frame.vulkan.enums import ENUMS
 
-    return nearest_name(text, [name for enum in enums.split("|") for name in dict.fromkeys(ENUMS[enum].values())])
+    return nearest_name(
+        text, [name for enum in enums.split("|") for name in dict.fromkeys(ENUMS[enum].values())]
+    )
 
 
 def caseless(words: Collection[str], value: object) -> str | None:

@@ -1,4 +1,6 @@
-"""Values of a description: scalars and flags, each by its shape, every mistake with its place and the nearest right word."""
+"""Values of a description: scalars and flags, each by its shape, every mistake with its place and
+the nearest right word.
+"""
 
 from __future__ import annotations
 
@@ -27,13 +29,24 @@ from .hints import (
 )
 from .members import MAX_UINT32
 from .problems import MAX_PROBLEMS, Mention, Problem, found, head_of, member_of, one_of, quote_hint
-from .scalars import ATTACHMENT_UNUSED, EXTERNAL, SAMPLE_COUNTS, SHADING_LEVELS, enumerant, finite, flags, sample_count, shading_cost
+from .scalars import (
+    ATTACHMENT_UNUSED,
+    EXTERNAL,
+    SAMPLE_COUNTS,
+    SHADING_LEVELS,
+    enumerant,
+    finite,
+    flags,
+    sample_count,
+    shading_cost,
+)
 
 _SAMPLE_COUNTS = f"{', '.join(map(str, SAMPLE_COUNTS[:-1]))} or {SAMPLE_COUNTS[-1]}"
 
 
 class ValueBinder:
-    """Reads single values; `problems` and `mentions` fill as it goes. `dumped` says that the input is a tool's dump (`dumps`).
+    """Reads single values; `problems` and `mentions` fill as it goes. `dumped` says that the input
+    is a tool's dump (`dumps`).
 
     A value that is wrong is reported and read as None, which is unknown.
     """
@@ -43,7 +56,9 @@ class ValueBinder:
         self.problems: list[Problem] = []
         self.mentions: list[Mention] = []
 
-    def report(self, code: str, message: str, span: Span, path: str, help: str = "", foreign: bool = False) -> None:
+    def report(
+        self, code: str, message: str, span: Span, path: str, help: str = "", foreign: bool = False
+    ) -> None:
         """Adds a problem, up to MAX_PROBLEMS."""
         if not self.is_full:
             self.problems.append(Problem(code, message, span, path, (), help, foreign))
@@ -61,7 +76,12 @@ class ValueBinder:
         """Reports a value of the wrong type or out of range."""
         if not self.is_full:
             hint = hint or null_hint(node) or single_hint(node)
-            self.report("MSAA903", f"{member_of(path)} must be {expected}, found {found(node)}{hint}", head_of(node), path)
+            self.report(
+                "MSAA903",
+                f"{member_of(path)} must be {expected}, found {found(node)}{hint}",
+                head_of(node),
+                path,
+            )
 
     def enumerant(self, enums: str, node: Node, path: str) -> str | None:
         text = node.text if node.kind == "scalar" else None
@@ -77,14 +97,21 @@ class ValueBinder:
 
     def unknown_enumerant(self, enums: str, text: str, node: Node, path: str) -> None:
         hint = "" if self.is_full else enumerant_hint(enums, text)
-        self.report("MSAA903", f"{member_of(path)} must be {_a(enums)}, found {quoted(text)}{hint}", node.span, path)
+        self.report(
+            "MSAA903",
+            f"{member_of(path)} must be {_a(enums)}, found {quoted(text)}{hint}",
+            node.span,
+            path,
+        )
 
     def flags(self, enum: str, node: Node, path: str) -> tuple[str, ...] | None:
         if node.kind == "sequence":
             bits = [self.enumerant(enum, item, f"{path}[{n}]") for n, item in enumerate(node.value)]
             is_known = None not in bits or (self.dumped and enum not in DECISIVE)
             return _distinct(bits) if is_known else None
-        is_plain = isinstance(node.value, str) or (isinstance(node.value, int) and (self.dumped or node.text == "0"))
+        is_plain = isinstance(node.value, str) or (
+            isinstance(node.value, int) and (self.dumped or node.text == "0")
+        )
         if node.kind != "scalar" or not is_plain:
             self.mismatch(node, path, f"a list of {enum}")
             return None
@@ -98,10 +125,20 @@ class ValueBinder:
                 else:
                     self.unknown_enumerant(enum, str(error), node, path)
                 return None
-        return None if enum in DECISIVE else _distinct([enumerant(enum, part.strip()) for part in node.text.split("|")])
+        return (
+            None
+            if enum in DECISIVE
+            else _distinct([enumerant(enum, part.strip()) for part in node.text.split("|")])
+        )
 
     def boolean(self, node: Node, path: str) -> bool | None:
-        value = node.value if isinstance(node.value, bool) else dumps.boolean(node) if self.dumped else None
+        value = (
+            node.value
+            if isinstance(node.value, bool)
+            else dumps.boolean(node)
+            if self.dumped
+            else None
+        )
         if value is None:
             self.mismatch(node, path, "true or false", boolean_hint(node))
         return value
@@ -111,7 +148,9 @@ class ValueBinder:
         if self.dumped and isinstance(value, str):
             value = dumps.integer(value)
         if isinstance(value, bool) or not isinstance(value, int) or not low <= value <= high:
-            self.mismatch(node, path, f"an integer from {low} to {high}", number_hint(node, low, high))
+            self.mismatch(
+                node, path, f"an integer from {low} to {high}", number_hint(node, low, high)
+            )
             return None
         return value
 
@@ -141,8 +180,16 @@ class ValueBinder:
     def shading(self, node: Node, path: str) -> str | None:
         cost = shading_cost(node.value)
         if cost is None:
-            expected = f"{', '.join(SHADING_LEVELS)}, or a cost of at most 1000000ops, 1000000000ns or 1000ms"
-            self.mismatch(node, path, expected, shading_hint(node) or self.suggestion(node.text, SHADING_LEVELS))
+            expected = (
+                f"{', '.join(SHADING_LEVELS)}, or a cost of at most 1000000ops, "
+                f"1000000000ns or 1000ms"
+            )
+            self.mismatch(
+                node,
+                path,
+                expected,
+                shading_hint(node) or self.suggestion(node.text, SHADING_LEVELS),
+            )
         return cost
 
     def text(self, node: Node, path: str) -> str | None:
@@ -163,7 +210,9 @@ class ValueBinder:
             return node.value
         hint = ""
         if node.kind == "scalar" and node.value is not None and not self.is_full:
-            hint = question_or_names(meant(node.text, [word for word in words if isinstance(word, str)]), (), "; ")
+            hint = question_or_names(
+                meant(node.text, [word for word in words if isinstance(word, str)]), (), "; "
+            )
         self.mismatch(node, path, one_of(words), hint)
         return None
 
@@ -172,7 +221,12 @@ class ValueBinder:
         if isinstance(node.value, str) and node.text in EXTERNAL:
             return "EXTERNAL"
         if isinstance(node.value, str) and not (self.dumped and is_number(node.text)):
-            self.mismatch(node, path, "EXTERNAL or the index of a subpass", self.suggestion(node.text, EXTERNAL))
+            self.mismatch(
+                node,
+                path,
+                "EXTERNAL or the index of a subpass",
+                self.suggestion(node.text, EXTERNAL),
+            )
             return None
         if isinstance(node.value, int) and node.value < 0:
             self.mismatch(node, path, "EXTERNAL or the index of a subpass")

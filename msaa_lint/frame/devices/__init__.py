@@ -10,13 +10,16 @@ if TYPE_CHECKING:
 class DeviceProfile(NamedTuple):
     """What a device supports. None is unknown, never "nothing".
 
-    Enumerants have canonical short names (`SAMPLE_ZERO`, `LAZILY_ALLOCATED`); features and extensions have Vulkan's full names. `minimum`
-    marks a class of devices: the profile has what all of them guarantee, and what it does not list is not guaranteed.
+    Enumerants have canonical short names (`SAMPLE_ZERO`, `LAZILY_ALLOCATED`); features and
+    extensions have Vulkan's full names. `minimum` marks a class of devices: the profile has what
+    all of them guarantee, and what it does not list is not guaranteed.
 
-    `tile` is the model of its tile sizes, `compression` the measured traffic relative to plain arithmetic by sample count (reads, writes),
-    of images that it may compress; `compression_most` what was measured at most of any image, None where `compression` is no range;
-    `milliwatts_per_gbps` the power of 10^9 bytes per second of external memory traffic, `source` the origin of the facts.
-    `builtin_profiles.py` says which features and extensions built-in profiles record.
+    `tile` is the model of its tile sizes, `compression` the measured traffic relative to plain
+    arithmetic by sample count (reads, writes), of images that it may compress; `compression_most`
+    what was measured at most of any image, None where `compression` is no range;
+    `milliwatts_per_gbps` the power of 10^9 bytes per second of external memory traffic, `source`
+    the origin of the facts. `builtin_profiles.py` says which features and extensions built-in
+    profiles record.
     """
 
     name: str
@@ -44,7 +47,9 @@ class DeviceProfile(NamedTuple):
 
 
 def sample_counts(mask: int) -> tuple[int, ...]:
-    """The counts in a VkSampleCountFlags mask in ascending order: (1, 4, 8) for 13. Unknown bits are left out."""
+    """The counts in a VkSampleCountFlags mask in ascending order: (1, 4, 8) for 13. Unknown bits
+    are left out.
+    """
     return tuple(count for count in (1, 2, 4, 8, 16, 32, 64) if mask & count)
 
 
@@ -83,7 +88,9 @@ def _profile(name: str) -> DeviceProfile:
         depth_samples=sample_counts(depth),
         stencil_samples=sample_counts(stencil),
         integer_samples=None if integer is None else sample_counts(integer),
-        memory_types=None if memory is None else tuple(tuple(flag_names("VkMemoryPropertyFlagBits", mask) or ()) for mask in memory),
+        memory_types=None
+        if memory is None
+        else tuple(tuple(flag_names("VkMemoryPropertyFlagBits", mask) or ()) for mask in memory),
         depth_resolve_modes=tuple(flag_names("VkResolveModeFlagBits", depth_modes) or ()),
         stencil_resolve_modes=tuple(flag_names("VkResolveModeFlagBits", stencil_modes) or ()),
         independent_resolve=independent,

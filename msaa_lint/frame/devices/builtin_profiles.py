@@ -1,7 +1,8 @@
-"""The built-in device profiles: facts of single reports, and of profiles that every device of a class guarantees.
+"""The built-in device profiles: facts of single reports, and of profiles that every device of a
+class guarantees.
 
-Reports are those of vulkan.gpuinfo.org (Sascha Willems and contributors, CC BY 4.0) by their number. Of features only sampleRateShading
-is recorded, and of extensions only those of `RECORDED`.
+Reports are those of vulkan.gpuinfo.org (Sascha Willems and contributors, CC BY 4.0) by their
+number. Of features only sampleRateShading is recorded, and of extensions only those of `RECORDED`.
 """
 
 from typing import TypedDict
@@ -13,14 +14,18 @@ RECORDED = (
     "VK_KHR_dynamic_rendering",
     "VK_NV_framebuffer_mixed_samples",
 )
-"""The extensions whose absence from a profile of a device says that the device does not offer them."""
+"""The extensions whose absence from a profile of a device says that the device does not offer
+them.
+"""
 
 REPORT = "vulkan.gpuinfo.org report {} ({}), CC BY 4.0"
 SAMPLE_RATE_SHADING = "; sampleRateShading: the report says that it supports {}"
 EFFICIENT = {
-    "arm": "; efficient samples: Arm GPU Best Practices, and kMaxEfficientSamplesArm of the Khronos best-practices layer",
+    "arm": "; efficient samples: Arm GPU Best Practices, and kMaxEfficientSamplesArm of the "
+    "Khronos best-practices layer",
     "img": "; efficient samples: kMaxEfficientSamplesImg of the Khronos best-practices layer",
-    "qualcomm": "; efficient samples: Meta's Multisample Anti-Aliasing Analysis for Quest, which advises against more than 4",
+    "qualcomm": "; efficient samples: Meta's Multisample Anti-Aliasing Analysis for Quest, which "
+    "advises against more than 4",
 }
 """Vendors whose guides advise against more than four samples, and which guides."""
 
@@ -32,23 +37,28 @@ NV_MIXED = (*RENDERING, "VK_NV_framebuffer_mixed_samples")
 
 
 COMPRESSION_G76 = (
-    "; compression: from the ratios fitted to the counters of the Khronos MSAA sample up to those of its render pass sample (docs/cost.md);"
+    "; compression: from the ratios fitted to the counters of the Khronos MSAA sample up to those "
+    "of its render pass sample (docs/cost.md);"
     " above one sample none: AFBC is for single-sampled images (Arm GPU Best Practices 9.8)"
 )
 TILER_XCLIPSE = (
-    "; not tile-based: likely, since its architecture is AMD's RDNA and the report has no lazily allocated memory; neither vendor states it"
+    "; not tile-based: likely, since its architecture is AMD's RDNA and the report has "
+    "no lazily allocated memory; neither vendor states it"
 )
 TILE_A15 = "; tile: that of M2, of the same generation, which Mesa sizes as M1's"
 TILE_POWERVR = "; tile: Imagination's guide for all PowerVR GPUs, the chip's own is not published"
 
 
 class Row(TypedDict, total=False):
-    """A profile in Vulkan's masks. `counts` are those of colour, depth, stencil and integer colour; memory types are listed once each.
+    """A profile in Vulkan's masks. `counts` are those of colour, depth, stencil and integer colour;
+    memory types are listed once each.
 
-    `resolve` is supportedDepthResolveModes, supportedStencilResolveModes, independentResolve and independentResolveNone. Features are
-    sampleRateShading unless `sample_rate_shading` says otherwise. `tiler` and `efficient` are stated where the vendor does not decide
-    them. `tile` names a model of `tile_models.py`, where its source stands; a GPU whose budgets no open-source driver states (Mali-G715)
-    has none. `hardware` is what the source says of the tile and the compression beyond that.
+    `resolve` is supportedDepthResolveModes, supportedStencilResolveModes, independentResolve and
+    independentResolveNone. Features are sampleRateShading unless `sample_rate_shading` says
+    otherwise. `tiler` and `efficient` are stated where the vendor does not decide them. `tile`
+    names a model of `tile_models.py`, where its source stands; a GPU whose budgets no open-source
+    driver states (Mali-G715) has none. `hardware` is what the source says of the tile and the
+    compression beyond that.
     """
 
     name: str
@@ -79,9 +89,16 @@ PROFILES: dict[str, Row] = {
         "extensions": RESOLVE,
         "api": "1.1.213",
         "tile": "mali-g76",
-        "compression": {1: (0.484, 0.462), 2: (1.0, 1.0), 4: (1.0, 1.0), 8: (1.0, 1.0), 16: (1.0, 1.0)},
+        "compression": {
+            1: (0.484, 0.462),
+            2: (1.0, 1.0),
+            4: (1.0, 1.0),
+            8: (1.0, 1.0),
+            16: (1.0, 1.0),
+        },
         "compression_most": (1.1, 1.07),
-        "source": REPORT.format(38559, "Mali-G76, driver r38p1") + SAMPLE_RATE_SHADING.format("VP_ANDROID_baseline_2022"),
+        "source": REPORT.format(38559, "Mali-G76, driver r38p1")
+        + SAMPLE_RATE_SHADING.format("VP_ANDROID_baseline_2022"),
         "hardware": COMPRESSION_G76,
     },
     "mali-g610": {
@@ -93,7 +110,8 @@ PROFILES: dict[str, Row] = {
         "extensions": SINGLE_SAMPLED,
         "api": "1.3.219",
         "tile": "mali-g610",
-        "source": REPORT.format(37373, "Mali-G610 MC4, driver r38p1") + SAMPLE_RATE_SHADING.format("VP_ANDROID_baseline_2022"),
+        "source": REPORT.format(37373, "Mali-G610 MC4, driver r38p1")
+        + SAMPLE_RATE_SHADING.format("VP_ANDROID_baseline_2022"),
     },
     "mali-g715": {
         "name": "Mali-G715",
@@ -114,7 +132,8 @@ PROFILES: dict[str, Row] = {
         "extensions": SINGLE_SAMPLED,
         "api": "1.3.247",
         "tile": "mali-g720",
-        "source": REPORT.format(38589, "Mali-G720-Immortalis MC12, driver r44p1") + SAMPLE_RATE_SHADING.format("VP_ANDROID_baseline_2022"),
+        "source": REPORT.format(38589, "Mali-G720-Immortalis MC12, driver r44p1")
+        + SAMPLE_RATE_SHADING.format("VP_ANDROID_baseline_2022"),
     },
     "adreno-740": {
         "name": "Adreno 740",
@@ -212,7 +231,8 @@ PROFILES: dict[str, Row] = {
         "resolve": (15, 13, True, True),
         "extensions": RENDERING,
         "api": "1.4.311",
-        "source": REPORT.format(38826, "Intel Arc B580, driver 101.6793") + SAMPLE_RATE_SHADING.format("VP_KHR_roadmap_2022"),
+        "source": REPORT.format(38826, "Intel Arc B580, driver 101.6793")
+        + SAMPLE_RATE_SHADING.format("VP_KHR_roadmap_2022"),
     },
     "lavapipe": {
         "name": "llvmpipe",
@@ -234,7 +254,8 @@ PROFILES: dict[str, Row] = {
         "extensions": (),
         "api": "1.0",
         "minimum": True,
-        "source": "the Vulkan specification's required limits; resolve modes: those that who offers any depth-stencil resolve must offer",
+        "source": "the Vulkan specification's required limits; resolve modes: those that who "
+        "offers any depth-stencil resolve must offer",
     },
     "portable-tiler": {
         "name": "any Android device of the 2022 baseline",
@@ -246,8 +267,8 @@ PROFILES: dict[str, Row] = {
         "api": "1.1.106",
         "efficient": 4,
         "minimum": True,
-        "source": "Vulkan profile VP_ANDROID_baseline_2022; integer samples and resolve modes: what the Vulkan specification requires"
-        + EFFICIENT["arm"],
+        "source": "Vulkan profile VP_ANDROID_baseline_2022; integer samples and resolve modes: "
+        "what the Vulkan specification requires" + EFFICIENT["arm"],
     },
     "desktop": {
         "name": "any desktop device of the 2022 baseline",
@@ -257,6 +278,7 @@ PROFILES: dict[str, Row] = {
         "extensions": RESOLVE,
         "api": "1.1.139",
         "minimum": True,
-        "source": "Vulkan profile VP_LUNARG_desktop_baseline_2022; integer samples: what the Vulkan specification requires",
+        "source": "Vulkan profile VP_LUNARG_desktop_baseline_2022; integer samples: what the "
+        "Vulkan specification requires",
     },
 }

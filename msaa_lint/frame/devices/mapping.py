@@ -16,15 +16,25 @@ WIDTH = 120
 def description(offer: Offer) -> str:
     """The `device` of a description, as YAML.
 
-    It has only the features and extensions that concern multisampling. A class of devices is named instead, as a mapping would say that
-    what it does not list is unsupported.
+    It has only the features and extensions that concern multisampling. A class of devices is named
+    instead, as a mapping would say that what it does not list is unsupported.
     """
     profile = offer.profile
     head = f"# {_printable(profile.name)}: {_printable(profile.source)}\n"
     if profile.minimum:
         named = offer.key is not None and (builtin(offer.key) is not None or is_path(offer.key))
-        return head + (f"device: {_text(offer.key or '')}\n" if named else "# Name a class of devices by the path of its report.\n")
-    return head + "device:\n" + "".join(_line(key, value) for key, value in _members(profile).items() if value is not None)
+        return head + (
+            f"device: {_text(offer.key or '')}\n"
+            if named
+            else "# Name a class of devices by the path of its report.\n"
+        )
+    return (
+        head
+        + "device:\n"
+        + "".join(
+            _line(key, value) for key, value in _members(profile).items() if value is not None
+        )
+    )
 
 
 def _members(profile: DeviceProfile) -> dict[str, object]:
@@ -35,21 +45,32 @@ def _members(profile: DeviceProfile) -> dict[str, object]:
         "integer": profile.integer_samples,
     }
     compression = (profile.compression or {}).items()
-    ratios = {f"{count} {way}": ratio for count, pair in compression for way, ratio in zip(("read", "write"), pair, strict=True)}
+    ratios = {
+        f"{count} {way}": ratio
+        for count, pair in compression
+        for way, ratio in zip(("read", "write"), pair, strict=True)
+    }
     ratios |= dict(zip(MOST, profile.compression_most or (), strict=False))
     features, extensions = profile.features, profile.extensions
     return {
         "name": _text(profile.name),
         "vendor": profile.vendor or None,
         "tiler": profile.tiler,
-        "sampleCounts": {aspect: samples for aspect, samples in counts.items() if samples is not None} or None,
+        "sampleCounts": {
+            aspect: samples for aspect, samples in counts.items() if samples is not None
+        }
+        or None,
         "memoryTypes": profile.memory_types,
         "depthResolveModes": profile.depth_resolve_modes,
         "stencilResolveModes": profile.stencil_resolve_modes,
         "independentResolve": profile.independent_resolve,
         "independentResolveNone": profile.independent_resolve_none,
-        "features": tuple(name for name in features if name in FEATURES) if features is not None else None,
-        "extensions": tuple(name for name in extensions if name in EXTENSIONS) if extensions is not None else None,
+        "features": tuple(name for name in features if name in FEATURES)
+        if features is not None
+        else None,
+        "extensions": tuple(name for name in extensions if name in EXTENSIONS)
+        if extensions is not None
+        else None,
         "apiVersion": f'"{profile.api_version}"' if profile.api_version is not None else None,
         "maxEfficientSamples": profile.max_efficient_samples or None,
         "tile": _tile(profile),
@@ -92,7 +113,11 @@ def _tile(profile: DeviceProfile) -> dict[str, object] | None:
         return {"model": name}
     if model.kind == "adreno":
         return {"kind": "adreno", "gmemBytes": model.color_bytes}
-    sizes = {"colorBytes": model.color_bytes, "depthBytes": model.depth_bytes, "maxPixels": model.max_pixels}
+    sizes = {
+        "colorBytes": model.color_bytes,
+        "depthBytes": model.depth_bytes,
+        "maxPixels": model.max_pixels,
+    }
     return {"kind": "mali", **sizes, "limitBytes": model.limit_bytes}
 
 

@@ -6,10 +6,12 @@ FEATURES = {
     "sampleRateShading": "shading once per sample (minSampleShading)",
     "alphaToOne": "alpha set to one after alpha to coverage",
     "shaderStorageImageMultisample": "multisampled storage images",
-    "variableMultisampleRate": "pipelines with different sample counts in a subpass without attachments",
+    "variableMultisampleRate": "pipelines with different sample counts in a subpass without "
+    "attachments",
     "dynamicRendering": "vkCmdBeginRendering, with resolves of color, depth and stencil",
     "dynamicRenderingLocalRead": "reading attachments on the tile without subpasses",
-    "multisampledRenderToSingleSampled": "samples on the tile alone, a single-sampled image in memory",
+    "multisampledRenderToSingleSampled": "samples on the tile alone, a single-sampled image in "
+    "memory",
     "maintenance10": "resolve commands with a mode, also of depth and stencil",
     "customResolve": "resolves by an application's shader",
     "extendedDynamicState3RasterizationSamples": "a pipeline's sample count as dynamic state",
@@ -31,8 +33,10 @@ FEATURES = {
 EXTENSIONS = {
     "VK_KHR_depth_stencil_resolve": "depth and stencil resolved in the pass (core in 1.2)",
     "VK_KHR_dynamic_rendering": "passes without render pass objects (core in 1.3)",
-    "VK_KHR_dynamic_rendering_local_read": "reading attachments on the tile without subpasses (core in 1.4)",
-    "VK_EXT_multisampled_render_to_single_sampled": "samples on the tile alone, a single-sampled image in memory",
+    "VK_KHR_dynamic_rendering_local_read": "reading attachments on the tile without subpasses "
+    "(core in 1.4)",
+    "VK_EXT_multisampled_render_to_single_sampled": "samples on the tile alone, a single-sampled "
+    "image in memory",
     "VK_KHR_maintenance10": "resolve commands with a mode, also of depth and stencil",
     "VK_EXT_custom_resolve": "resolves by an application's shader",
     "VK_QCOM_render_pass_shader_resolve": "resolves by an application's shader",

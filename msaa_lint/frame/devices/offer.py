@@ -1,4 +1,6 @@
-"""What a device offers for multisampling, put together from its profile, its report and the shares of other devices."""
+"""What a device offers for multisampling, put together from its profile, its report and the shares
+of other devices.
+"""
 
 from typing import NamedTuple
 
@@ -13,14 +15,18 @@ from .tiles import tile_use
 
 COUNTS = (1, 2, 4, 8, 16, 32, 64)
 RECORDED_FEATURES = ("sampleRateShading",)
-"""The features whose absence from a built-in profile of a device says that the device does not offer them."""
+"""The features whose absence from a built-in profile of a device says that the device does not
+offer them.
+"""
 
 DEFAULT_EFFICIENT_SAMPLES = 4
 TILE_FORMAT = "R8G8B8A8_UNORM"
 
 
 class Tile(NamedTuple):
-    """The tile with one RGBA8 attachment at a sample count: pixels, and whether even the smallest does not hold it."""
+    """The tile with one RGBA8 attachment at a sample count: pixels, and whether even the smallest
+    does not hold it.
+    """
 
     samples: int
     pixels: int
@@ -28,9 +34,11 @@ class Tile(NamedTuple):
 
 
 class Offer(NamedTuple):
-    """A device to be shown. `recorded_features` and `recorded_extensions` are what the source looked for, None where it lists all.
+    """A device to be shown. `recorded_features` and `recorded_extensions` are what the source
+    looked for, None where it lists all.
 
-    `key` is the built-in profile's name, or the path of the report: what a description's `device` can say.
+    `key` is the built-in profile's name, or the path of the report: what a description's `device`
+    can say.
     """
 
     report: Report
@@ -68,18 +76,24 @@ def counts_of(offer: Offer) -> dict[str, tuple[int, ...] | None]:
 
 
 def offered(offer: Offer, name: str, extension: bool = False) -> bool | None:
-    """Whether a device offers a feature or an extension. None: the source does not say, or a class of devices does not guarantee it."""
+    """Whether a device offers a feature or an extension. None: the source does not say, or a class
+    of devices does not guarantee it.
+    """
     listed = offer.profile.extensions if extension else offer.profile.features
     recorded = offer.recorded_extensions if extension else offer.recorded_features
     if listed is None:
         return None
     if name in listed:
         return True
-    return None if offer.profile.minimum or (recorded is not None and name not in recorded) else False
+    return (
+        None if offer.profile.minimum or (recorded is not None and name not in recorded) else False
+    )
 
 
 def lazily_allocated(profile: DeviceProfile) -> bool | None:
-    """Whether there is memory that is taken only when it is written to; None where memory types are not known."""
+    """Whether there is memory that is taken only when it is written to; None where memory types are
+    not known.
+    """
     if profile.memory_types is None:
         return None
     found = any("LAZILY_ALLOCATED" in flags for flags in profile.memory_types)
@@ -87,28 +101,44 @@ def lazily_allocated(profile: DeviceProfile) -> bool | None:
 
 
 def tiles(profile: DeviceProfile) -> list[Tile]:
-    """The tile at each sample count of colour with one RGBA8 attachment; empty where the device's tiles are not known."""
+    """The tile at each sample count of colour with one RGBA8 attachment; empty where the device's
+    tiles are not known.
+    """
     format = format_of(TILE_FORMAT)
     if profile.tile is None or format is None:
         return []
-    found = [(count, tile_use(profile.tile, [(format, count)], None)) for count in profile.color_samples or ()]
+    found = [
+        (count, tile_use(profile.tile, [(format, count)], None))
+        for count in profile.color_samples or ()
+    ]
     return [Tile(count, use.pixels, use.spills) for count, use in found if use is not None]
 
 
 def tile_model(profile: DeviceProfile) -> str | None:
     """The name of the device's tile model, where it has one."""
-    return next((name for name, model in MODELS.items() if model == profile.tile), None) if profile.tile is not None else None
+    return (
+        next((name for name, model in MODELS.items() if model == profile.tile), None)
+        if profile.tile is not None
+        else None
+    )
 
 
 def shares(profile: DeviceProfile) -> dict[str, object]:
-    """Per cent of devices, and of tile-based ones: by sample count of colour, by depth resolve mode; lazily allocated memory by vendor."""
+    """Per cent of devices, and of tile-based ones: by sample count of colour, by depth resolve
+    mode; lazily allocated memory by vendor.
+    """
     return {
-        "samples": {count: {"all": sample_count_share(count), "tilers": sample_count_share(count, True)} for count in COUNTS},
+        "samples": {
+            count: {"all": sample_count_share(count), "tilers": sample_count_share(count, True)}
+            for count in COUNTS
+        },
         "depth_resolve_modes": {
             mode: {"all": resolve_mode_share(mode), "tilers": resolve_mode_share(mode, True)}
             for mode in ("SAMPLE_ZERO", "AVERAGE", "MIN", "MAX")
         },
-        "lazily_allocated_of_vendor": lazily_allocated_share(profile.vendor) if profile.vendor is not None else None,
+        "lazily_allocated_of_vendor": lazily_allocated_share(profile.vendor)
+        if profile.vendor is not None
+        else None,
     }
 
 
@@ -131,7 +161,9 @@ def record(offer: Offer) -> dict[str, object]:
         "independent_resolve_none": profile.independent_resolve_none,
         "memory_types": profile.memory_types,
         "lazily_allocated": lazily_allocated(profile),
-        "heaps": [{"bytes": size, "device_local": local} for size, local in details.heaps] if details.heaps is not None else None,
+        "heaps": [{"bytes": size, "device_local": local} for size, local in details.heaps]
+        if details.heaps is not None
+        else None,
         "features": profile.features,
         "features_recorded": offer.recorded_features,
         "extensions": profile.extensions,
@@ -143,10 +175,15 @@ def record(offer: Offer) -> dict[str, object]:
         "max_color_attachments": details.max_color_attachments,
         "tile_model": tile_model(profile),
         "tiles_rgba8": [tile._asdict() for tile in tiles(profile)],
-        "compression": {count: {"read": pair[0], "write": pair[1]} for count, pair in profile.compression.items()}
+        "compression": {
+            count: {"read": pair[0], "write": pair[1]}
+            for count, pair in profile.compression.items()
+        }
         if profile.compression is not None
         else None,
-        "compression_most": dict(zip(("read", "write"), profile.compression_most, strict=True)) if profile.compression_most else None,
+        "compression_most": dict(zip(("read", "write"), profile.compression_most, strict=True))
+        if profile.compression_most
+        else None,
         "shares": shares(profile),
         "source": profile.source,
         "notes": offer.report.notes,

@@ -18,12 +18,16 @@ VENDORS = {
 """VkPhysicalDeviceProperties::vendorID, and the name that a description has for the vendor."""
 
 TILERS = ("apple", "arm", "broadcom", "huawei", "img", "qualcomm", "samsung")
-"""Vendors of mobile GPUs, whose devices the shares count as tile-based, Samsung's four of 191 among them."""
+"""Vendors of mobile GPUs, whose devices the shares count as tile-based, Samsung's four of 191 among
+them.
+"""
 
 
 _NOT_TILERS = ("amd", "nvidia", "intel", "samsung")
-"""Samsung's Xclipse is AMD's RDNA, and none of its four reports at gpuinfo.org has lazily allocated memory: it counts as AMD's other GPUs.
-Neither vendor states that it renders at once, which is therefore likely, not certain."""
+"""Samsung's Xclipse is AMD's RDNA, and none of its four reports at gpuinfo.org has lazily allocated
+memory: it counts as AMD's other GPUs. Neither vendor states that it renders at once, which is
+therefore likely, not certain.
+"""
 
 
 def is_tiler(vendor: str | None) -> bool | None:
@@ -34,8 +38,9 @@ def is_tiler(vendor: str | None) -> bool | None:
 
 
 _ONE_PLANE = ("arm", "img", "qualcomm")
-"""Vendors whose GPUs keep D24_UNORM_S8_UINT in one plane, by Mesa's drivers: `panvk_plane_index`, `pvr_format_table`, `tu6_plane_count`.
-D32_SFLOAT_S8_UINT has two planes there."""
+"""Vendors whose GPUs keep D24_UNORM_S8_UINT in one plane, by Mesa's drivers: `panvk_plane_index`,
+`pvr_format_table`, `tu6_plane_count`. D32_SFLOAT_S8_UINT has two planes there.
+"""
 
 
 def packs_depth_stencil(vendor: str | None) -> bool:

@@ -1,11 +1,21 @@
-"""What a device supports for multisampling, as a table and rows of text. What a class of devices does not list is not guaranteed."""
+"""What a device supports for multisampling, as a table and rows of text. What a class of devices
+does not list is not guaranteed.
+"""
 
 from collections.abc import Iterator
 from typing import NamedTuple
 
 from . import DeviceProfile
 from .msaa_features import EXTENSIONS, FEATURES
-from .offer import COUNTS, DEFAULT_EFFICIENT_SAMPLES, Offer, counts_of, lazily_allocated, offered, tiles
+from .offer import (
+    COUNTS,
+    DEFAULT_EFFICIENT_SAMPLES,
+    Offer,
+    counts_of,
+    lazily_allocated,
+    offered,
+    tiles,
+)
 from .shares import ATTRIBUTION, lazily_allocated_share, resolve_mode_share, sample_count_share
 
 COLUMNS = {
@@ -20,10 +30,13 @@ COLUMNS = {
     "sampled_stencil": "read stencil",
     "storage": "storage",
 }
-"""The columns of the table: attachments by aspect (`none`: passes without attachments), then images that shaders read or write."""
+"""The columns of the table: attachments by aspect (`none`: passes without attachments), then images
+that shaders read or write.
+"""
 
 PRINCIPAL = (
-    "sampleRateShading", "dynamicRendering", "multisampledRenderToSingleSampled", "shaderStorageImageMultisample",
+    "sampleRateShading", "dynamicRendering", "multisampledRenderToSingleSampled",
+    "shaderStorageImageMultisample",
     "variableMultisampleRate", "extendedDynamicState3RasterizationSamples", "customResolve",
 )  # fmt: skip
 PRINCIPAL_EXTENSIONS = ("VK_KHR_depth_stencil_resolve", "VK_EXT_sample_locations")
@@ -57,23 +70,44 @@ def table(offer: Offer) -> Table:
     """For each sample count: its uses, its tile size, and the share of devices that support it."""
     profile = offer.profile
     counts = counts_of(offer)
-    known = [use for use in COLUMNS if counts[use] is not None or use in ("color", "depth", "stencil", "integer")]
+    known = [
+        use
+        for use in COLUMNS
+        if counts[use] is not None or use in ("color", "depth", "stencil", "integer")
+    ]
     offers = {count for use in known for count in counts[use] or ()}
     size = {tile.samples: tile for tile in tiles(profile)}
     shown = [count for count in COUNTS if count in offers or count <= 16]
     rows = []
     for count in shown:
         cells = [_mark(counts[use], count) for use in known]
-        tile = [("spills" if size[count].spills else f"{size[count].pixels} px") if count in size else ""] if size else []
+        tile = (
+            [
+                ("spills" if size[count].spills else f"{size[count].pixels} px")
+                if count in size
+                else ""
+            ]
+            if size
+            else []
+        )
         share = [f"{sample_count_share(count)} %", f"{sample_count_share(count, True)} %"]
         rows.append((f"{count}x", *cells, *tile, *share))
     heads = tuple(COLUMNS[use] for use in known)
     missing = "not guaranteed" if profile.minimum else "not supported"
     legend = [f"- {missing}; ? unknown"]
     if len(known) > 4:
-        legend.append("read: images that shaders fetch from; storage: images that they write; none: passes without attachments")
-    legend.append(f"of devices, of tilers: the share that supports the count for color; {ATTRIBUTION}")
-    return Table(("samples", *heads, *(["tile, RGBA8"] if size else []), "of devices", "of tilers"), tuple(rows), tuple(legend))
+        legend.append(
+            "read: images that shaders fetch from; storage: images that they write; none: passes "
+            "without attachments"
+        )
+    legend.append(
+        f"of devices, of tilers: the share that supports the count for color; {ATTRIBUTION}"
+    )
+    return Table(
+        ("samples", *heads, *(["tile, RGBA8"] if size else []), "of devices", "of tilers"),
+        tuple(rows),
+        tuple(legend),
+    )
 
 
 def _mark(counts: tuple[int, ...] | None, count: int) -> str:
@@ -92,9 +126,17 @@ def _rows(offer: Offer) -> Iterator[Row]:
     yield "independent resolve", _independent(profile)
     yield "lazily allocated", _lazily(profile)
     types = profile.memory_types
-    yield "memory types", "; ".join(" | ".join(flags) or "(none)" for flags in types) if types is not None else ""
+    yield (
+        "memory types",
+        "; ".join(" | ".join(flags) or "(none)" for flags in types) if types is not None else "",
+    )
     heaps = details.heaps or ()
-    yield "memory heaps", "; ".join(f"{size / 2**20:,.0f} MiB{' device-local' if local else ''}" for size, local in heaps)
+    yield (
+        "memory heaps",
+        "; ".join(
+            f"{size / 2**20:,.0f} MiB{' device-local' if local else ''}" for size, local in heaps
+        ),
+    )
     yield "efficient samples", _efficient(profile)
     yield "sample locations", _locations(offer)
     if details.max_framebuffer is not None:
@@ -110,7 +152,9 @@ def _rows(offer: Offer) -> Iterator[Row]:
         yield "tiles", f"source: {profile.tile.source}"
     if profile.compression is not None:
         most = profile.compression_most
-        at_most = "" if most is None else f", at least; at most reads {most[0]:g}, writes {most[1]:g}"
+        at_most = (
+            "" if most is None else f", at least; at most reads {most[0]:g}, writes {most[1]:g}"
+        )
         yield "compression", _compression(profile.compression) + at_most
     yield "source", profile.source
     for note in offer.report.notes:
@@ -123,7 +167,9 @@ def _modes(profile: DeviceProfile, modes: tuple[str, ...] | None, depth: bool) -
     if not depth:
         return ", ".join(modes)
     lacking = [mode for mode in ("AVERAGE", "MIN", "MAX") if mode not in modes]
-    shares = ", ".join(f"{mode} (by {resolve_mode_share(mode, True)} % of tilers)" for mode in lacking)
+    shares = ", ".join(
+        f"{mode} (by {resolve_mode_share(mode, True)} % of tilers)" for mode in lacking
+    )
     word = "not guaranteed" if profile.minimum else "not supported"
     return ", ".join(modes) + (f"; {word}: {shares}" if lacking else "")
 
@@ -145,7 +191,9 @@ def _lazily(profile: DeviceProfile) -> str:
     if found:
         return "yes: a transient attachment takes memory only if it has to leave the tile"
     if found is None:
-        return ("not guaranteed" if profile.minimum else "unknown: the memory types are not stated") + others
+        return (
+            "not guaranteed" if profile.minimum else "unknown: the memory types are not stated"
+        ) + others
     return f"no: a transient attachment takes its full size{others}"
 
 
@@ -166,12 +214,16 @@ def _locations(offer: Offer) -> str:
 
 
 def _lacking(offer: Offer) -> Iterator[Row]:
-    states = [(name, offered(offer, name)) for name in PRINCIPAL] + [(name, offered(offer, name, True)) for name in PRINCIPAL_EXTENSIONS]
+    states = [(name, offered(offer, name)) for name in PRINCIPAL] + [
+        (name, offered(offer, name, True)) for name in PRINCIPAL_EXTENSIONS
+    ]
     yield "not supported", ", ".join(name for name, state in states if state is False)
     unknown = "not guaranteed" if offer.profile.minimum else "not known"
     yield unknown, ", ".join(name for name, state in states if state is None)
 
 
 def _compression(compression: dict[int, tuple[float, float]]) -> str:
-    parts = [f"{count}x reads {read:g}, writes {write:g}" for count, (read, write) in compression.items()]
+    parts = [
+        f"{count}x reads {read:g}, writes {write:g}" for count, (read, write) in compression.items()
+    ]
     return "; ".join(parts) + " of plain arithmetic"

@@ -1,10 +1,18 @@
-"""Facts of attachments, of their aspects, and of the pass around them with the clear values that it is begun with."""
+"""Facts of attachments, of their aspects, and of the pass around them with the clear values that it
+is begun with.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
 
-from msaa_lint.frame.description.models import AttachmentDescription, BeginRendering, BeginRenderPass, RenderPass, Subpass
+from msaa_lint.frame.description.models import (
+    AttachmentDescription,
+    BeginRendering,
+    BeginRenderPass,
+    RenderPass,
+    Subpass,
+)
 from msaa_lint.frame.devices import DeviceProfile
 
 from .facts import Facts
@@ -37,24 +45,40 @@ def _labels(render_pass: Pass, frame: Frame) -> list[str]:
 
 
 def clear_value_facts(facts: Facts, render_pass: Pass, frame: Frame) -> None:
-    """Adds how many clear values a render pass is begun with, the most that any begin gives, and whether an attachment takes one.
+    """Adds how many clear values a render pass is begun with, the most that any begin gives, and
+    whether an attachment takes one.
 
     A rendering has them in its attachments, and is begun with none.
     """
-    facts.put("pass.attachments", len(render_pass.attachments), render_pass.record.place("attachments"))
+    facts.put(
+        "pass.attachments", len(render_pass.attachments), render_pass.record.place("attachments")
+    )
     if render_pass.kind != RENDER_PASS or not render_pass.begun:
         facts.put("pass.clear_values", 0)
         return
-    operations = {aspect.load for attachment in render_pass.attachments if attachment.used for aspect in attachment.aspects}
-    facts.put("pass.clears", True if "CLEAR" in operations else None if None in operations else False)
+    operations = {
+        aspect.load
+        for attachment in render_pass.attachments
+        if attachment.used
+        for aspect in attachment.aspects
+    }
+    facts.put(
+        "pass.clears", True if "CLEAR" in operations else None if None in operations else False
+    )
     bodies = [frame.commands[position].body for position in render_pass.begun]
-    given = [(body.clearValueCount, body) for body in bodies if isinstance(body, BeginRenderPass) and body.clearValueCount is not None]
+    given = [
+        (body.clearValueCount, body)
+        for body in bodies
+        if isinstance(body, BeginRenderPass) and body.clearValueCount is not None
+    ]
     if given:
         count, body = max(given, key=lambda one: one[0])
         facts.put("pass.clear_values", count, body.place("clearValueCount"))
 
 
-def attachment_facts(attachment: Attachment, known: bool, dependencies: Mapping[int, Collection[int]]) -> Facts:
+def attachment_facts(
+    attachment: Attachment, known: bool, dependencies: Mapping[int, Collection[int]]
+) -> Facts:
     """What is known of an attachment in its pass; `known` says whether the pass's subpasses are.
 
     `dependencies` are the later subpasses that depend on each subpass.
@@ -65,10 +89,20 @@ def attachment_facts(attachment: Attachment, known: bool, dependencies: Mapping[
     facts.put("attachment.name", attachment.title, record.head)
     format_at, samples_at = record.head, record.head
     for name in ("format", "samples"):
-        stated = record if record.states(name) else target.record if target is not None and target.record.states(name) else record
+        stated = (
+            record
+            if record.states(name)
+            else target.record
+            if target is not None and target.record.states(name)
+            else record
+        )
         at = stated.place(name) if stated.states(name) else record.place("image")
         format_at, samples_at = (at, samples_at) if name == "format" else (format_at, at)
-    facts.put("attachment.format", attachment.format.name if attachment.format is not None else None, format_at)
+    facts.put(
+        "attachment.format",
+        attachment.format.name if attachment.format is not None else None,
+        format_at,
+    )
     facts.put("attachment.samples", attachment.samples, samples_at)
     if known or attachment.used:
         facts.put("attachment.used", attachment.used)
@@ -87,53 +121,95 @@ def attachment_facts(attachment: Attachment, known: bool, dependencies: Mapping[
 
 
 def single_sampled_facts(
-    facts: Facts, render_pass: Pass, attachment: Attachment, device: DeviceProfile | None, chained_known: bool
+    facts: Facts,
+    render_pass: Pass,
+    attachment: Attachment,
+    device: DeviceProfile | None,
+    chained_known: bool,
 ) -> None:
-    """Adds whether samples of the rendering are resolved to an attachment as it is stored (VkMultisampledRenderToSingleSampledInfoEXT),
-    and whether a depth-stencil attachment that it concerns lacks the structure that this requires (VUID-VkSubpassDescription2-pNext-06871).
+    """Adds whether samples of the rendering are resolved to an attachment as it is stored
+    (VkMultisampledRenderToSingleSampledInfoEXT), and whether a depth-stencil attachment that it
+    concerns lacks the structure that this requires (VUID-VkSubpassDescription2-pNext-06871).
 
-    `chained_known` is false of source code, of which some structures are not read. Resolve targets are not concerned
-    (VUID-VkFramebufferCreateInfo-samples-06881, VUID-VkRenderingInfo-imageView-06859).
+    `chained_known` is false of source code, of which some structures are not read. Resolve targets
+    are not concerned (VUID-VkFramebufferCreateInfo-samples-06881,
+    VUID-VkRenderingInfo-imageView-06859).
     """
     depths = [render_pass.subpasses[index].record for index in sorted(attachment.depth_stencil)]
-    rendered = [each for each in depths if isinstance(each, Subpass) and each.multisampledRenderToSingleSampled is not None]
-    facts.put("attachment.depth_resolve_missing", chained_known and any(each.depthStencilResolve is None for each in rendered))
+    rendered = [
+        each
+        for each in depths
+        if isinstance(each, Subpass) and each.multisampledRenderToSingleSampled is not None
+    ]
+    facts.put(
+        "attachment.depth_resolve_missing",
+        chained_known and any(each.depthStencilResolve is None for each in rendered),
+    )
     indices = attachment.color | attachment.depth_stencil | attachment.input
-    chained = [render_pass.subpasses[index].record.multisampledRenderToSingleSampled for index in sorted(indices)]
-    states = [each for each in chained if each is not None and each.multisampledRenderToSingleSampledEnable is not False]
+    chained = [
+        render_pass.subpasses[index].record.multisampledRenderToSingleSampled
+        for index in sorted(indices)
+    ]
+    states = [
+        each
+        for each in chained
+        if each is not None and each.multisampledRenderToSingleSampledEnable is not False
+    ]
     enabled = next((each for each in states if each.multisampledRenderToSingleSampledEnable), None)
-    facts.put("attachment.single_sampled_render", True if enabled is not None else None if states else False)
+    facts.put(
+        "attachment.single_sampled_render",
+        True if enabled is not None else None if states else False,
+    )
     if enabled is None:
         return
     count, place = enabled.rasterizationSamples, enabled.place("rasterizationSamples")
     facts.put("attachment.render_samples", count, place)
     target = attachment.target
     offered, whole = supported_samples(target, device) if target is not None else (None, False)
-    if count is not None and offered is not None and device is not None and not device.minimum and (whole or count not in offered):
+    if (
+        count is not None
+        and offered is not None
+        and device is not None
+        and not device.minimum
+        and (whole or count not in offered)
+    ):
         facts.put("attachment.render_samples_supported", count in offered, place)
 
 
 def later_subpasses(render_pass: Pass) -> dict[int, list[int]]:
     """The later subpasses of a pass that a stated dependency makes depend on each subpass."""
     found: dict[int, list[int]] = {}
-    for dependency in render_pass.record.dependencies if isinstance(render_pass.record, RenderPass) else ():
+    for dependency in (
+        render_pass.record.dependencies if isinstance(render_pass.record, RenderPass) else ()
+    ):
         source, target = dependency.srcSubpass, dependency.dstSubpass
         if isinstance(source, int) and isinstance(target, int) and source < target:
             found.setdefault(source, []).append(target)
     return found
 
 
-def _lost(attachment: Attachment, dependencies: Mapping[int, Collection[int]]) -> tuple[int, int] | None:
-    """The subpass in which the contents of an attachment become undefined, and the next one after it that draws to it or reads it.
+def _lost(
+    attachment: Attachment, dependencies: Mapping[int, Collection[int]]
+) -> tuple[int, int] | None:
+    """The subpass in which the contents of an attachment become undefined, and the next one after
+    it that draws to it or reads it.
 
-    They become undefined in a subpass that neither uses nor preserves it, and depends on one that does, and stay so in what depends on that
-    subpass until they are written again, as a resolve does (Vulkan specification, Render Pass Creation, VkSubpassDescription).
+    They become undefined in a subpass that neither uses nor preserves it, and depends on one that
+    does, and stay so in what depends on that subpass until they are written again, as a resolve
+    does (Vulkan specification, Render Pass Creation, VkSubpassDescription).
     """
-    used = attachment.color | attachment.depth_stencil | attachment.input | attachment.resolve.keys()
+    used = (
+        attachment.color | attachment.depth_stencil | attachment.input | attachment.resolve.keys()
+    )
     if not dependencies or len(used) < 2 or not used - attachment.input:
         return None
     kept, first = used | attachment.preserve, min(used)
-    lost = {target for source, targets in dependencies.items() if source in kept and source >= first for target in targets} - kept
+    lost = {
+        target
+        for source, targets in dependencies.items()
+        if source in kept and source >= first
+        for target in targets
+    } - kept
     for start in sorted(lost):
         reached, following = set[int](), [start]
         while following:
@@ -157,8 +233,16 @@ def resolves_at(render_pass: Pass) -> dict[int, list[Resolve]]:
     return found
 
 
-def aspect_facts(render_pass: Pass, attachment: Attachment, aspect: Aspect, resolves: list[Resolve], readers: Readers) -> Facts:
-    """What is known of one aspect: its operations, who resolves it (`resolves` are the attachment's), who reads it later."""
+def aspect_facts(
+    render_pass: Pass,
+    attachment: Attachment,
+    aspect: Aspect,
+    resolves: list[Resolve],
+    readers: Readers,
+) -> Facts:
+    """What is known of one aspect: its operations, who resolves it (`resolves` are the
+    attachment's), who reads it later.
+    """
     facts = Facts()
     record = attachment.record
     facts.put("aspect.name", aspect.name, record.head)
@@ -171,25 +255,62 @@ def aspect_facts(render_pass: Pass, attachment: Attachment, aspect: Aspect, reso
     if isinstance(record, AttachmentDescription):
         separate = aspect.name == "stencil" and record.stencilInitialLayout is not None
         layout = record.stencilInitialLayout if separate else record.initialLayout
-        facts.put("aspect.initial_layout", layout, record.place("stencilInitialLayout" if separate else "initialLayout"))
+        facts.put(
+            "aspect.initial_layout",
+            layout,
+            record.place("stencilInitialLayout" if separate else "initialLayout"),
+        )
     from_it = [r for r in resolves if r.source is attachment and r.aspect == aspect.name]
     certain = [resolve.target_at for resolve in from_it if resolve.is_certain]
-    resolved = True if certain else None if render_pass.unread or any(resolve.mode is None for resolve in from_it) else False
+    resolved = (
+        True
+        if certain
+        else None
+        if render_pass.unread or any(resolve.mode is None for resolve in from_it)
+        else False
+    )
     facts.put("aspect.resolved", resolved, certain[0] if certain else None)
     over: set[str] = set().union(*attachment.resolve.values())
-    overwritten = True if aspect.name in over else None if "?" in over or (over and aspect.name is None) else False
-    onto = [r for r in resolves if r.target is attachment and r.aspect == aspect.name and r.mode != "NONE"]
+    overwritten = (
+        True
+        if aspect.name in over
+        else None
+        if "?" in over or (over and aspect.name is None)
+        else False
+    )
+    onto = [
+        r
+        for r in resolves
+        if r.target is attachment and r.aspect == aspect.name and r.mode != "NONE"
+    ]
     facts.put("aspect.resolved_over", overwritten, onto[0].target_at if onto else None)
     at = {subpass for subpass, aspects in attachment.resolve.items() if aspect.name in aspects}
     # A resolve comes at the end of its subpass: the same subpass reads what was there before.
-    before = bool(at) and (any(s <= min(at) for s in attachment.input) or any(s < min(at) for s in attachment.depth_stencil))
+    before = bool(at) and (
+        any(s <= min(at) for s in attachment.input)
+        or any(s < min(at) for s in attachment.depth_stencil)
+    )
     facts.put("aspect.read_before_resolve", before)
-    facts.put("aspect.read_after_resolve", bool(at) and any(s > min(at) for s in attachment.input | attachment.depth_stencil))
+    facts.put(
+        "aspect.read_after_resolve",
+        bool(at) and any(s > min(at) for s in attachment.input | attachment.depth_stencil),
+    )
     read_later = readers.read_later(render_pass, attachment, aspect)
     facts.put("aspect.read_later", read_later)
     facts.put("aspect.readers_known", read_later is not None)
     store = readers.stored_before(render_pass, attachment, aspect)
-    facts.put("aspect.stored_by", store.render_pass.name if store else None, store.place if store else None)
-    costly = [op for op, costs in (("LOAD", aspect.load == "LOAD"), ("STORE", stored and read_later is False)) if costs]
+    facts.put(
+        "aspect.stored_by",
+        store.render_pass.name if store else None,
+        store.place if store else None,
+    )
+    costly = [
+        op
+        for op, costs in (
+            ("LOAD", aspect.load == "LOAD"),
+            ("STORE", stored and read_later is False),
+        )
+        if costs
+    ]
     facts.put("aspect.costly_operations", costly, load_at if "LOAD" in costly else store_at)
     return facts

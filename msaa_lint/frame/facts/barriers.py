@@ -1,8 +1,10 @@
-"""What a frame states between a write and its first reader: dependencies of passes, and recorded barriers.
+"""What a frame states between a write and its first reader: dependencies of passes, and recorded
+barriers.
 
-The writes are a resolve, and for vkCmdResolveImage also the rendering whose samples it reads. A resolve at the end of a subpass or a
-rendering runs in COLOR_ATTACHMENT_OUTPUT with COLOR_ATTACHMENT_WRITE, of depth and stencil too (Vulkan specification, Render Pass: Render
-Pass Multisample Resolve Operations).
+The writes are a resolve, and for vkCmdResolveImage also the rendering whose samples it reads. A
+resolve at the end of a subpass or a rendering runs in COLOR_ATTACHMENT_OUTPUT with
+COLOR_ATTACHMENT_WRITE, of depth and stencil too (Vulkan specification, Render Pass: Render Pass
+Multisample Resolve Operations).
 """
 
 from __future__ import annotations
@@ -12,34 +14,65 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from msaa_lint.core.text.span import Span
-from msaa_lint.frame.description.models import ImageBarrier, PipelineBarrier, ReadImage, RenderPass, SubpassDependency
+from msaa_lint.frame.description.models import (
+    ImageBarrier,
+    PipelineBarrier,
+    ReadImage,
+    RenderPass,
+    SubpassDependency,
+)
 
 from .commands import COPY_READ, READ, RESOLVE_READ
 from .event_search import EventSearch, reads
 from .facts import Facts
 from .parts import Attachment, Resolve
-from .pipeline_stages import ALL_STAGES, Stages, first_scope, includes_access, second_scope, stated_stages
+from .pipeline_stages import (
+    ALL_STAGES,
+    Stages,
+    first_scope,
+    includes_access,
+    second_scope,
+    stated_stages,
+)
 from .timeline import DRAW, INPUT, LOAD, STORE, Event
 from .walk import PassRun
 
 Region = tuple[int, int] | None
-"""The commands of one subpass, by the identity of its run and its start; None: all commands, before or after."""
+"""The commands of one subpass, by the identity of its run and its start; None: all commands, before
+or after.
+"""
 
 COLOR = ("COLOR_ATTACHMENT_OUTPUT", "COLOR_ATTACHMENT_WRITE")
 DEPTH = ("LATE_FRAGMENT_TESTS", "DEPTH_STENCIL_ATTACHMENT_WRITE")
 TRANSFER = ("TRANSFER", "TRANSFER_WRITE")
 
 _SHADERS = {
-    "FRAGMENT": "FRAGMENT_SHADER", "VERTEX": "VERTEX_SHADER", "COMPUTE": "COMPUTE_SHADER", "GEOMETRY": "GEOMETRY_SHADER",
-    "TESSELLATION_CONTROL": "TESSELLATION_CONTROL_SHADER", "TESSELLATION_EVALUATION": "TESSELLATION_EVALUATION_SHADER",
+    "FRAGMENT": "FRAGMENT_SHADER", "VERTEX": "VERTEX_SHADER", "COMPUTE": "COMPUTE_SHADER",
+    "GEOMETRY": "GEOMETRY_SHADER",
+    "TESSELLATION_CONTROL": "TESSELLATION_CONTROL_SHADER",
+    "TESSELLATION_EVALUATION": "TESSELLATION_EVALUATION_SHADER",
     "TASK_EXT": "TASK_SHADER_EXT", "MESH_EXT": "MESH_SHADER_EXT", "ALL": "ALL_COMMANDS",
 }  # fmt: skip
-_RAYS = ("RAYGEN_KHR", "ANY_HIT_KHR", "CLOSEST_HIT_KHR", "MISS_KHR", "INTERSECTION_KHR", "CALLABLE_KHR")
-_COPIES = {"copyImage": "COPY", "copyImageToBuffer": "COPY", "blitImage": "BLIT", "resolveImage": "RESOLVE"}
+_RAYS = (
+    "RAYGEN_KHR",
+    "ANY_HIT_KHR",
+    "CLOSEST_HIT_KHR",
+    "MISS_KHR",
+    "INTERSECTION_KHR",
+    "CALLABLE_KHR",
+)
+_COPIES = {
+    "copyImage": "COPY",
+    "copyImageToBuffer": "COPY",
+    "blitImage": "BLIT",
+    "resolveImage": "RESOLVE",
+}
 
 
 class Wait(NamedTuple):
-    """One stated wait: a dependency of a run of a pass, or a recorded barrier (`run` is None), and the commands that it orders."""
+    """One stated wait: a dependency of a run of a pass, or a recorded barrier (`run` is None), and
+    the commands that it orders.
+    """
 
     time: int
     record: SubpassDependency | PipelineBarrier
@@ -50,12 +83,16 @@ class Wait(NamedTuple):
     target: Region = None
 
     def concerns(self, image: str) -> bool:
-        """Whether its access scopes include an image; its synchronization scopes include every command."""
+        """Whether its access scopes include an image; its synchronization scopes include every
+        command.
+        """
         return not self.images or image in self.images
 
     @property
     def states_accesses(self) -> bool:
-        """Whether it says anything of memory: a wait that states neither access mask is taken to leave them out."""
+        """Whether it says anything of memory: a wait that states neither access mask is taken to
+        leave them out.
+        """
         return self.record.states("srcAccessMask") or self.record.states("dstAccessMask")
 
     def covers_write(self, write: Write) -> bool:
@@ -100,13 +137,19 @@ class Wait(NamedTuple):
             return found, f"{write.access} to srcAccessMask", place("srcAccessMask", "srcStageMask")
         found = f"in {reader.stage}, to which its {write.word} is not made visible"
         if not self.covers_reader_stage(reader):
-            access = "" if self.covers_reader_access(reader) else f" and {reader.access} to dstAccessMask"
+            access = (
+                ""
+                if self.covers_reader_access(reader)
+                else f" and {reader.access} to dstAccessMask"
+            )
             return found, f"{reader.stage} to dstStageMask{access}", place("dstStageMask")
         return found, f"{reader.access} to dstAccessMask", place("dstAccessMask", "dstStageMask")
 
 
 class Write(NamedTuple):
-    """A write: its event, the stage and the access that it runs with, the commands that it is among, and what messages call it."""
+    """A write: its event, the stage and the access that it runs with, the commands that it is
+    among, and what messages call it.
+    """
 
     event: Event
     stage: str
@@ -116,7 +159,8 @@ class Write(NamedTuple):
 
 
 class Reader(NamedTuple):
-    """A reader: its event, and the stages and accesses of which it has at least one each; None where it may have any.
+    """A reader: its event, and the stages and accesses of which it has at least one each; None
+    where it may have any.
 
     `stage` and `access` are those that a wait is to be given.
     """
@@ -150,17 +194,28 @@ class Waits:
 
     def __init__(self, search: EventSearch) -> None:
         self.search = search
-        self._runs = sorted(search.timeline.walk.runs, key=lambda run: run.begin_time) if search.timeline.ordered else []
+        self._runs = (
+            sorted(search.timeline.walk.runs, key=lambda run: run.begin_time)
+            if search.timeline.ordered
+            else []
+        )
         self._begins = [run.begin_time for run in self._runs]
-        self._barriers = [Wait(2 * position, body, None, _images(body)) for position, body in search.frame.recorded(PipelineBarrier)]
+        self._barriers = [
+            Wait(2 * position, body, None, _images(body))
+            for position, body in search.frame.recorded(PipelineBarrier)
+        ]
         self._every = [wait for run in self._runs for wait in _of_run(run)] + self._barriers
         self._every.sort(key=lambda wait: wait.time)
         self._times = [wait.time for wait in self._every]
         self._captured = search.frame.document.source.origins is not None
-        """Whether the frame is from a capture: it states all dependencies and barriers, but a shader may not read what is bound to it."""
+        """Whether the frame is from a capture: it states all dependencies and barriers, but a
+        shader may not read what is bound to it.
+        """
 
     def put(self, facts: Facts, resolve: Resolve) -> None:
-        """Adds what is known of the waits between a resolve and the first reader of what it wrote."""
+        """Adds what is known of the waits between a resolve and the first reader of what it
+        wrote.
+        """
         stage, access = TRANSFER if resolve.kind == "command" else COLOR
         facts.put("resolve.stage", stage)
         facts.put("resolve.access", access)
@@ -181,7 +236,11 @@ class Waits:
             facts.put("resolve.reader_access", reader.access)
         if pair.meant is not None:
             record = pair.meant.record
-            facts.put("resolve.waiting_stages", list(record.srcStageMask or ()) or ["NONE"], record.place("srcStageMask"))
+            facts.put(
+                "resolve.waiting_stages",
+                list(record.srcStageMask or ()) or ["NONE"],
+                record.place("srcStageMask"),
+            )
         if pair.waits:
             return
         target = self.search.frame.target(pair.image)
@@ -203,27 +262,53 @@ class Waits:
         stage, access = TRANSFER if resolve.kind == "command" else COLOR
         for ref in self.search.written_at(resolve):
             event = self.search.event(ref)
-            region = (id(event.run), event.run.starts[resolve.subpass]) if event.run is not None else None
+            region = (
+                (id(event.run), event.run.starts[resolve.subpass])
+                if event.run is not None
+                else None
+            )
             reader, later = self.search.first_use(ref)
-            if reader is not None and reads(reader) and not (event.aspect == "color" and reader.kind == DRAW):
-                yield self._pair(ref.image, Write(event, stage, access, region, "resolve"), reader, later)
+            if (
+                reader is not None
+                and reads(reader)
+                and not (event.aspect == "color" and reader.kind == DRAW)
+            ):
+                yield self._pair(
+                    ref.image, Write(event, stage, access, region, "resolve"), reader, later
+                )
 
     def _rendered(self, resolve: Resolve) -> Pair | None:
-        """The rendering that wrote the samples that a resolve command reads; None where something else did, or in the last frame."""
+        """The rendering that wrote the samples that a resolve command reads; None where something
+        else did, or in the last frame.
+        """
         image = resolve.source_image
         events = self.search.of.get(image.name, []) if image is not None else []
-        number = next((n for n, event in enumerate(events) if event.kind == RESOLVE_READ and event.source is resolve), None)
+        number = next(
+            (
+                n
+                for n, event in enumerate(events)
+                if event.kind == RESOLVE_READ and event.source is resolve
+            ),
+            None,
+        )
         if image is None or not number:
             return None
         event = events[number - 1]
-        if event.kind != STORE or not event.certain or event.run is None or not isinstance(event.source, Attachment):
+        if (
+            event.kind != STORE
+            or not event.certain
+            or event.run is None
+            or not isinstance(event.source, Attachment)
+        ):
             return None
         attachment = event.source
         stage, access = COLOR if event.aspect == "color" else DEPTH
         used = [*attachment.color, *attachment.depth_stencil]
         if not used:
             return None
-        write = Write(event, stage, access, (id(event.run), event.run.starts[max(used)]), "rendering")
+        write = Write(
+            event, stage, access, (id(event.run), event.run.starts[max(used)]), "rendering"
+        )
         return self._pair(image.name, write, events[number], False)
 
     def _pair(self, image: str, write: Write, event: Event, later: bool) -> Pair | None:
@@ -238,34 +323,63 @@ class Waits:
             return None
         synchronized = _synchronized(waits, image, write, reader)
         meant = next((wait for wait in waits if _is_meant(wait, image, write, reader)), None)
-        if synchronized is False and meant is None and not self._states_waits(in_pass, later, write, reader):
+        if (
+            synchronized is False
+            and meant is None
+            and not self._states_waits(in_pass, later, write, reader)
+        ):
             return None
-        return Pair(image, write, reader, synchronized, meant, in_pass, later) if synchronized is not None else None
+        return (
+            Pair(image, write, reader, synchronized, meant, in_pass, later)
+            if synchronized is not None
+            else None
+        )
 
     def _states_waits(self, in_pass: bool, later: bool, write: Write, reader: Reader) -> bool:
-        """Whether a wait that is not stated is known to be missing: within a pass that states dependencies, in commands with barriers."""
+        """Whether a wait that is not stated is known to be missing: within a pass that states
+        dependencies, in commands with barriers.
+        """
         if in_pass:
             record = write.event.run.render_pass.record if write.event.run is not None else None
-            return isinstance(record, RenderPass) and (self._captured or record.states("dependencies"))
+            return isinstance(record, RenderPass) and (
+                self._captured or record.states("dependencies")
+            )
         if reader.event.kind == RESOLVE_READ and not self._captured:
             # A description may begin where a resolve command does.
             return False
-        certain = not self._captured or reader.event.kind != READ or _stated_access(reader.event) is not None
+        certain = (
+            not self._captured
+            or reader.event.kind != READ
+            or _stated_access(reader.event) is not None
+        )
         return bool(self._barriers) and not later and certain
 
     def _reader(self, event: Event) -> Reader | None:
         """None where nothing waits for it that a frame states."""
         region = self._region(event.time)
-        if event.kind == READ and event.command is not None and isinstance(event.command.body, ReadImage):
+        if (
+            event.kind == READ
+            and event.command is not None
+            and isinstance(event.command.body, ReadImage)
+        ):
             stage, access = _shader_read(event.command.body, self._captured)
             if stage == "":
                 return Reader(event, region, None, access)
-            return Reader(event, region, stated_stages((stage,)), access, stage, "SHADER_READ" if access is None else access[0])
+            return Reader(
+                event,
+                region,
+                stated_stages((stage,)),
+                access,
+                stage,
+                "SHADER_READ" if access is None else access[0],
+            )
         if event.kind == INPUT:
             return _one(event, region, "FRAGMENT_SHADER", "INPUT_ATTACHMENT_READ")
         if event.kind in (COPY_READ, RESOLVE_READ) and event.command is not None:
             stage = _COPIES.get(event.command.kind, "TRANSFER")
-            return Reader(event, region, frozenset({stage}), ("TRANSFER_READ",), "TRANSFER", "TRANSFER_READ")
+            return Reader(
+                event, region, frozenset({stage}), ("TRANSFER_READ",), "TRANSFER", "TRANSFER_READ"
+            )
         if event.kind == LOAD:
             if event.aspect in ("color", None):
                 return _one(event, region, "COLOR_ATTACHMENT_OUTPUT", "COLOR_ATTACHMENT_READ")
@@ -292,10 +406,12 @@ class Waits:
 
 
 def _synchronized(waits: list[Wait], image: str, write: Write, reader: Reader) -> bool | None:
-    """Whether waits make a write visible to a reader; None where the stages of one that may are not stated.
+    """Whether waits make a write visible to a reader; None where the stages of one that may are not
+    stated.
 
-    The first wait of a chain includes the write's stage and access in what is stated; each further one waits for what the one before holds
-    back; the last one includes the reader's stage and access in what is stated. (Vulkan specification, Execution and Memory Dependencies)
+    The first wait of a chain includes the write's stage and access in what is stated; each further
+    one waits for what the one before holds back; the last one includes the reader's stage and
+    access in what is stated. (Vulkan specification, Execution and Memory Dependencies)
     """
     unknown = False
     held_back: list[tuple[Region, Stages]] = []
@@ -304,13 +420,25 @@ def _synchronized(waits: list[Wait], image: str, write: Write, reader: Reader) -
         if record.srcStageMask is None or not record.states("srcStageMask"):
             unknown |= wait.concerns(image)
             continue
-        direct = wait.concerns(image) and wait.source in (None, write.region) and wait.covers_write(write)
+        direct = (
+            wait.concerns(image)
+            and wait.source in (None, write.region)
+            and wait.covers_write(write)
+        )
         scope = first_scope(record.srcStageMask)
-        if not direct and not any(_meets(region, wait.source) and stages & scope for region, stages in held_back):
+        if not direct and not any(
+            _meets(region, wait.source) and stages & scope for region, stages in held_back
+        ):
             continue
         stated = record.dstStageMask is not None and record.states("dstStageMask")
-        held_back.append((wait.target, second_scope(record.dstStageMask or ()) if stated else ALL_STAGES))
-        if wait.concerns(image) and wait.target in (None, reader.region) and wait.makes_visible_to(reader):
+        held_back.append(
+            (wait.target, second_scope(record.dstStageMask or ()) if stated else ALL_STAGES)
+        )
+        if (
+            wait.concerns(image)
+            and wait.target in (None, reader.region)
+            and wait.makes_visible_to(reader)
+        ):
             return True
     return None if unknown else False
 
@@ -320,7 +448,9 @@ def _meets(one: Region, other: Region) -> bool:
 
 
 def _is_meant(wait: Wait, image: str, write: Write, reader: Reader) -> bool:
-    """Whether a wait is stated for a write and its reader, by its image, or by its subpasses, stages and accesses."""
+    """Whether a wait is stated for a write and its reader, by its image, or by its subpasses,
+    stages and accesses.
+    """
     if wait.source not in (None, write.region) or wait.target not in (None, reader.region):
         return False
     if wait.images:
@@ -330,33 +460,50 @@ def _is_meant(wait: Wait, image: str, write: Write, reader: Reader) -> bool:
 
 def _is_of_write(record: SubpassDependency | PipelineBarrier, write: Write) -> bool:
     """Whether what a wait for all memory makes available is what somebody takes a write to be."""
-    taken = [(write.stage, write.access), DEPTH if write.event.aspect in ("depth", "stencil") else COLOR]
+    taken = [
+        (write.stage, write.access),
+        DEPTH if write.event.aspect in ("depth", "stencil") else COLOR,
+    ]
     accesses, stages = record.srcAccessMask or (), stated_stages(record.srcStageMask or ())
     if any(access.endswith("_WRITE") for access in accesses):
         return any(includes_access(accesses, access) for _, access in taken)
     tests = {"EARLY_FRAGMENT_TESTS"} if DEPTH in taken else set()
-    return not stages.isdisjoint(tests.union(*(stated_stages((stage,)) for stage, _ in taken))) or "BOTTOM_OF_PIPE" in (
-        record.srcStageMask or ()
-    )
+    return not stages.isdisjoint(
+        tests.union(*(stated_stages((stage,)) for stage, _ in taken))
+    ) or "BOTTOM_OF_PIPE" in (record.srcStageMask or ())
 
 
 def _of_run(run: PassRun) -> Iterator[Wait]:
     """The dependencies of a pass, where they take effect."""
     record = run.render_pass.record
     for dependency in record.dependencies if isinstance(record, RenderPass) else ():
-        source, into = (_subpass(run, number) for number in (dependency.srcSubpass, dependency.dstSubpass))
+        source, into = (
+            _subpass(run, number) for number in (dependency.srcSubpass, dependency.dstSubpass)
+        )
         if dependency.dstSubpass == "EXTERNAL":
             yield Wait(run.end_time, dependency, run, source=source)
         elif into is not None:
-            yield Wait(run.begin_time if dependency.srcSubpass == "EXTERNAL" else into[1], dependency, run, source=source, target=into)
+            yield Wait(
+                run.begin_time if dependency.srcSubpass == "EXTERNAL" else into[1],
+                dependency,
+                run,
+                source=source,
+                target=into,
+            )
 
 
 def _subpass(run: PassRun, number: int | str | None) -> Region:
-    return (id(run), run.starts[number]) if isinstance(number, int) and number < len(run.starts) else None
+    return (
+        (id(run), run.starts[number])
+        if isinstance(number, int) and number < len(run.starts)
+        else None
+    )
 
 
 def _images(barrier: PipelineBarrier) -> frozenset[str | None]:
-    return frozenset(each.image if isinstance(each, ImageBarrier) else each for each in barrier.images)
+    return frozenset(
+        each.image if isinstance(each, ImageBarrier) else each for each in barrier.images
+    )
 
 
 def _one(event: Event, region: Region, stage: str, access: str) -> Reader:
@@ -364,13 +511,19 @@ def _one(event: Event, region: Region, stage: str, access: str) -> Reader:
 
 
 def _stated_access(event: Event) -> str | None:
-    return event.command.body.access if event.command is not None and isinstance(event.command.body, ReadImage) else None
+    return (
+        event.command.body.access
+        if event.command is not None and isinstance(event.command.body, ReadImage)
+        else None
+    )
 
 
 def _shader_read(body: ReadImage, captured: bool) -> tuple[str, tuple[str, ...] | None]:
-    """The stage of a read, empty where it is not known, and the accesses of which it has one; None where it may have any.
+    """The stage of a read, empty where it is not known, and the accesses of which it has one; None
+    where it may have any.
 
-    A capture names a stage for everything that the bound descriptors hold, and states an access where both are certain.
+    A capture names a stage for everything that the bound descriptors hold, and states an access
+    where both are certain.
     """
     stage = body.stage
     if stage is not None:
@@ -380,5 +533,10 @@ def _shader_read(body: ReadImage, captured: bool) -> tuple[str, tuple[str, ...] 
     if body.access in (None, "MEMORY_READ"):
         transfer = not stated_stages((stage,)).isdisjoint(stated_stages(("TRANSFER",)))
         shader = ("SHADER_SAMPLED_READ", "SHADER_STORAGE_READ", "INPUT_ATTACHMENT_READ")
-        return stage, None if stage == "ALL_COMMANDS" else ("TRANSFER_READ",) if transfer else shader
-    return stage, ("SHADER_SAMPLED_READ", "SHADER_STORAGE_READ") if body.access == "SHADER_READ" else (body.access,)
+        return stage, None if stage == "ALL_COMMANDS" else (
+            "TRANSFER_READ",
+        ) if transfer else shader
+    return stage, (
+        "SHADER_SAMPLED_READ",
+        "SHADER_STORAGE_READ",
+    ) if body.access == "SHADER_READ" else (body.access,)

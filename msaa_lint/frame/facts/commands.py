@@ -1,11 +1,18 @@
-"""The table of recorded commands: the images that each names, what it does to them, and the usages that this needs."""
+"""The table of recorded commands: the images that each names, what it does to them, and the usages
+that this needs.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from msaa_lint.frame.description.models import BeginRendering, Command, ImageBarrier, PipelineBarrier
+from msaa_lint.frame.description.models import (
+    BeginRendering,
+    Command,
+    ImageBarrier,
+    PipelineBarrier,
+)
 from msaa_lint.frame.description.record import Record
 
 READ = "read"
@@ -24,7 +31,9 @@ END_COMMANDS = ("endRenderPass", "endRendering")
 
 
 class ImageAccess(NamedTuple):
-    """How a command uses the image that a member of it names. `usages` are the image usages that allow it: one of them is needed."""
+    """How a command uses the image that a member of it names. `usages` are the image usages that
+    allow it: one of them is needed.
+    """
 
     member: str
     effect: str
@@ -42,7 +51,10 @@ COMMANDS: dict[str, tuple[ImageAccess, ...]] = {
     "present": (ImageAccess("image", PRESENT),),
     "copyImage": _COPY,
     "blitImage": _COPY,
-    "resolveImage": (ImageAccess("srcImage", RESOLVE_READ, _SOURCE), ImageAccess("dstImage", RESOLVE_WRITE, _TARGET)),
+    "resolveImage": (
+        ImageAccess("srcImage", RESOLVE_READ, _SOURCE),
+        ImageAccess("dstImage", RESOLVE_WRITE, _TARGET),
+    ),
     "copyImageToBuffer": (ImageAccess("srcImage", COPY_READ, _SOURCE),),
     "copyBufferToImage": (ImageAccess("dstImage", COPY_WRITE, _TARGET),),
     "clearColorImage": _CLEAR,
@@ -65,7 +77,9 @@ def image_of(command: Command, *effects: str) -> str | None:
 
 
 def naming_records(command: Command) -> Iterator[tuple[Record, str]]:
-    """Every image that a command names, attachments of renderings and barriers included, with the record that names it."""
+    """Every image that a command names, attachments of renderings and barriers included, with the
+    record that names it.
+    """
     body = command.body
     if isinstance(body, BeginRendering):
         for rate in (body.fragmentDensityMapAttachment, body.fragmentShadingRateAttachment):
@@ -77,7 +91,9 @@ def naming_records(command: Command) -> Iterator[tuple[Record, str]]:
                     yield info, name
     elif isinstance(body, PipelineBarrier):
         for image in body.images:
-            record, name = (image, image.image) if isinstance(image, ImageBarrier) else (body, image)
+            record, name = (
+                (image, image.image) if isinstance(image, ImageBarrier) else (body, image)
+            )
             if name is not None:
                 yield record, name
     elif isinstance(body, Record):

@@ -12,7 +12,19 @@ from math import lcm
 from .commands import CLEAR, COMMAND_READS, COMMAND_WRITES, RESOLVE_WRITE, WRITE
 from .frame import Frame
 from .parts import RENDERING, Attachment, Resolve, Target
-from .timeline import BEGIN, DISCARD, ELSEWHERE, INPUT, LOAD, MAX_FRAMES, SOME_FRAMES, STORE, Event, Timeline, discards_all
+from .timeline import (
+    BEGIN,
+    DISCARD,
+    ELSEWHERE,
+    INPUT,
+    LOAD,
+    MAX_FRAMES,
+    SOME_FRAMES,
+    STORE,
+    Event,
+    Timeline,
+    discards_all,
+)
 
 READS = frozenset({LOAD, *COMMAND_READS})
 
@@ -23,13 +35,16 @@ def is_known(event: Event) -> bool:
 
 
 class AspectEvents:
-    """The events of one aspect of an image that load, write or end its contents, and to which of the frames laid out each belongs.
+    """The events of one aspect of an image that load, write or end its contents, and to which of
+    the frames laid out each belongs.
 
     What passes do between their load and store operations is left out.
     """
 
     def __init__(self, events: list[Event]) -> None:
-        periods = [event.frames[0] for event in events if event.frames and event.frames is not SOME_FRAMES]
+        periods = [
+            event.frames[0] for event in events if event.frames and event.frames is not SOME_FRAMES
+        ]
         self.events = events
         self.frames = [0] * len(events)
         if periods:
@@ -39,7 +54,11 @@ class AspectEvents:
         stated, self.events, self.frames = self.events, [], []
         for frame in range(count if count <= MAX_FRAMES else 0):
             for event in stated:
-                if event.frames is None or event.frames is SOME_FRAMES or frame % event.frames[0] in event.frames[1]:
+                if (
+                    event.frames is None
+                    or event.frames is SOME_FRAMES
+                    or frame % event.frames[0] in event.frames[1]
+                ):
                     self.events.append(event)
                     self.frames.append(frame)
 
@@ -54,11 +73,18 @@ class AspectEvents:
     def of(self, attachment: Attachment, *kinds: str) -> Sequence[int]:
         """The known events of some kinds that an attachment has."""
         indices = self._of_attachments.get(id(attachment), ())
-        return [index for index in indices if self.events[index].kind in kinds and is_known(self.events[index])]
+        return [
+            index
+            for index in indices
+            if self.events[index].kind in kinds and is_known(self.events[index])
+        ]
 
     def has_unknown(self, attachment: Attachment) -> bool:
         """Whether what an attachment does to the contents is unknown, some time."""
-        return any(not is_known(self.events[index]) for index in self._of_attachments.get(id(attachment), ()))
+        return any(
+            not is_known(self.events[index])
+            for index in self._of_attachments.get(id(attachment), ())
+        )
 
     @cached_property
     def never_loads(self) -> bool:
@@ -66,9 +92,13 @@ class AspectEvents:
         return all(is_known(event) and event.kind != LOAD for event in self.events)
 
     def _is_decisive(self, index: int) -> bool:
-        """Whether an event ends the life of what was there, reads it, or may do either; what writes after a barrier from UNDEFINED does."""
+        """Whether an event ends the life of what was there, reads it, or may do either; what writes
+        after a barrier from UNDEFINED does.
+        """
         event, before = self.events[index], self.before(index)
-        return _decides(event) or (_overwrites_in_part(event) and is_known(before) and discards_all(before))
+        return _decides(event) or (
+            _overwrites_in_part(event) and is_known(before) and discards_all(before)
+        )
 
     def before(self, index: int) -> Event:
         """The event before one, round the loop."""
@@ -79,7 +109,9 @@ class AspectEvents:
         return first < second and self.frames[first] == self.frames[second]
 
     def next_decisive(self, index: int) -> int | None:
-        """The next event, round the loop, that ends the life of what was there, reads it, or may do either."""
+        """The next event, round the loop, that ends the life of what was there, reads it, or may do
+        either.
+        """
         return self._decisive[index]
 
     def last_write(self, index: int) -> int | None:
@@ -92,10 +124,14 @@ class AspectEvents:
 
     @cached_property
     def _writes(self) -> list[int | None]:
-        return self._nearest([*range(len(self.events))], lambda index: not _is_known_read(self.events[index]))
+        return self._nearest(
+            [*range(len(self.events))], lambda index: not _is_known_read(self.events[index])
+        )
 
     def _nearest(self, order: list[int], accepts: Callable[[int], bool]) -> list[int | None]:
-        """For each event the accepted one that comes nearest before it in an order that goes round; itself, where there is no other."""
+        """For each event the accepted one that comes nearest before it in an order that goes round;
+        itself, where there is no other.
+        """
         found: list[int | None] = [None] * len(order)
         nearest: int | None = None
         for index in order * 2:
@@ -118,7 +154,9 @@ class Contents:
         key = (image, aspect)
         if key not in self._aspects:
             events = self.timeline.of.get(image, ()) if self.timeline.ordered else ()
-            self._aspects[key] = AspectEvents([event for event in events if event.aspect in (None, aspect) and _counts(event)])
+            self._aspects[key] = AspectEvents(
+                [event for event in events if event.aspect in (None, aspect) and _counts(event)]
+            )
         return self._aspects[key]
 
     def read_when_idle(self, image: str) -> bool:
@@ -127,10 +165,16 @@ class Contents:
 
     @cached_property
     def _idle_reads(self) -> set[str]:
-        return {image for image, events in self.timeline.idle.items() if any(event.kind in (LOAD, INPUT) for event in events)}
+        return {
+            image
+            for image, events in self.timeline.idle.items()
+            if any(event.kind in (LOAD, INPUT) for event in events)
+        }
 
     def has_twin(self, target: Target) -> bool:
-        """Whether the frame reads an image of the same format, samples and size that it never writes."""
+        """Whether the frame reads an image of the same format, samples and size that it never
+        writes.
+        """
         return _likeness(target) in self._unwritten
 
     @cached_property
@@ -139,7 +183,11 @@ class Contents:
         for name, events in self.timeline.of.items() if self.timeline.ordered else ():
             target = self.frame.target(name)
             counted = [event for event in events if _counts(event)]
-            if target is not None and counted and all(event.kind in READS and is_known(event) for event in counted):
+            if (
+                target is not None
+                and counted
+                and all(event.kind in READS and is_known(event) for event in counted)
+            ):
                 found.add(_likeness(target))
         return found
 
@@ -156,9 +204,16 @@ def _decides(event: Event) -> bool:
     if not is_known(event) or event.kind in READS:
         return True
     if event.kind == DISCARD and event.command is not None:
-        # After a barrier from UNDEFINED the next use tells: a load that finds nothing was to find what was stored.
+        # After a barrier from UNDEFINED the next use tells: a load that finds nothing was to find
+        # what was stored.
         return False
-    return event.whole and event.kind in (BEGIN, CLEAR, DISCARD, RESOLVE_WRITE, *(COMMAND_WRITES - {WRITE}))
+    return event.whole and event.kind in (
+        BEGIN,
+        CLEAR,
+        DISCARD,
+        RESOLVE_WRITE,
+        *(COMMAND_WRITES - {WRITE}),
+    )
 
 
 def _is_known_read(event: Event) -> bool:

@@ -12,9 +12,15 @@ from .frame import Frame
 
 
 def copies(frame: Frame, around: Facts) -> Iterator[Subject]:
-    """The copies and blits of a frame, between images and between an image and a buffer, with their facts."""
+    """The copies and blits of a frame, between images and between an image and a buffer, with their
+    facts.
+    """
     for command in frame.commands:
-        ends = {access.effect: (name, access.member) for name, access in accesses(command) if access.effect in (COPY_READ, COPY_WRITE)}
+        ends = {
+            access.effect: (name, access.member)
+            for name, access in accesses(command)
+            if access.effect in (COPY_READ, COPY_WRITE)
+        }
         body = command.body
         if not ends or not isinstance(body, Record):
             continue
@@ -33,6 +39,12 @@ def copies(frame: Frame, around: Facts) -> Iterator[Subject]:
                 multisampled_at = body.place(member)
         known = [count for count in counts if count is not None]
         multisampled = any(count > 1 for count in known)
-        facts.put("copy.multisampled", True if multisampled else None if None in counts else False, multisampled_at)
-        facts.put("copy.counts_differ", None if len(known) < 2 else known[0] != known[1], multisampled_at)
+        facts.put(
+            "copy.multisampled",
+            True if multisampled else None if None in counts else False,
+            multisampled_at,
+        )
+        facts.put(
+            "copy.counts_differ", None if len(known) < 2 else known[0] != known[1], multisampled_at
+        )
         yield Subject("copy", command.path, command.head, facts)

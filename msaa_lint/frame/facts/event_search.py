@@ -1,4 +1,6 @@
-"""What follows an event of an image, round the loop of the frame, within and between passes: who uses what was written there."""
+"""What follows an event of an image, round the loop of the frame, within and between passes: who
+uses what was written there.
+"""
 
 from __future__ import annotations
 
@@ -12,15 +14,18 @@ from .timeline import BEGIN, DISCARD, DRAW, ELSEWHERE, INPUT, LOAD, STORE, Event
 from .walk import PassRun
 
 _READS = frozenset({LOAD, DRAW, INPUT, RESOLVE_READ, READ, COPY_READ, PRESENT})
-"""What makes use of what was there. A draw without a load uses what an earlier subpass made: it blends or tests with it."""
+"""What makes use of what was there. A draw without a load uses what an earlier subpass made: it
+blends or tests with it.
+"""
 
 ENDS = frozenset({BEGIN, CLEAR, DISCARD})
 """What ends what was there; a resolve that overwrites it aside."""
 
 MIN_STEPS = 50_000
 STEPS_PER_STRUCTURE = 32
-"""How many events are looked at to find what follows: so many, and more by the structures of a frame. A frame of some thousand passes takes
-some ten thousand."""
+"""How many events are looked at to find what follows: so many, and more by the structures of a
+frame. A frame of some thousand passes takes some ten thousand.
+"""
 
 
 def is_unknown(event: Event) -> bool:
@@ -89,7 +94,9 @@ class EventSearch:
         return self.of[ref.image][ref.number]
 
     def after(self, ref: EventRef, aspect: str | None) -> Iterator[tuple[Event, bool]]:
-        """What happens to an image after a place, round the loop up to that place; the second says whether that is in the next frame."""
+        """What happens to an image after a place, round the loop up to that place; the second says
+        whether that is in the next frame.
+        """
         events = self.of[ref.image]
         count = len(events)
         for step in range(1, count + 1):
@@ -101,19 +108,24 @@ class EventSearch:
                 yield event, ref.number + step >= count
 
     def first_use(self, ref: EventRef) -> tuple[Event | None, bool]:
-        """What first reads what was written at a place, or ends it, or leaves that unknown; whether in the next frame.
+        """What first reads what was written at a place, or ends it, or leaves that unknown; whether
+        in the next frame.
 
         None where nothing does, or more happens than is looked at: see `steps_left`.
         """
         if ref not in self._first_uses:
             following = self.after(ref, self.event(ref).aspect)
-            self._first_uses[ref] = next(((event, later) for event, later in following if _decides(event)), (None, False))
+            self._first_uses[ref] = next(
+                ((event, later) for event, later in following if _decides(event)), (None, False)
+            )
         return self._first_uses[ref]
 
 
 def ends_contents(event: Event) -> bool:
     """Whether an event certainly ends all of what was there."""
-    return every_time(event) and (event.kind in ENDS or (event.kind == RESOLVE_WRITE and event.certain))
+    return every_time(event) and (
+        event.kind in ENDS or (event.kind == RESOLVE_WRITE and event.certain)
+    )
 
 
 def _decides(event: Event) -> bool:

@@ -26,7 +26,9 @@ class Facts:
             self.places.update(other.places)
 
     def put(self, name: str, value: Value | None, at: Span | None = None) -> None:
-        """Adds a fact, unless it is unknown; its place is kept either way, to point at what was to be stated."""
+        """Adds a fact, unless it is unknown; its place is kept either way, to point at what was to
+        be stated.
+        """
         if value is not None:
             self.values[name] = value
         if at is not None:
@@ -36,9 +38,10 @@ class Facts:
 class Subject(NamedTuple):
     """What a rule judges: `kind` is a key of `table.SUBJECTS`.
 
-    The other members are the parts of the frame that the subject stands for: an aspect has its `attachment` as well, a pipeline the
-    `subpass` that it draws in, the read of an image the `position` of the command, the read of an input attachment the `pipeline`.
-    `owner` is the pass that `attachment`, `subpass`, or `resolve` is part of, which without it might be freed.
+    The other members are the parts of the frame that the subject stands for: an aspect has its
+    `attachment` as well, a pipeline the `subpass` that it draws in, the read of an image the
+    `position` of the command, the read of an input attachment the `pipeline`. `owner` is the pass
+    that `attachment`, `subpass`, or `resolve` is part of, which without it might be freed.
     """
 
     kind: str
@@ -58,12 +61,21 @@ class Subject(NamedTuple):
 
     @property
     def images(self) -> frozenset[str]:
-        """The names of the images that the subject concerns: its own, or those of its attachment or resolve."""
+        """The names of the images that the subject concerns: its own, or those of its attachment or
+        resolve.
+        """
         targets = [self.image, *(self.attachment.targets if self.attachment is not None else ())]
         if self.resolve is not None:
             targets += (self.resolve.source_image, self.resolve.target_image)
-            targets += (target for end in (self.resolve.source, self.resolve.target) if end is not None for target in end.targets)
-        return frozenset(target.name for target in targets if target is not None and target.image is not None)
+            targets += (
+                target
+                for end in (self.resolve.source, self.resolve.target)
+                if end is not None
+                for target in end.targets
+            )
+        return frozenset(
+            target.name for target in targets if target is not None and target.image is not None
+        )
 
 
 def known(*values: bool | None) -> bool | None:

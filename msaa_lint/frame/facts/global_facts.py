@@ -24,11 +24,15 @@ FEATURES = {
 """By fact: the features that the application enables; unknown where it states none."""
 
 DEFAULT_EFFICIENT_SAMPLES = 4
-"""What Arm's and Imagination's guides advise as the most without a measurement, and the validation layer's constant for both."""
+"""What Arm's and Imagination's guides advise as the most without a measurement, and the validation
+layer's constant for both.
+"""
 
 
 def profile(description: Description, default: DeviceProfile | None = None) -> DeviceProfile | None:
-    """The device that a description describes, or the built-in one that it names, else the given one: that of the report that it names."""
+    """The device that a description describes, or the built-in one that it names, else the given
+    one: that of the report that it names.
+    """
     stated = description.device
     if isinstance(stated, Device):
         return described(stated)
@@ -38,7 +42,9 @@ def profile(description: Description, default: DeviceProfile | None = None) -> D
 
 
 def of_family(description: Description) -> DeviceProfile | None:
-    """What the GPU family that a frame in Metal's words states has in common; None where it states none of Apple's."""
+    """What the GPU family that a frame in Metal's words states has in common; None where it states
+    none of Apple's.
+    """
     metal = description.metal
     if metal is None or metal.family is None:
         return None
@@ -48,11 +54,18 @@ def of_family(description: Description) -> DeviceProfile | None:
 
 
 def described(device: Device) -> DeviceProfile:
-    """A device mapping as a profile. What its `tile` or `compression` misstates is a problem of the description, and unknown here."""
+    """A device mapping as a profile. What its `tile` or `compression` misstates is a problem of the
+    description, and unknown here.
+    """
     counts = device.sampleCounts
     tile, compression, most = None, None, None
     if device.tile is not None or device.compression is not None:
-        from msaa_lint.frame.devices.tile_models import Misstated, stated_compression, stated_most, stated_tile
+        from msaa_lint.frame.devices.tile_models import (
+            Misstated,
+            stated_compression,
+            stated_most,
+            stated_tile,
+        )
 
         stated = stated_tile(device.tile), stated_compression(device.compression)
         tile = None if isinstance(stated[0], Misstated) else stated[0]
@@ -100,10 +113,14 @@ def global_facts(description: Description, device: DeviceProfile | None) -> Fact
     scene = description.scene
     if scene is not None:
         facts.put("scene.color", scene.color, scene.place("color"))
-        facts.put("scene.peak", float(scene.peak) if scene.peak is not None else None, scene.place("peak"))
+        facts.put(
+            "scene.peak", float(scene.peak) if scene.peak is not None else None, scene.place("peak")
+        )
         facts.put("scene.tone_mapping", scene.toneMapping, scene.place("toneMapping"))
         facts.put("scene.depth", scene.depth, scene.place("depth"))
-        facts.put("scene.depth_resolve_wants", scene.depthResolveWants, scene.place("depthResolveWants"))
+        facts.put(
+            "scene.depth_resolve_wants", scene.depthResolveWants, scene.place("depthResolveWants")
+        )
     return facts
 
 
@@ -111,7 +128,10 @@ def _device(facts: Facts, device: DeviceProfile | None) -> None:
     facts.put("device.known", device is not None and not device.minimum)
     facts.put("device.minimum", device is not None and device.minimum)
     efficient = device.max_efficient_samples if device is not None else None
-    facts.put("device.max_efficient_samples", efficient if efficient is not None else DEFAULT_EFFICIENT_SAMPLES)
+    facts.put(
+        "device.max_efficient_samples",
+        efficient if efficient is not None else DEFAULT_EFFICIENT_SAMPLES,
+    )
     facts.put("device.accelerates_float_blending", is_valhall_or_later(device) is True)
     facts.put("device.immediate_mode", device is not None and device.tiler is False)
     if device is None:
@@ -120,7 +140,11 @@ def _device(facts: Facts, device: DeviceProfile | None) -> None:
     facts.put("device.name", device.name)
     facts.put("device.vendor", device.vendor)
     facts.put("device.tiler", device.tiler)
-    lazy = any("LAZILY_ALLOCATED" in flags for flags in device.memory_types) if device.memory_types is not None else None
+    lazy = (
+        any("LAZILY_ALLOCATED" in flags for flags in device.memory_types)
+        if device.memory_types is not None
+        else None
+    )
     if device.minimum and lazy is False:
         lazy = None
     facts.put("device.lazy_memory", lazy)
@@ -129,7 +153,9 @@ def _device(facts: Facts, device: DeviceProfile | None) -> None:
 
 
 def offers(device: DeviceProfile, listed: tuple[str, ...] | None, name: str) -> bool | None:
-    """Whether a device's list has a name; unknown where it is not stated, and where a class of devices does not promise it."""
+    """Whether a device's list has a name; unknown where it is not stated, and where a class of
+    devices does not promise it.
+    """
     if listed is None:
         return None
     return True if name in listed else (None if device.minimum else False)
@@ -142,7 +168,9 @@ def _enabled(facts: Facts, description: Description, device: DeviceProfile | Non
     if enabled is not None and features is not None:
         for fact, feature in FEATURES.items():
             facts.put(fact, feature in features, enabled.place("features"))
-    elif enabled is not None and extensions is not None and "VK_KHR_maintenance10" not in extensions:
+    elif (
+        enabled is not None and extensions is not None and "VK_KHR_maintenance10" not in extensions
+    ):
         facts.put("enabled.maintenance10", False, enabled.place("extensions"))
     offered = device.extensions if device is not None and extensions is None else None
     facts.put("enabled.mixed_samples", not MIXED_SAMPLES.isdisjoint(extensions or ()))
@@ -153,25 +181,37 @@ def _enabled(facts: Facts, description: Description, device: DeviceProfile | Non
     if extensions is None and version is None and device is not None:
         extensions, version = device.extensions, device.api_version
         if device.minimum:
-            extensions = extensions if extensions is not None and "VK_KHR_depth_stencil_resolve" in extensions else None
+            extensions = (
+                extensions
+                if extensions is not None and "VK_KHR_depth_stencil_resolve" in extensions
+                else None
+            )
     facts.put("enabled.depth_stencil_resolve", _depth_stencil_resolve(extensions, version))
 
 
 def single_sampled_enabled(description: Description) -> bool:
-    """Whether the application enables the feature of VK_EXT_multisampled_render_to_single_sampled."""
+    """Whether the application enables the feature of
+    VK_EXT_multisampled_render_to_single_sampled.
+    """
     enabled = description.enabled
     return enabled is not None and "multisampledRenderToSingleSampled" in (enabled.features or ())
 
 
 def single_sampled_offered(description: Description, device: DeviceProfile | None) -> bool:
-    """Whether the device offers VK_EXT_multisampled_render_to_single_sampled and the description does not state what is enabled."""
+    """Whether the device offers VK_EXT_multisampled_render_to_single_sampled and the description
+    does not state what is enabled.
+    """
     enabled = description.enabled
-    stated = enabled is not None and (enabled.features is not None or enabled.extensions is not None)
+    stated = enabled is not None and (
+        enabled.features is not None or enabled.extensions is not None
+    )
     return not stated and device is not None and SINGLE_SAMPLED in (device.extensions or ())
 
 
 def _depth_stencil_resolve(extensions: tuple[str, ...] | None, version: str | None) -> bool | None:
-    """Core in Vulkan 1.2, an extension before; unknown unless both are stated, or either says yes."""
+    """Core in Vulkan 1.2, an extension before; unknown unless both are stated, or either says
+    yes.
+    """
     number = _version(version)
     if number is not None and number >= (1, 2):
         return True
@@ -182,6 +222,8 @@ def _depth_stencil_resolve(extensions: tuple[str, ...] | None, version: str | No
 
 def _version(text: str | None) -> tuple[int, int] | None:
     parts = (text or "").split(".")
-    if len(parts) < 2 or not all(part.isascii() and part.isdigit() and len(part) < 6 for part in parts[:2]):
+    if len(parts) < 2 or not all(
+        part.isascii() and part.isdigit() and len(part) < 6 for part in parts[:2]
+    ):
         return None
     return int(parts[0]), int(parts[1])

@@ -1,4 +1,6 @@
-"""Facts of one object, or of objects that stand for each other, that are known from several frames."""
+"""Facts of one object, or of objects that stand for each other, that are known from several
+frames.
+"""
 
 from __future__ import annotations
 
@@ -34,7 +36,9 @@ IN_ALL = (
 
 
 def join_facts(facts: Sequence[Facts], every: Sequence[Facts] = ()) -> None:
-    """Replaces facts by what holds for all frames that have a say, in `every` frame that has the object."""
+    """Replaces facts by what holds for all frames that have a say, in `every` frame that has the
+    object.
+    """
     names = dict.fromkeys(name for each in facts for name in each.values)
     if not facts:
         return
@@ -51,4 +55,6 @@ def join_facts(facts: Sequence[Facts], every: Sequence[Facts] = ()) -> None:
         operations = each.values["aspect.costly_operations"]
         assert isinstance(operations, list)
         if "STORE" in operations and each.values.get("aspect.read_later") is not False:
-            each.values["aspect.costly_operations"] = [str(operation) for operation in operations if operation != "STORE"]
+            each.values["aspect.costly_operations"] = [
+                str(operation) for operation in operations if operation != "STORE"
+            ]

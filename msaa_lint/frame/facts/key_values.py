@@ -37,7 +37,9 @@ MAX_WORDS = 7
 
 
 def values(shape: Shape, path: str) -> str:
-    """What the key at the end of a path may hold, in words; `shape` is that of the path's first member."""
+    """What the key at the end of a path may hold, in words; `shape` is that of the path's first
+    member.
+    """
     return _IN_WORDS.get(path.rpartition(".")[2]) or _values(shape, path.partition(".")[2])
 
 
@@ -55,7 +57,11 @@ def _values(shape: Shape, rest: str = "") -> str:
         return " or ".join(dict.fromkeys(_values(each, rest) for each in shape[1:]))
     if kind in ("enum", "word", "caseless"):
         words = list(map(str, shape[1])) if kind != "enum" else _enumerants(shape[1])
-        return f"{', '.join(words[:-1])} or {words[-1]}" if 1 < len(words) <= MAX_WORDS else _type(shape)
+        return (
+            f"{', '.join(words[:-1])} or {words[-1]}"
+            if 1 < len(words) <= MAX_WORDS
+            else _type(shape)
+        )
     return _type(shape)
 
 

@@ -1,4 +1,5 @@
-"""Facts of an aspect's contents over time: whether anything reads what is stored, whether a load finds anything, what came before.
+"""Facts of an aspect's contents over time: whether anything reads what is stored, whether a load
+finds anything, what came before.
 
 Every run of a pass counts, with every framebuffer.
 """
@@ -20,11 +21,17 @@ Bound = list[tuple[Target, AspectEvents]]
 """The images of an attachment, each with what happens to the aspect."""
 
 
-def lifetime_facts(facts: Facts, attachment: Attachment, aspect: Aspect, contents: Contents) -> None:
+def lifetime_facts(
+    facts: Facts, attachment: Attachment, aspect: Aspect, contents: Contents
+) -> None:
     """Adds what the frame says of an aspect's contents before and after the pass."""
     bound: Bound = []
     if attachment.used and aspect.name is not None:
-        bound = [(target, contents.of(target.name, aspect.name)) for target in attachment.targets if target.image is not None]
+        bound = [
+            (target, contents.of(target.name, aspect.name))
+            for target in attachment.targets
+            if target.image is not None
+        ]
         _put_store(facts, attachment, aspect, bound, contents)
         _put_undefined(facts, attachment, aspect, bound, contents)
     elif facts.values.get("attachment.used") is False:
@@ -37,8 +44,12 @@ def lifetime_facts(facts: Facts, attachment: Attachment, aspect: Aspect, content
         facts.put("aspect.copied_before", False)
 
 
-def _put_store(facts: Facts, attachment: Attachment, aspect: Aspect, bound: Bound, contents: Contents) -> None:
-    """Whether anything reads what the pass stores, before it is overwritten or the frame comes round."""
+def _put_store(
+    facts: Facts, attachment: Attachment, aspect: Aspect, bound: Bound, contents: Contents
+) -> None:
+    """Whether anything reads what the pass stores, before it is overwritten or the frame comes
+    round.
+    """
     if aspect.store in ("DONT_CARE", "NONE", SUSPENDED):
         facts.put("aspect.store_wasted", False)
         return
@@ -69,12 +80,16 @@ def _put_store(facts: Facts, attachment: Attachment, aspect: Aspect, bound: Boun
             facts.put("aspect.overwritten_by", first_end.name, first_end.place)
 
 
-def _unread_outside(target: Target, attachment: Attachment, aspect: Aspect, same_frame: bool, contents: Contents) -> bool | None:
-    """Whether nothing that is not described reads what is left in an image: True by its usage, or as the commands leave no time for it;
-    False where only the commands of a whole frame speak for it; None where something may.
+def _unread_outside(
+    target: Target, attachment: Attachment, aspect: Aspect, same_frame: bool, contents: Contents
+) -> bool | None:
+    """Whether nothing that is not described reads what is left in an image: True by its usage, or
+    as the commands leave no time for it; False where only the commands of a whole frame speak for
+    it; None where something may.
 
-    `same_frame`: it is overwritten in the frame that stored it. Images that change places from frame to frame, a history and what becomes
-    it, look in one frame like one that nothing reads and one that nothing writes.
+    `same_frame`: it is overwritten in the frame that stored it. Images that change places from
+    frame to frame, a history and what becomes it, look in one frame like one that nothing reads and
+    one that nothing writes.
     """
     image = target.image
     assert image is not None
@@ -95,8 +110,12 @@ def _unread_outside(target: Target, attachment: Attachment, aspect: Aspect, same
     return False if commands and presents and not contents.has_twin(target) else None
 
 
-def _put_undefined(facts: Facts, attachment: Attachment, aspect: Aspect, bound: Bound, contents: Contents) -> None:
-    """Whether the pass loads contents that were thrown away, or something reads what it throws away."""
+def _put_undefined(
+    facts: Facts, attachment: Attachment, aspect: Aspect, bound: Bound, contents: Contents
+) -> None:
+    """Whether the pass loads contents that were thrown away, or something reads what it throws
+    away.
+    """
     loads = _discard_before_load(attachment, bound, contents)
     if loads is not None:
         discard, same_frame = loads
@@ -115,14 +134,24 @@ def _put_undefined(facts: Facts, attachment: Attachment, aspect: Aspect, bound: 
         facts.put("aspect.undefined_within_frame", same_frame)
 
 
-def _discard_before_load(attachment: Attachment, bound: Bound, contents: Contents) -> tuple[Event, bool] | None:
-    """What threw away the contents that an attachment loads, in some frame, and whether in the same one."""
+def _discard_before_load(
+    attachment: Attachment, bound: Bound, contents: Contents
+) -> tuple[Event, bool] | None:
+    """What threw away the contents that an attachment loads, in some frame, and whether in the same
+    one.
+    """
     found: tuple[Event, bool] | None = None
     for target, line in bound:
         for index in line.of(attachment, LOAD):
             before = line.last_write(index)
             event = line.events[before] if before is not None else None
-            if before is None or event is None or event.kind != DISCARD or not is_known(event) or not event.whole:
+            if (
+                before is None
+                or event is None
+                or event.kind != DISCARD
+                or not is_known(event)
+                or not event.whole
+            ):
                 continue
             same_frame = line.same_frame(before, index)
             if (found is None or same_frame) and _unwritten_outside(target, same_frame, contents):
@@ -132,27 +161,40 @@ def _discard_before_load(attachment: Attachment, bound: Bound, contents: Content
     return found
 
 
-def _reader_of_discarded(attachment: Attachment, bound: Bound, contents: Contents) -> tuple[Event, bool] | None:
-    """The command that reads what an attachment throws away, in some frame, and whether in the same one."""
+def _reader_of_discarded(
+    attachment: Attachment, bound: Bound, contents: Contents
+) -> tuple[Event, bool] | None:
+    """The command that reads what an attachment throws away, in some frame, and whether in the same
+    one.
+    """
     for target, line in bound:
         # A command does not say whether it reads depth or stencil.
         one_aspect = target.format is not None and len(target.format.aspects) == 1
         for index in line.of(attachment, DISCARD) if one_aspect else ():
             after = (index + 1) % len(line.events)
             same_frame = line.same_frame(index, after)
-            if line.events[index].whole and _certainly_reads(line, after) and _unwritten_outside(target, same_frame, contents):
+            if (
+                line.events[index].whole
+                and _certainly_reads(line, after)
+                and _unwritten_outside(target, same_frame, contents)
+            ):
                 return line.events[after], same_frame
     return None
 
 
 def _certainly_reads(line: AspectEvents, index: int) -> bool:
-    """Whether a command reads, and not only may: a shader whose access is not stated, or that writes the image next, need not."""
+    """Whether a command reads, and not only may: a shader whose access is not stated, or that
+    writes the image next, need not.
+    """
     event = line.events[index]
     if event.kind not in COMMAND_READS or event.command is None:
         return False
     if not isinstance(event.command.body, ReadImage):
         return True
-    return event.command.body.access is not None and line.events[(index + 1) % len(line.events)].kind != WRITE
+    return (
+        event.command.body.access is not None
+        and line.events[(index + 1) % len(line.events)].kind != WRITE
+    )
 
 
 def _unwritten_outside(target: Target, same_frame: bool, contents: Contents) -> bool:
@@ -162,11 +204,17 @@ def _unwritten_outside(target: Target, same_frame: bool, contents: Contents) -> 
         return True
     image = target.image
     assert image is not None
-    return image.usage is not None and _WRITING_USAGES.isdisjoint(image.usage) and (same_frame or commands)
+    return (
+        image.usage is not None
+        and _WRITING_USAGES.isdisjoint(image.usage)
+        and (same_frame or commands)
+    )
 
 
 def _put_commands_before(facts: Facts, attachment: Attachment, bound: Bound) -> None:
-    """The clear before every run of the pass with the image, the copy before some run that loads it."""
+    """The clear before every run of the pass with the image, the copy before some run that loads
+    it.
+    """
     clears: list[Event | None] = []
     copy: Event | None = None
     for target, line in bound:
@@ -175,7 +223,12 @@ def _put_commands_before(facts: Facts, attachment: Attachment, bound: Bound) -> 
         for index in (*line.of(attachment, LOAD), *line.of(attachment, BEGIN)):
             before, begin = line.before(index), line.events[index]
             clears.append(before if before.kind == CLEAR and before.whole and begin.whole else None)
-            if begin.kind == LOAD and before.command is not None and before.kind in (COPY_WRITE, RESOLVE_WRITE) and plain(target):
+            if (
+                begin.kind == LOAD
+                and before.command is not None
+                and before.kind in (COPY_WRITE, RESOLVE_WRITE)
+                and plain(target)
+            ):
                 copy = copy or before
     first = clears[0] if clears and None not in clears else None
     if first is not None and facts.values.get("aspect.cleared_by_command") is False:

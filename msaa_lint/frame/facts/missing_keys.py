@@ -1,6 +1,7 @@
 """The keys that a description lacks for a fact: where each belongs, and what it may hold.
 
-A part of the frame (`image` in `image.usage`) stands for records of the description, which depend on the subject that the fact is of.
+A part of the frame (`image` in `image.usage`) stands for records of the description, which depend
+on the subject that the fact is of.
 """
 
 from __future__ import annotations
@@ -10,7 +11,15 @@ from functools import cached_property
 
 from msaa_lint.core.allowance import Allowance
 from msaa_lint.core.finding import MissingKey
-from msaa_lint.frame.description.models import BeginRenderPass, Description, Device, Image, Pipeline, ReadImage, RenderPass
+from msaa_lint.frame.description.models import (
+    BeginRenderPass,
+    Description,
+    Device,
+    Image,
+    Pipeline,
+    ReadImage,
+    RenderPass,
+)
 from msaa_lint.frame.description.record import Record
 
 from .attachment import resolves_at
@@ -26,14 +35,17 @@ Place = tuple[Record, str]
 """A record and the path of a member from it."""
 
 _METAL_IMAGE = {
-    "format": "pixelFormat", "samples": "sampleCount", "usage": "usage", "memory": "storageMode", "imageType": "textureType",
-    "mipLevels": "mipmapLevelCount", "presentable": "drawable", "encoding": "encoding", "extent": "width",
+    "format": "pixelFormat", "samples": "sampleCount", "usage": "usage", "memory": "storageMode",
+    "imageType": "textureType",
+    "mipLevels": "mipmapLevelCount", "presentable": "drawable", "encoding": "encoding",
+    "extent": "width",
     "extent.width": "width", "extent.height": "height",
     "storageMode": "storageMode", "textureType": "textureType",
 }  # fmt: skip
 _METAL_ATTACHMENT = {
     "image": "texture", "format": "texture", "samples": "texture",
-    "loadOp": "loadAction", "stencilLoadOp": "loadAction", "storeOp": "storeAction", "stencilStoreOp": "storeAction",
+    "loadOp": "loadAction", "stencilLoadOp": "loadAction", "storeOp": "storeAction",
+    "stencilStoreOp": "storeAction",
 }  # fmt: skip
 _METAL_PIPELINE = {
     "multisampleState.rasterizationSamples": "rasterSampleCount",
@@ -42,14 +54,19 @@ _METAL_PIPELINE = {
     "rasterizationState.rasterizerDiscardEnable": "isRasterizationEnabled",
     "renderPass": "renderPass",
 }
-_COMMANDS = {"pipelineBarrier": "a command before the first reader", "present": "a command at the end of the frame"}
+_COMMANDS = {
+    "pipelineBarrier": "a command before the first reader",
+    "present": "a command at the end of the frame",
+}
 """The commands that a fact may hang on, and what they are."""
 
 _SIBLING = {"format": "samples", "samples": "format"}
 
 
 MAX_STEPS = 200_000
-"""Members that are looked at for the keys of a frame: many subjects may depend on the same many structures."""
+"""Members that are looked at for the keys of a frame: many subjects may depend on the same many
+structures.
+"""
 
 
 class MissingKeys:
@@ -65,7 +82,9 @@ class MissingKeys:
         self._steps = Allowance(MAX_STEPS)
 
     def of(self, subject: Subject, fact: str) -> list[MissingKey]:
-        """The keys to write next so that a fact of a subject is known; empty if no key is missing."""
+        """The keys to write next so that a fact of a subject is known; empty if no key is
+        missing.
+        """
         for group in KEYS.get(fact, "").split(";"):
             found: dict[tuple[str, str], MissingKey] = {}
             for key in group.split():
@@ -87,9 +106,13 @@ class MissingKeys:
 
     def _places(self, subject: Subject, key: str) -> Iterator[Place]:
         part, _, member = key.partition(".")
-        places = _PARTS[part](self, subject, member) if part in _PARTS else [(self.description, key)]
+        places = (
+            _PARTS[part](self, subject, member) if part in _PARTS else [(self.description, key)]
+        )
         for record, path in places:
-            yield from [(record, path)] if self.lowered is None else self._in_metal(record, path, subject)
+            yield from (
+                [(record, path)] if self.lowered is None else self._in_metal(record, path, subject)
+            )
 
     def _command(self, kind: str) -> dict[tuple[str, str], MissingKey]:
         """A command that the commands of the frame lack."""
@@ -108,7 +131,11 @@ class MissingKeys:
     def _images(self, subject: Subject) -> list[Target]:
         """The images that a subject is about, each once."""
         targets = (
-            [subject.image] if subject.image is not None else list(subject.attachment.targets) if subject.attachment is not None else []
+            [subject.image]
+            if subject.image is not None
+            else list(subject.attachment.targets)
+            if subject.attachment is not None
+            else []
         )
         return list({id(target.record): target for target in targets}.values())
 
@@ -118,19 +145,32 @@ class MissingKeys:
             if member == "loadOp":
                 yield from self._operations(bound, "load")
             elif target.image is None:
-                yield (target.record, member if self._stands_alone(target.record, member) else "image")
+                yield (
+                    target.record,
+                    member if self._stands_alone(target.record, member) else "image",
+                )
             elif member == "resolves":
-                yield from ((read, member) for read in self.analysis.bindings.reads.get(target.name, []))
+                yield from (
+                    (read, member) for read in self.analysis.bindings.reads.get(target.name, [])
+                )
             elif member in _SIBLING and not target.image.states(_SIBLING[member]):
                 # Where the format is stated, the sample count belongs, too.
-                stating = (attachment.record for attachment in bound if attachment.record.states(_SIBLING[member]))
+                stating = (
+                    attachment.record
+                    for attachment in bound
+                    if attachment.record.states(_SIBLING[member])
+                )
                 yield (next(stating, target.image), member)
             elif member != "image":
                 yield (target.image, member)
 
     def _stands_alone(self, record: Record, member: str) -> bool:
         """Whether an attachment without an image states its own format and sample count."""
-        return member in _SIBLING and member in record.SHAPE and (record.states(_SIBLING[member]) or not self.description.images)
+        return (
+            member in _SIBLING
+            and member in record.SHAPE
+            and (record.states(_SIBLING[member]) or not self.description.images)
+        )
 
     # Attachments
 
@@ -140,7 +180,10 @@ class MissingKeys:
         attachment = subject.attachment
         if member in ("load", "store"):
             aspects = [subject.aspect] if subject.aspect is not None else attachment.aspects
-            yield from ((attachment.record, aspect.load_member if member == "load" else aspect.store_member) for aspect in aspects)
+            yield from (
+                (attachment.record, aspect.load_member if member == "load" else aspect.store_member)
+                for aspect in aspects
+            )
         elif member == "initial":
             name = subject.aspect.name if subject.aspect is not None else None
             separate = name == "stencil" and attachment.record.states("stencilInitialLayout")
@@ -156,12 +199,20 @@ class MissingKeys:
     @cached_property
     def _resolves(self) -> dict[int, list[Resolve]]:
         """The resolves by the attachments, by identity, that they read or write."""
-        return {key: resolves for render_pass in self.frame.passes for key, resolves in resolves_at(render_pass).items()}
+        return {
+            key: resolves
+            for render_pass in self.frame.passes
+            for key, resolves in resolves_at(render_pass).items()
+        }
 
     def _of_attachment(self, attachment: Attachment, member: str) -> Iterator[Place]:
         """The format or the sample count of an attachment: its own, or its image's."""
         images = any(target.image is not None for target in attachment.targets)
-        if member in attachment.record.SHAPE and images and attachment.record.states(_SIBLING[member]):
+        if (
+            member in attachment.record.SHAPE
+            and images
+            and attachment.record.states(_SIBLING[member])
+        ):
             yield (attachment.record, member)
         else:
             yield from self._of_images(attachment.targets, member)
@@ -169,15 +220,27 @@ class MissingKeys:
     def _operations(self, attachments: Iterable[Attachment], operation: str) -> Iterator[Place]:
         for attachment in attachments:
             for aspect in attachment.aspects:
-                yield (attachment.record, aspect.load_member if operation == "load" else aspect.store_member)
+                yield (
+                    attachment.record,
+                    aspect.load_member if operation == "load" else aspect.store_member,
+                )
 
     def _attachments(self, subject: Subject, member: str) -> Iterator[Place]:
         """All attachments of the subpass or pass that a subject is about."""
         render_pass = self._pass_of(subject)
-        draws = self._draws.get(subject.pipeline.key, ()) if subject.pipeline is not None and subject.subpass is None else ()
+        draws = (
+            self._draws.get(subject.pipeline.key, ())
+            if subject.pipeline is not None and subject.subpass is None
+            else ()
+        )
         subpasses = [draw.subpass for draw in draws] if draws else [subject.subpass]
         drawn_in = [subpass for subpass in subpasses if subpass is not None]
-        attachments = [each for subpass in drawn_in for each in (*subpass.color, *subpass.depth_stencil) if each is not None]
+        attachments = [
+            each
+            for subpass in drawn_in
+            for each in (*subpass.color, *subpass.depth_stencil)
+            if each is not None
+        ]
         if not drawn_in and render_pass is not None:
             attachments = render_pass.attachments
         if member in ("load", "store"):
@@ -195,16 +258,30 @@ class MissingKeys:
         resolve = subject.resolve
         if resolve is None:
             return
-        if member == end or (resolve.read_part if end == "source" else resolve.written_part) is None:
+        if (
+            member == end
+            or (resolve.read_part if end == "source" else resolve.written_part) is None
+        ):
             yield from self._end_of(resolve, end)
             return
-        attachment, image = (resolve.source, resolve.source_image) if end == "source" else (resolve.target, resolve.target_image)
+        attachment, image = (
+            (resolve.source, resolve.source_image)
+            if end == "source"
+            else (resolve.target, resolve.target_image)
+        )
         if attachment is not None and member == "store":
             yield from self._operations([attachment], member)
         elif attachment is not None and member in _SIBLING:
             yield from self._of_attachment(attachment, member)
         else:
-            yield from self._of_images([image] if image is not None else attachment.targets if attachment is not None else [], member)
+            yield from self._of_images(
+                [image]
+                if image is not None
+                else attachment.targets
+                if attachment is not None
+                else [],
+                member,
+            )
 
     def _end_of(self, resolve: Resolve, end: str) -> Iterator[Place]:
         """The key that names what a resolve reads or writes."""
@@ -214,7 +291,10 @@ class MissingKeys:
             yield (resolve.record, "image" if end == "source" else "resolveImage")
         elif end == "source" and resolve.render_pass is not None:
             subpass = resolve.render_pass.subpasses[resolve.subpass].record
-            yield (subpass, "colorAttachments" if resolve.aspect == "color" else "depthStencilAttachment")
+            yield (
+                subpass,
+                "colorAttachments" if resolve.aspect == "color" else "depthStencilAttachment",
+            )
         else:
             yield (resolve.record, "attachment")
 
@@ -232,7 +312,11 @@ class MissingKeys:
     @cached_property
     def _pass_at(self) -> dict[str, Pass]:
         """The passes by the paths of their attachments, subpasses and dependencies."""
-        return {record.path: render_pass for render_pass in self.frame.passes for record in _parts(render_pass)}
+        return {
+            record.path: render_pass
+            for render_pass in self.frame.passes
+            for record in _parts(render_pass)
+        }
 
     def _pass(self, subject: Subject, member: str) -> Iterator[Place]:
         render_pass = self._pass_of(subject)
@@ -241,7 +325,10 @@ class MissingKeys:
 
     def _subpasses(self, subject: Subject, member: str) -> Iterator[Place]:
         render_pass = self._pass_of(subject)
-        yield from ((subpass.record, member) for subpass in (render_pass.subpasses if render_pass is not None else ()))
+        yield from (
+            (subpass.record, member)
+            for subpass in (render_pass.subpasses if render_pass is not None else ())
+        )
 
     def _pipelines(self, subject: Subject, member: str) -> Iterator[Place]:
         if subject.subpass is not None:
@@ -250,7 +337,9 @@ class MissingKeys:
 
     def _pipeline(self, subject: Subject, member: str) -> Iterator[Place]:
         pipeline = subject.pipeline
-        if pipeline is not None and not (member in ("renderPass", "subpass") and pipeline.states("rendering")):
+        if pipeline is not None and not (
+            member in ("renderPass", "subpass") and pipeline.states("rendering")
+        ):
             yield (pipeline, member)
 
     def _read(self, subject: Subject, member: str) -> Iterator[Place]:
@@ -259,7 +348,11 @@ class MissingKeys:
             yield (body, member)
         elif member == "pipeline":
             pipelines = self.description.pipelines.values()
-            yield from ((pipeline, "stages") for pipeline in pipelines) if pipelines else [(self.description, "pipelines")]
+            yield from (
+                ((pipeline, "stages") for pipeline in pipelines)
+                if pipelines
+                else [(self.description, "pipelines")]
+            )
 
     def _copy(self, subject: Subject, member: str) -> Iterator[Place]:
         names = [subject.facts.values.get(f"copy.{end}") for end in ("source", "target")]
@@ -281,14 +374,20 @@ class MissingKeys:
                 yield (body, member)
 
     def _device(self, subject: Subject, member: str) -> Iterator[Place]:
-        """The device, and of one that the description describes, a member. A device that is only named says all that it says."""
+        """The device, and of one that the description describes, a member. A device that is only
+        named says all that it says.
+        """
         device = self.description.device
         if device is None and self.analysis.device is None:
             yield (self.description, "device")
         elif isinstance(device, Device):
             resolve = subject.resolve
             if member == "resolveModes":
-                member = "stencilResolveModes" if resolve is not None and resolve.aspect == "stencil" else "depthResolveModes"
+                member = (
+                    "stencilResolveModes"
+                    if resolve is not None and resolve.aspect == "stencil"
+                    else "depthResolveModes"
+                )
             if member != "sampleCounts":
                 yield (device, member)
                 return
@@ -313,9 +412,18 @@ class MissingKeys:
         elif id(record) in self.lowered.attachments:
             stated = self.lowered.attachments[id(record)]
             aspect = subject.aspect.name if subject.aspect is not None else None
-            structures = [stated[aspect]] if aspect is not None and aspect in stated else list(stated.values())
+            structures = (
+                [stated[aspect]]
+                if aspect is not None and aspect in stated
+                else list(stated.values())
+            )
             if path == "resolveFilter":
-                names = {each: next((name for name in each.SHAPE if name.endswith("ResolveFilter")), None) for each in structures}
+                names = {
+                    each: next(
+                        (name for name in each.SHAPE if name.endswith("ResolveFilter")), None
+                    )
+                    for each in structures
+                }
                 yield from ((each, name) for each, name in names.items() if name is not None)
             elif path in _METAL_ATTACHMENT:
                 yield from ((each, _METAL_ATTACHMENT[path]) for each in structures)
@@ -323,7 +431,8 @@ class MissingKeys:
             yield (metal, path) if path == "commands" else (record, path)
 
 
-# Not in each object, which would refer to itself: it would keep all that is known of a frame until garbage is collected.
+# Not in each object, which would refer to itself: it would keep all that is known of a frame until
+# garbage is collected.
 _PARTS: dict[str, Callable[[MissingKeys, Subject, str], Iterable[Place]]] = {
     "image": lambda keys, subject, member: keys._of_images(keys._images(subject), member),
     "attachment": MissingKeys._attachment,
@@ -332,7 +441,9 @@ _PARTS: dict[str, Callable[[MissingKeys, Subject, str], Iterable[Place]]] = {
     "pipelines": MissingKeys._pipelines,
     "pass": MissingKeys._pass,
     "resolve": lambda _, subject, member: _of_resolve(subject.resolve, member),
-    "pair": lambda _, subject, member: _of_resolve(subject.resolve.pair if subject.resolve is not None else None, member),
+    "pair": lambda _, subject, member: _of_resolve(
+        subject.resolve.pair if subject.resolve is not None else None, member
+    ),
     "source": lambda keys, subject, member: keys._of_end(subject, member, "source"),
     "target": lambda keys, subject, member: keys._of_end(subject, member, "target"),
     "dependency": lambda _, subject, member: _one(subject.dependency, member),
@@ -377,7 +488,9 @@ def _of_resolve(resolve: Resolve | None, member: str) -> Iterator[Place]:
 
 
 def _unstated(record: Record, path: str) -> MissingKey | None:
-    """The first member on a path from a record that is not stated; None if all are, or if the record has no such member."""
+    """The first member on a path from a record that is not stated; None if all are, or if the
+    record has no such member.
+    """
     name, _, rest = path.partition(".")
     shape = record.SHAPE.get(name)
     if shape is None:

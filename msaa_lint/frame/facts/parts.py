@@ -1,9 +1,12 @@
-"""The parts of a frame: images, attachments, resolves, subpasses and passes of both kinds in one form.
+"""The parts of a frame: images, attachments, resolves, subpasses and passes of both kinds in one
+form.
 
-A pass is a VkRenderPass or one vkCmdBeginRendering. What the description does not say is None here too.
+A pass is a VkRenderPass or one vkCmdBeginRendering. What the description does not say is None here
+too.
 
-The frame owns its passes, a pass its subpasses and attachments, and a subpass its resolves. Other references are weak, so that a frame is
-freed when its last user drops it. They raise a ReferenceError once their object is gone: keep the pass with its parts.
+The frame owns its passes, a pass its subpasses and attachments, and a subpass its resolves. Other
+references are weak, so that a frame is freed when its last user drops it. They raise a
+ReferenceError once their object is gone: keep the pass with its parts.
 """
 
 from __future__ import annotations
@@ -13,7 +16,14 @@ from typing import NamedTuple, TypeVar
 from weakref import ref
 
 from msaa_lint.core.text.span import Span
-from msaa_lint.frame.description.models import AttachmentDescription, BeginRendering, Image, RenderingAttachment, RenderPass, Subpass
+from msaa_lint.frame.description.models import (
+    AttachmentDescription,
+    BeginRendering,
+    Image,
+    RenderingAttachment,
+    RenderPass,
+    Subpass,
+)
 from msaa_lint.frame.description.record import Record
 from msaa_lint.frame.vulkan.formats import Format, format_of
 
@@ -21,17 +31,23 @@ RENDER_PASS = "renderPass"
 RENDERING = "rendering"
 
 RESUMED, SUSPENDED = "RESUMED", "SUSPENDED"
-"""In place of operations that are stated but not performed: a resumed rendering does not load, a suspended one does not store."""
+"""In place of operations that are stated but not performed: a resumed rendering does not load, a
+suspended one does not store.
+"""
 
 PartType = TypeVar("PartType")
 
 
 class Target:
-    """An image that is rendered to. An attachment that names no image has one of its own, of which only that much is known."""
+    """An image that is rendered to. An attachment that names no image has one of its own, of which
+    only that much is known.
+    """
 
     __slots__ = ("format", "image", "path", "record", "samples")
 
-    def __init__(self, record: Record, image: Image | None, format: str | None, samples: int | None) -> None:
+    def __init__(
+        self, record: Record, image: Image | None, format: str | None, samples: int | None
+    ) -> None:
         self.record = record
         self.image = image
         self.path = record.path
@@ -51,11 +67,14 @@ class Target:
     @property
     def title(self) -> str:
         """What messages call it: its name, or the attachment that it stands for."""
-        return f"attachment {self.name}" if self.image is None and self.name.isdecimal() else self.name
+        return (
+            f"attachment {self.name}" if self.image is None and self.name.isdecimal() else self.name
+        )
 
 
 class Aspect(NamedTuple):
-    """One aspect of an attachment, with the load and store operation that the pass performs, and the members that state them.
+    """One aspect of an attachment, with the load and store operation that the pass performs, and
+    the members that state them.
 
     `name` is None where the format, and with it what `loadOp` means, is unknown.
     """
@@ -68,9 +87,17 @@ class Aspect(NamedTuple):
 
 
 class Attachment:
-    """One attachment of a pass. The role sets hold the subpasses (0 in dynamic rendering) that use it so."""
+    """One attachment of a pass. The role sets hold the subpasses (0 in dynamic rendering) that use
+    it so.
+    """
 
-    def __init__(self, record: AttachmentDescription | RenderingAttachment, name: str, index: int, targets: list[Target]) -> None:
+    def __init__(
+        self,
+        record: AttachmentDescription | RenderingAttachment,
+        name: str,
+        index: int,
+        targets: list[Target],
+    ) -> None:
         self.record = record
         self.name = name
         self.index = index
@@ -81,21 +108,31 @@ class Attachment:
         self.color: set[int] = set()
         self.depth_stencil: set[int] = set()
         self.resolve: dict[int, set[str]] = {}
-        """By subpass: the aspects that a resolve with a source and a mode overwrites here; `?` for one whose mode is unknown."""
+        """By subpass: the aspects that a resolve with a source and a mode overwrites here; `?` for
+        one whose mode is unknown.
+        """
         self._resolved: list[ref[Resolve]] = []
         self.input: set[int] = set()
         self.rate: set[int] = set()
-        """The subpasses that it is the fragment density map or the shading rate attachment of, which read it."""
+        """The subpasses that it is the fragment density map or the shading rate attachment of,
+        which read it.
+        """
         self.preserve: set[int] = set()
 
     @property
     def title(self) -> str:
-        """What messages call it: its name; where attachments are a list its image's with its index, or `attachment 2` without one."""
+        """What messages call it: its name; where attachments are a list its image's with its index,
+        or `attachment 2` without one.
+        """
         if not self.name.isdecimal():
             return self.name
         target = self.target
         named = target is not None and target.image is not None
-        return f"{target.name} (attachment {self.name})" if named and target is not None else f"attachment {self.name}"
+        return (
+            f"{target.name} (attachment {self.name})"
+            if named and target is not None
+            else f"attachment {self.name}"
+        )
 
     @property
     def resolved(self) -> list[Resolve]:
@@ -113,8 +150,12 @@ class Attachment:
 
     @property
     def only_rate(self) -> bool:
-        """Whether it is nothing but a fragment density map or shading rate attachment, which is not as large as the others."""
-        return bool(self.rate) and not (self.color or self.depth_stencil or self.resolve or self.input)
+        """Whether it is nothing but a fragment density map or shading rate attachment, which is not
+        as large as the others.
+        """
+        return bool(self.rate) and not (
+            self.color or self.depth_stencil or self.resolve or self.input
+        )
 
     @property
     def drawn(self) -> bool:
@@ -125,13 +166,19 @@ class Attachment:
     def target(self) -> Target | None:
         """Its image, where it is one and the same whenever the pass is begun."""
         record = self.targets[0].record if self.targets else None
-        return self.targets[0] if record is not None and all(target.record is record for target in self.targets) else None
+        return (
+            self.targets[0]
+            if record is not None and all(target.record is record for target in self.targets)
+            else None
+        )
 
 
 class Resolve:
-    """One resolve of one aspect: in a subpass, at the end of a dynamic rendering, or by vkCmdResolveImage.
+    """One resolve of one aspect: in a subpass, at the end of a dynamic rendering, or by
+    vkCmdResolveImage.
 
-    `record` states it; `mode` is None where unknown; `mode_at`, `source_at` and `target_at` are where these are stated.
+    `record` states it; `mode` is None where unknown; `mode_at`, `source_at` and `target_at` are
+    where these are stated.
     """
 
     def __init__(self, kind: str, aspect: str, record: Record, path: str) -> None:
@@ -162,7 +209,9 @@ class Resolve:
 
     @property
     def pair(self) -> Resolve | None:
-        """The resolve of the other aspect by the same structure, or of the same rendering; without a pass where it states NONE alone."""
+        """The resolve of the other aspect by the same structure, or of the same rendering; without
+        a pass where it states NONE alone.
+        """
         return _alive(self._pair) if self._pair is not None else None
 
     @pair.setter
@@ -192,7 +241,12 @@ def states_mode(record: Record) -> bool:
 
 def sizes_differ(one: Target | None, other: Target | None) -> bool:
     """Whether two images are known to differ in width or height."""
-    return one is not None and other is not None and None not in (one.size, other.size) and one.size != other.size
+    return (
+        one is not None
+        and other is not None
+        and None not in (one.size, other.size)
+        and one.size != other.size
+    )
 
 
 class PassSubpass:
@@ -212,10 +266,16 @@ class PassSubpass:
         self.depth_stencil: list[Attachment] = []
         self.resolves: list[Resolve] = []
         self.unresolved: list[Resolve] = []
-        """What states NONE, and no image, for the depth or stencil aspect of a rendering: the `pair` of the other aspect's resolve."""
+        """What states NONE, and no image, for the depth or stencil aspect of a rendering: the
+        `pair` of the other aspect's resolve.
+        """
         chained = record.multisampledRenderToSingleSampled
-        self.single_sampled = chained is not None and chained.multisampledRenderToSingleSampledEnable is not False
-        self.single_sampled_count = chained.rasterizationSamples if chained is not None and self.single_sampled else None
+        self.single_sampled = (
+            chained is not None and chained.multisampledRenderToSingleSampledEnable is not False
+        )
+        self.single_sampled_count = (
+            chained.rasterizationSamples if chained is not None and self.single_sampled else None
+        )
 
     @property
     def render_pass(self) -> Pass:
@@ -224,7 +284,9 @@ class PassSubpass:
 
 
 class Pass:
-    """A render pass or a dynamic rendering. `begun` are the positions in the frame's commands where it begins."""
+    """A render pass or a dynamic rendering. `begun` are the positions in the frame's commands where
+    it begins.
+    """
 
     def __init__(self, kind: str, name: str, record: RenderPass | BeginRendering) -> None:
         self.kind = kind
@@ -235,9 +297,13 @@ class Pass:
         self.subpasses: list[PassSubpass] = []
         self.begun: list[int] = []
         self.rates: list[Target] = []
-        """The fragment density map and the shading rate attachment of a rendering, which reads them and has no operations for them."""
+        """The fragment density map and the shading rate attachment of a rendering, which reads them
+        and has no operations for them.
+        """
         self.partial_area: bool | None = False
-        """Whether some render area that it is begun with is smaller than what it renders to; None where a size is not stated."""
+        """Whether some render area that it is begun with is smaller than what it renders to; None
+        where a size is not stated.
+        """
 
     @property
     def suspends(self) -> bool:
@@ -258,15 +324,27 @@ class Pass:
     def structures(self) -> int:
         """How many attachments, references to them, and dependencies it has."""
         references = (
-            1 + len(each.color) + len(each.depth_stencil) + len(each.resolves) + len(getattr(each.record, "inputAttachments", ()))
+            1
+            + len(each.color)
+            + len(each.depth_stencil)
+            + len(each.resolves)
+            + len(getattr(each.record, "inputAttachments", ()))
             for each in self.subpasses
         )
-        return len(self.attachments) + sum(references) + len(getattr(self.record, "dependencies", ()))
+        return (
+            len(self.attachments) + sum(references) + len(getattr(self.record, "dependencies", ()))
+        )
 
     @cached_property
     def unread(self) -> bool:
-        """Whether a pNext chain of it has a structure that was not read, which may use its attachments in any way."""
-        records = (self.record, *(each.record for each in self.subpasses), *(each.record for each in self.attachments))
+        """Whether a pNext chain of it has a structure that was not read, which may use its
+        attachments in any way.
+        """
+        records = (
+            self.record,
+            *(each.record for each in self.subpasses),
+            *(each.record for each in self.attachments),
+        )
         return any(record.pNext for record in records)
 
     @cached_property

@@ -1,4 +1,6 @@
-"""A pass where a command begins it: which images it has there, and whether it writes to all of them."""
+"""A pass where a command begins it: which images it has there, and whether it writes to all of
+them.
+"""
 
 from typing import NamedTuple
 
@@ -10,8 +12,10 @@ from .parts import RENDER_PASS, RENDERING, Attachment, Pass, Target
 
 MIN_USES = 50_000
 USES_PER_STRUCTURE = 32
-"""How many uses of images by passes are followed: so many, and more by the structures of a frame. Some thousand passes have some ten
-thousand uses; hostile ones as many as attachments times begins."""
+"""How many uses of images by passes are followed: so many, and more by the structures of a
+frame. Some thousand passes have some ten thousand uses; hostile ones as many as attachments
+times begins.
+"""
 
 
 def max_uses(frame: Frame) -> int:
@@ -20,13 +24,20 @@ def max_uses(frame: Frame) -> int:
 
 
 def uses_at_most(frame: Frame) -> int:
-    """A bound on how often passes use images: every attachment and reference to one, with every framebuffer that its pass is begun with."""
+    """A bound on how often passes use images: every attachment and reference to one, with every
+    framebuffer that its pass is begun with.
+    """
     begins: dict[str | None, int] = {}
     for _, body in frame.recorded(BeginRenderPass):
         count = len(body.framebuffer) if isinstance(body.framebuffer, tuple) else 1
         begins[body.renderPass] = begins.get(body.renderPass, 0) + max(count, 1)
     return sum(
-        render_pass.structures * (max(len(render_pass.begun), 1) if render_pass.kind == RENDERING else begins.get(render_pass.name, 1))
+        render_pass.structures
+        * (
+            max(len(render_pass.begun), 1)
+            if render_pass.kind == RENDERING
+            else begins.get(render_pass.name, 1)
+        )
         for render_pass in frame.passes
     )
 
@@ -37,24 +48,33 @@ def is_followed(frame: Frame) -> bool:
 
 
 def targets_at(frame: Frame, attachment: Attachment, position: int | None) -> list[Target]:
-    """The images of an attachment: several where framebuffers alternate from frame to frame, or where the one is not stated."""
+    """The images of an attachment: several where framebuffers alternate from frame to frame, or
+    where the one is not stated.
+    """
     body = _body(frame, position)
     if not isinstance(body, BeginRenderPass) or body.framebuffer is None:
         return attachment.targets
-    names = [f.attachments[attachment.index] if attachment.index < len(f.attachments) else None for f in frame.framebuffers_of(body)]
+    names = [
+        f.attachments[attachment.index] if attachment.index < len(f.attachments) else None
+        for f in frame.framebuffers_of(body)
+    ]
     targets = [frame.targets[name] for name in dict.fromkeys(names) if name in frame.targets]
     return targets if targets and None not in names else attachment.targets
 
 
 def one_surface(image: Image | None) -> bool:
-    """Whether an image is stated, and has one mip level and one layer: a command that names no part of it means all of it."""
+    """Whether an image is stated, and has one mip level and one layer: a command that names no part
+    of it means all of it.
+    """
     return image is not None and (image.mipLevels or 1) == 1 and (image.arrayLayers or 1) == 1
 
 
 class BegunArea(NamedTuple):
-    """What a pass writes to where a command begins it: the fewest layers (None: not stated) and the smallest stated sides.
+    """What a pass writes to where a command begins it: the fewest layers (None: not stated) and the
+    smallest stated sides.
 
-    `from_origin` is False where the render area begins elsewhere; `partial` says whether it is smaller than what the pass renders to.
+    `from_origin` is False where the render area begins elsewhere; `partial` says whether it is
+    smaller than what the pass renders to.
     """
 
     layers: int | None
@@ -64,16 +84,28 @@ class BegunArea(NamedTuple):
     partial: bool | None
 
     def covers(self, target: Target) -> bool:
-        """Whether it writes to all of an image, unless attachments are left out: no size, layer or mip level that is stated denies it."""
+        """Whether it writes to all of an image, unless attachments are left out: no size, layer or
+        mip level that is stated denies it.
+        """
         image = target.image
-        if image is None or (image.mipLevels or 1) > 1 or (image.extent is not None and (image.extent.depth or 1) > 1):
+        if (
+            image is None
+            or (image.mipLevels or 1) > 1
+            or (image.extent is not None and (image.extent.depth or 1) > 1)
+        ):
             return False
-        if image.arrayLayers is not None and image.arrayLayers > 1 and (self.layers is None or self.layers < image.arrayLayers):
+        if (
+            image.arrayLayers is not None
+            and image.arrayLayers > 1
+            and (self.layers is None or self.layers < image.arrayLayers)
+        ):
             return False
         if image.extent is None:
             return self.partial is False
         sides = ((self.width, image.extent.width), (self.height, image.extent.height))
-        return self.from_origin and not any(own is not None and whole is not None and own < whole for own, whole in sides)
+        return self.from_origin and not any(
+            own is not None and whole is not None and own < whole for own, whole in sides
+        )
 
 
 def begun_area(frame: Frame, render_pass: Pass, position: int | None) -> BegunArea:
@@ -82,11 +114,26 @@ def begun_area(frame: Frame, render_pass: Pass, position: int | None) -> BegunAr
     framebuffers = frame.framebuffers_of(record) or (
         frame.framebuffers.get(render_pass.name, []) if render_pass.kind == RENDER_PASS else []
     )
-    views = [subpass.record.viewMask.bit_count() for subpass in render_pass.subpasses if subpass.record.viewMask]
-    layers: list[int | None] = [*views] or [buffer.layers for buffer in framebuffers] or [getattr(record, "layerCount", None)]
+    views = [
+        subpass.record.viewMask.bit_count()
+        for subpass in render_pass.subpasses
+        if subpass.record.viewMask
+    ]
+    layers: list[int | None] = (
+        [*views]
+        or [buffer.layers for buffer in framebuffers]
+        or [getattr(record, "layerCount", None)]
+    )
     area = getattr(record, "renderArea", None)
     width, height = (
-        min((size for part in (*framebuffers, area) if part is not None and (size := getattr(part, side)) is not None), default=None)
+        min(
+            (
+                size
+                for part in (*framebuffers, area)
+                if part is not None and (size := getattr(part, side)) is not None
+            ),
+            default=None,
+        )
         for side in ("width", "height")
     )
     return BegunArea(

@@ -1,7 +1,8 @@
 """What several frames of one program say together of the objects that they share.
 
-The documents of a file that state a `share` are the kinds of frame of one program, and objects with the same name are the same object. What
-is said of an image or a render pass then holds for all of these frames: what one frame leaves unread, another may read.
+The documents of a file that state a `share` are the kinds of frame of one program, and objects with
+the same name are the same object. What is said of an image or a render pass then holds for all of
+these frames: what one frame leaves unread, another may read.
 """
 
 from __future__ import annotations
@@ -22,14 +23,19 @@ def subjects_of(frames: Sequence[FrameAnalysis]) -> Iterator[Iterable[Subject]]:
 
 
 def join(frames: Sequence[FrameAnalysis]) -> list[list[Subject]]:
-    """The subjects of the frames of one program, frame by frame. The facts of those that several frames share hold for all of these."""
+    """The subjects of the frames of one program, frame by frame. The facts of those that several
+    frames share hold for all of these.
+    """
     _join_images(frames)
     subjects = [list(frame.subjects()) for frame in frames]
     shared: dict[tuple[str, str, str | None], list[Facts]] = {}
     for of_frame in subjects:
         for subject in of_frame:
             # A frame that does not begin a pass says nothing of what becomes of it.
-            if subject.path.startswith("renderPasses.") and subject.facts.values.get("pass.begun") == "YES":
+            if (
+                subject.path.startswith("renderPasses.")
+                and subject.facts.values.get("pass.begun") == "YES"
+            ):
                 aspect = subject.aspect.name if subject.aspect is not None else None
                 shared.setdefault((subject.kind, subject.path, aspect), []).append(subject.facts)
     for facts in shared.values():
@@ -50,7 +56,10 @@ def _join_images(frames: Sequence[FrameAnalysis]) -> None:
         every = [facts for facts, _ in each]
         if len(every) == 1:
             continue
-        in_vain = all(facts.values.get("image.read") is False or facts.values["image.read_in_vain"] for facts in used)
+        in_vain = all(
+            facts.values.get("image.read") is False or facts.values["image.read_in_vain"]
+            for facts in used
+        )
         in_vain = in_vain and any(facts.values["image.read_in_vain"] for facts in used)
         turns = [facts.values.get("image.taking_turns") for facts in used]
         stated = all(facts.values["image.turns_stated"] for facts in used)

@@ -1,4 +1,6 @@
-"""Facts of the image that a resolve in a pass writes: whether it is large enough, and what else of its subpass uses it."""
+"""Facts of the image that a resolve in a pass writes: whether it is large enough, and what else of
+its subpass uses it.
+"""
 
 from __future__ import annotations
 
@@ -34,7 +36,11 @@ class ResolveTargets:
     def put(self, facts: Facts, resolve: Resolve, uses: dict[int, Use]) -> None:
         """Adds the facts of what a resolve writes. `uses` are those of `other_uses` of its pass."""
         use = uses.get(id(resolve))
-        facts.put("resolve.target_also", use[0] if use is not None else "NOTHING", use[1] if use is not None else resolve.target_at)
+        facts.put(
+            "resolve.target_also",
+            use[0] if use is not None else "NOTHING",
+            use[1] if use is not None else resolve.target_at,
+        )
         render_pass, attachment = resolve.render_pass, resolve.target
         if render_pass is None or not self._followed:
             return
@@ -51,16 +57,28 @@ class ResolveTargets:
         for name, value in extents.values.items():
             facts.put(name, value, extents.places.get(name, resolve.target_at))
 
-    def _required_extents(self, render_pass: Pass, attachment: Attachment) -> Iterator[tuple[Target, Extent, Span]]:
-        """The images of an attachment of a render pass, each with the extent that it must have, and where that is stated.
+    def _required_extents(
+        self, render_pass: Pass, attachment: Attachment
+    ) -> Iterator[tuple[Target, Extent, Span]]:
+        """The images of an attachment of a render pass, each with the extent that it must have, and
+        where that is stated.
 
-        It is that of each framebuffer (VUID-VkFramebufferCreateInfo-flags-04533, 04534), and of the render area, which lies in it.
+        It is that of each framebuffer (VUID-VkFramebufferCreateInfo-flags-04533, 04534), and of the
+        render area, which lies in it.
         """
         for framebuffer in self._framebuffers.get(render_pass.name, ()):
             names = framebuffer.attachments
-            target = self._frame.target(names[attachment.index]) if attachment.index < len(names) else None
+            target = (
+                self._frame.target(names[attachment.index])
+                if attachment.index < len(names)
+                else None
+            )
             if target is not None:
-                yield target, (framebuffer.width, framebuffer.height), framebuffer.place("width", "height")
+                yield (
+                    target,
+                    (framebuffer.width, framebuffer.height),
+                    framebuffer.place("width", "height"),
+                )
         for position in render_pass.begun:
             body = self._frame.commands[position].body
             area = body.renderArea if isinstance(body, BeginRenderPass) else None
@@ -72,7 +90,11 @@ def _put_extents(facts: Facts, required: Iterable[tuple[Target, Extent, Span]]) 
     """Adds the first image that is smaller than required; false where all that is stated fits."""
     for target, extent, at in required:
         own_extent = target.size or (None, None)
-        pairs = [(needed, own) for needed, own in zip(extent, own_extent, strict=True) if needed is not None and own is not None]
+        pairs = [
+            (needed, own)
+            for needed, own in zip(extent, own_extent, strict=True)
+            if needed is not None and own is not None
+        ]
         if any(own < needed for needed, own in pairs):
             facts.put("resolve.target_extent", _spelled(own_extent), target.record.place("extent"))
             facts.put("resolve.rendered_extent", _spelled(extent), at)
@@ -89,13 +111,18 @@ def _spelled(extent: Extent) -> str:
 def _end(area: Rect) -> Extent:
     """The right and the lower end of a render area."""
     width, height = area.width, area.height
-    return (None if width is None else width + (area.x or 0), None if height is None else height + (area.y or 0))
+    return (
+        None if width is None else width + (area.x or 0),
+        None if height is None else height + (area.y or 0),
+    )
 
 
 def other_uses(render_pass: Pass) -> dict[int, Use]:
-    """What else subpasses (or a rendering) use the images for that their resolves write, by the identity of the resolve.
+    """What else subpasses (or a rendering) use the images for that their resolves write, by the
+    identity of the resolve.
 
-    Of two resolves, the second has the first as its other use. Where a resolve writes its own source, that is not looked at.
+    Of two resolves, the second has the first as its other use. Where a resolve writes its own
+    source, that is not looked at.
     """
     if not render_pass.resolves:
         return {}
@@ -129,9 +156,16 @@ def other_uses(render_pass: Pass) -> dict[int, Use]:
 
 
 def _memory(attachment: Attachment | None, target: Target | None) -> list[int]:
-    """By what it is known that two uses are of the same memory: the attachment, and an image without layers, levels or slices."""
+    """By what it is known that two uses are of the same memory: the attachment, and an image
+    without layers, levels or slices.
+    """
     found = [id(attachment)] if attachment is not None else []
     image = target.image if target is not None else None
-    if image is not None and one_surface(image) and image.imageType != "3D" and (image.extent is None or (image.extent.depth or 1) == 1):
+    if (
+        image is not None
+        and one_surface(image)
+        and image.imageType != "3D"
+        and (image.extent is None or (image.extent.depth or 1) == 1)
+    ):
         found.append(id(image))
     return found

@@ -1,7 +1,8 @@
 """Facts of resumed renderings: which one each resumes, and in what it differs from it.
 
-"The contents of pRenderingInfo must match between suspended render pass instances and the render pass instances that resume them, other
-than the presence or absence of the VK_RENDERING_RESUMING_BIT, VK_RENDERING_SUSPENDING_BIT, and
+"The contents of pRenderingInfo must match between suspended render pass instances and the render
+pass instances that resume them, other than the presence or absence of the
+VK_RENDERING_RESUMING_BIT, VK_RENDERING_SUSPENDING_BIT, and
 VK_RENDERING_CONTENTS_SECONDARY_COMMAND_BUFFERS_BIT flags." (VkRenderingFlagBits)
 """
 
@@ -22,14 +23,18 @@ Difference = tuple[str, Span]
 
 
 def resumption_facts(facts: Facts, render_pass: Pass, walk: Walk) -> None:
-    """Adds the rendering that a pass resumes, and the first member that differs. Members that one of the two leaves out are unknown."""
+    """Adds the rendering that a pass resumes, and the first member that differs. Members that one
+    of the two leaves out are unknown.
+    """
     suspended = walk.suspended.get(id(render_pass))
     difference: Difference | None = None
     if suspended is not None:
         one, other = suspended.record, render_pass.record
         assert isinstance(one, BeginRendering) and isinstance(other, BeginRendering)
         difference = _difference(one, other)
-    name, at = (suspended.name, suspended.record.place("flags")) if suspended is not None else ("", None)
+    name, at = (
+        (suspended.name, suspended.record.place("flags")) if suspended is not None else ("", None)
+    )
     member, differs_at = difference if difference is not None else ("", None)
     facts.put("pass.resumes_differently", difference is not None, differs_at)
     facts.put("pass.resumed_from", name, at)
@@ -39,15 +44,26 @@ def resumption_facts(facts: Facts, render_pass: Pass, walk: Walk) -> None:
 def _difference(one: BeginRendering, other: BeginRendering) -> Difference | None:
     if not set(one.flags) ^ set(other.flags) <= _FREE_FLAGS:
         return "flags", other.place("flags")
-    found = _members(one, other, ("renderArea", "layerCount", "viewMask", "multisampledRenderToSingleSampled"), "")
+    found = _members(
+        one,
+        other,
+        ("renderArea", "layerCount", "viewMask", "multisampledRenderToSingleSampled"),
+        "",
+    )
     if found is not None:
         return found
     if len(one.colorAttachments) != len(other.colorAttachments):
         return "colorAttachments", other.place("colorAttachments")
     pairs = [
-        (f"colorAttachments[{number}]", pair) for number, pair in enumerate(zip(one.colorAttachments, other.colorAttachments, strict=True))
+        (f"colorAttachments[{number}]", pair)
+        for number, pair in enumerate(
+            zip(one.colorAttachments, other.colorAttachments, strict=True)
+        )
     ]
-    pairs += [(name, (getattr(one, name), getattr(other, name))) for name in ("depthAttachment", "stencilAttachment")]
+    pairs += [
+        (name, (getattr(one, name), getattr(other, name)))
+        for name in ("depthAttachment", "stencilAttachment")
+    ]
     for name, (before, after) in pairs:
         found = _of_attachments(before, after, name, other)
         if found is not None:
@@ -56,18 +72,30 @@ def _difference(one: BeginRendering, other: BeginRendering) -> Difference | None
 
 
 def _of_attachments(
-    one: RenderingAttachment | None, other: RenderingAttachment | None, name: str, rendering: BeginRendering
+    one: RenderingAttachment | None,
+    other: RenderingAttachment | None,
+    name: str,
+    rendering: BeginRendering,
 ) -> Difference | None:
     """How two attachments differ; one without an image is none."""
     images = [each.image if each is not None else None for each in (one, other)]
     if images[0] != images[1]:
-        return (f"{name}.image", other.place("image")) if other is not None else (name, rendering.place(name.partition("[")[0]))
+        return (
+            (f"{name}.image", other.place("image"))
+            if other is not None
+            else (name, rendering.place(name.partition("[")[0]))
+        )
     if one is None or other is None:
         return None
     targets = [each.resolveImage if each.resolveMode != "NONE" else None for each in (one, other)]
     if targets[0] != targets[1]:
         return f"{name}.resolveImage", other.place("resolveImage", "resolveMode")
-    return _members(one, other, ("imageLayout", "loadOp", "storeOp", "resolveMode", "resolveImageLayout"), f"{name}.")
+    return _members(
+        one,
+        other,
+        ("imageLayout", "loadOp", "storeOp", "resolveMode", "resolveImageLayout"),
+        f"{name}.",
+    )
 
 
 def _members(one: Record, other: Record, names: tuple[str, ...], prefix: str) -> Difference | None:

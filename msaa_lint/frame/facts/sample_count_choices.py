@@ -1,4 +1,6 @@
-"""How a program finds its sample count in the masks that a device states: what it asks of them, and what that can give."""
+"""How a program finds its sample count in the masks that a device states: what it asks of them, and
+what that can give.
+"""
 
 from __future__ import annotations
 
@@ -52,14 +54,20 @@ def _retested(facts: Facts, record: SampleCountChoice) -> None:
         if test is None or test.tests is None:
             continue
         first = before.setdefault(test.tests, test)
-        if first is not test and None not in (test.gives, first.gives) and test.gives != first.gives:
+        if (
+            first is not test
+            and None not in (test.gives, first.gives)
+            and test.gives != first.gives
+        ):
             dead.append(test)
     if dead:
         first = before[dead[0].tests or 0]
         facts.put("choice.retested", dead[0].tests, dead[0].place("tests"))
         facts.put("choice.first_gives", first.gives, first.place("tests"))
     never = [test.gives for test in dead if test.gives is not None and test.tests == dead[0].tests]
-    facts.put("choice.never_given", never, dead[0].place("tests") if dead else record.place("tests"))
+    facts.put(
+        "choice.never_given", never, dead[0].place("tests") if dead else record.place("tests")
+    )
 
 
 def _asked(facts: Facts, record: SampleCountChoice) -> None:
@@ -67,8 +75,16 @@ def _asked(facts: Facts, record: SampleCountChoice) -> None:
     if record.limits is not None:
         limits: list[str] = [limit for limit in record.limits if limit is not None]
         facts.put("choice.limits", limits, record.place("limits"))
-        facts.put("choice.depth_counts_asked", any(limit in DEPTH for limit in record.limits), _item(record, "limits", DEPTH))
-        facts.put("choice.stencil_counts_asked", any(limit in STENCIL for limit in record.limits), _item(record, "limits", STENCIL))
+        facts.put(
+            "choice.depth_counts_asked",
+            any(limit in DEPTH for limit in record.limits),
+            _item(record, "limits", DEPTH),
+        )
+        facts.put(
+            "choice.stencil_counts_asked",
+            any(limit in STENCIL for limit in record.limits),
+            _item(record, "limits", STENCIL),
+        )
     if record.formats is not None:
         stencil = [name for name in record.formats if name is not None and _has_stencil(name)]
         facts.put("choice.stencil_formats", stencil, _item(record, "formats", stencil))
@@ -83,4 +99,7 @@ def _item(record: SampleCountChoice, member: str, among: tuple[str, ...] | list[
     """Where the first of some items of a list stands; the list's place where there is none."""
     values = getattr(record, member)
     nodes = record.spelled[member][1].value
-    return next((node.span for node, value in zip(nodes, values, strict=True) if value in among), record.place(member))
+    return next(
+        (node.span for node, value in zip(nodes, values, strict=True) if value in among),
+        record.place(member),
+    )

@@ -1,7 +1,8 @@
 """The keys of a description that state each fact, for `--explain-undecided`.
 
-A key is a part of the frame (`missing_keys` lists them) and the path of a member from there. Keys that a space separates are needed
-together; what follows a semicolon is needed where everything before it is stated.
+A key is a part of the frame (`missing_keys` lists them) and the path of a member from there. Keys
+that a space separates are needed together; what follows a semicolon is needed where everything
+before it is stated.
 """
 
 from __future__ import annotations
@@ -66,7 +67,7 @@ KEYS: dict[str, str] = {
     "attachment.format": "attachment.format",
     "attachment.samples": "attachment.samples",
     "attachment.used": "pass.subpasses",
-    "attachment.single_sampled_render": "subpasses.multisampledRenderToSingleSampled.multisampledRenderToSingleSampledEnable",
+    "attachment.single_sampled_render": "subpasses.multisampledRenderToSingleSampled.multisampledRenderToSingleSampledEnable",  # noqa: E501
     "attachment.render_samples_supported": "image.format; device.sampleCounts",
     "attachment.initial_layout": "attachment.initialLayout",
     "attachment.final_layout": "attachment.finalLayout",
@@ -77,8 +78,12 @@ KEYS: dict[str, str] = {
     "aspect.resolved": "attachment.resolveMode; attachment.store",
     "aspect.resolved_over": "attachment.resolveMode attachment.format",
     "aspect.read_later": "attachment.image; image.usage; commands",
-    "aspect.fetched": "attachment.format attachment.store attachment.samples; attachment.image; image.usage; commands; attachment.load",
-    "aspect.store_wasted": ("attachment.format attachment.store; attachment.image; image.usage; image.presentable; commands; present"),
+    "aspect.fetched": "attachment.format attachment.store attachment.samples; attachment.image; "
+    "image.usage; commands; attachment.load",
+    "aspect.store_wasted": (
+        "attachment.format attachment.store; attachment.image; image.usage; image.presentable; "
+        "commands; present"
+    ),
     "aspect.reads_undefined": "attachment.format",
     "aspect.loads_discarded": "attachment.format",
     "aspect.undefined_used": "attachment.load",
@@ -98,7 +103,10 @@ KEYS: dict[str, str] = {
     "subpass.mixed_depth_stencil_samples": "attachments.samples",
     "subpass.depth_below_color": "attachments.samples",
     "subpass.depth_above_color": "attachments.samples",
-    "subpass.partial_coverage": ("pipelines.multisampleState.rasterizationSamples; pipelines.rasterizationState.rasterizerDiscardEnable"),
+    "subpass.partial_coverage": (
+        "pipelines.multisampleState.rasterizationSamples; "
+        "pipelines.rasterizationState.rasterizerDiscardEnable"
+    ),
     "subpass.tile_bytes": "attachments.format attachments.samples; device.tile",
     "subpass.tile_pixels": "attachments.format attachments.samples; device.tile",
     "subpass.tile_full": "attachments.format attachments.samples; device.tile",
@@ -118,10 +126,12 @@ KEYS: dict[str, str] = {
     "resolve.mode_supported": "resolve.mode; target.format source.format; device.resolveModes",
     "resolve.supported_modes": "device.resolveModes",
     "resolve.pair_supported": (
-        "resolve.mode pair.mode; target.format source.format; device.independentResolve device.independentResolveNone"
+        "resolve.mode pair.mode; target.format source.format; device.independentResolve "
+        "device.independentResolveNone"
     ),
     "resolve.pass_could_resolve": (
-        "source.extent target.extent; source.extent.width source.extent.height target.extent.width target.extent.height; commands"
+        "source.extent target.extent; source.extent.width source.extent.height target.extent.width "
+        "target.extent.height; commands"
     ),
     "resolve.target_too_small": "target.extent; target.extent.width target.extent.height",
     "resolve.target_stored": "resolve.mode target.format; target.store",
@@ -132,34 +142,52 @@ KEYS: dict[str, str] = {
     "resolve.copy_fits": "resolve.mode; target.format source.format",
     "resolve.repeats": "resolve.mode; commands",
     "resolve.resolved_anew": "resolve.mode; target.image; target.usage; commands",
-    "resolve.waited_for": ("resolve.mode; target.target; pass.dependencies; pass.dependencies.srcStageMask; commands; pipelineBarrier"),
-    "resolve.waiting_stages": ("resolve.mode; target.target; pass.dependencies; pass.dependencies.srcStageMask; commands; pipelineBarrier"),
+    "resolve.waited_for": (
+        "resolve.mode; target.target; pass.dependencies; pass.dependencies.srcStageMask; commands; "
+        "pipelineBarrier"
+    ),
+    "resolve.waiting_stages": (
+        "resolve.mode; target.target; pass.dependencies; pass.dependencies.srcStageMask; commands; "
+        "pipelineBarrier"
+    ),
     "resolve.filter": "resolve.filter",
     "resolve.share_of_tilers": "resolve.mode",
-    "dependency.stages": ("dependency.srcStageMask; pass.dependencies; pass.dependencies.srcSubpass pass.dependencies.dstSubpass"),
-    "dependency.accesses": ("dependency.srcAccessMask; pass.dependencies; pass.dependencies.srcSubpass pass.dependencies.dstSubpass"),
+    "dependency.stages": (
+        "dependency.srcStageMask; pass.dependencies; pass.dependencies.srcSubpass "
+        "pass.dependencies.dstSubpass"
+    ),
+    "dependency.accesses": (
+        "dependency.srcAccessMask; pass.dependencies; pass.dependencies.srcSubpass "
+        "pass.dependencies.dstSubpass"
+    ),
     "dependency.makes_writes_available": (
-        "dependency.srcAccessMask; pass.dependencies; pass.dependencies.srcSubpass pass.dependencies.dstSubpass; attachments.samples"
+        "dependency.srcAccessMask; pass.dependencies; pass.dependencies.srcSubpass "
+        "pass.dependencies.dstSubpass; attachments.samples"
     ),
     "dependency.unavailable_writes": (
-        "dependency.srcAccessMask; pass.dependencies; pass.dependencies.srcSubpass pass.dependencies.dstSubpass"
+        "dependency.srcAccessMask; pass.dependencies; pass.dependencies.srcSubpass "
+        "pass.dependencies.dstSubpass"
     ),
     "dependency.waits_for_late_tests": (
-        "dependency.srcStageMask; pass.dependencies; pass.dependencies.srcSubpass pass.dependencies.dstSubpass"
+        "dependency.srcStageMask; pass.dependencies; pass.dependencies.srcSubpass "
+        "pass.dependencies.dstSubpass"
     ),
     "dependency.multisampled": "attachments.samples",
     "dependency.multisampled_depth_stencil": "attachments.samples",
     "pipeline.rasterization_samples": "pipeline.multisampleState.rasterizationSamples; commands",
-    "pipeline.attachment_samples": "attachments.samples; pipeline.renderPass; pipeline.subpass; commands",
+    "pipeline.attachment_samples": "attachments.samples; pipeline.renderPass; pipeline.subpass; "
+    "commands",
     "pipeline.sample_shading": "pipeline.multisampleState.sampleShadingEnable",
     "pipeline.sample_shading_chosen": "pipeline.multisampleState",
     "pipeline.min_sample_shading": "pipeline.multisampleState.minSampleShading",
-    "pipeline.shaded_samples": "pipeline.multisampleState.rasterizationSamples pipeline.multisampleState.minSampleShading",
+    "pipeline.shaded_samples": "pipeline.multisampleState.rasterizationSamples "
+    "pipeline.multisampleState.minSampleShading",
     "pipeline.alpha_to_one": "pipeline.multisampleState.alphaToOneEnable",
     "pipeline.alpha_to_coverage": "pipeline.multisampleState.alphaToCoverageEnable",
     "pipeline.blends_first": "pipeline.colorBlendState.attachments.blendEnable",
     "pipeline.dropped_samples": "pipeline.multisampleState.rasterizationSamples",
-    "pipeline.blended_float_formats": "pipeline.colorBlendState.attachments.blendEnable; attachments.format",
+    "pipeline.blended_float_formats": "pipeline.colorBlendState.attachments.blendEnable; "
+    "attachments.format",
     "pipeline.rasterizer_discard": "pipeline.rasterizationState.rasterizerDiscardEnable",
     "pipeline.module": "pipeline.stages.module",
     "pipeline.alpha_output": "pipeline.stages.module",
@@ -317,7 +345,9 @@ WITHOUT_KEY = frozenset(
         "choice.never_given",
     }
 )
-"""The facts that no key is missing for: they are never unknown, or are known only where another fact is true."""
+"""The facts that no key is missing for: they are never unknown, or are known only where another
+fact is true.
+"""
 
 OF_THE_FRAME = frozenset(
     {
@@ -356,4 +386,6 @@ OF_THE_FRAME = frozenset(
         "read.pass_could_resolve",
     }
 )
-"""The facts that rest on everything that the frame does: they are unknown if some of it was not read."""
+"""The facts that rest on everything that the frame does: they are unknown if some of it was not
+read.
+"""

@@ -1,7 +1,8 @@
 """What happens to every image of a frame, in order, the frame being a loop.
 
-Where the description records commands, they are the order. Where it does not, every pass runs once, in order. Who asks what follows or
-precedes an event decides which events matter: see `readers`, `contents` and `resolve_uses`.
+Where the description records commands, they are the order. Where it does not, every pass runs once,
+in order. Who asks what follows or precedes an event decides which events matter: see `readers`,
+`contents` and `resolve_uses`.
 """
 
 from __future__ import annotations
@@ -13,7 +14,13 @@ from operator import attrgetter
 from typing import NamedTuple
 
 from msaa_lint.core.text.span import Span
-from msaa_lint.frame.description.models import AttachmentDescription, BeginRenderPass, Command, ImageBarrier, PipelineBarrier
+from msaa_lint.frame.description.models import (
+    AttachmentDescription,
+    BeginRenderPass,
+    Command,
+    ImageBarrier,
+    PipelineBarrier,
+)
 
 from .commands import CLEAR, COMMAND_WRITES, READ, RESOLVE_READ, RESOLVE_WRITE, accesses
 from .frame import Frame
@@ -33,7 +40,9 @@ ELSEWHERE = "elsewhere"
 """A rendering goes on in, or comes from, commands that are not described."""
 
 MAX_FRAMES = 12
-"""How many frames are laid out for framebuffers that alternate: what two, three or four together take."""
+"""How many frames are laid out for framebuffers that alternate: what two, three or four together
+take.
+"""
 
 Frames = tuple[int, frozenset[int]]
 """Of how many frames, and in which of them."""
@@ -45,9 +54,11 @@ SOME_FRAMES: Frames = (0, frozenset())
 class Event(NamedTuple):
     """One thing that happens to an image.
 
-    `kind` is one of this module's, or an effect of `commands`. `aspect` is None where it may be all; `whole` says that it concerns all
-    texels and layers; `certain` is False where what decides whether it happens is not stated. `source` is what does it: an attachment with
-    the `member` that states it, a resolve, a barrier; None for other commands. `frames` are those in which it happens (None: in every one).
+    `kind` is one of this module's, or an effect of `commands`. `aspect` is None where it may be
+    all; `whole` says that it concerns all texels and layers; `certain` is False where what decides
+    whether it happens is not stated. `source` is what does it: an attachment with the `member` that
+    states it, a resolve, a barrier; None for other commands. `frames` are those in which it happens
+    (None: in every one).
     """
 
     time: int
@@ -63,7 +74,9 @@ class Event(NamedTuple):
 
     @property
     def position(self) -> int:
-        """The position of the command that it belongs to; of what a pass does, of the command at or before it."""
+        """The position of the command that it belongs to; of what a pass does, of the command at or
+        before it.
+        """
         return self.time // 2
 
     @property
@@ -121,7 +134,11 @@ class Timeline:
     def idle(self) -> dict[str, list[Event]]:
         """The events of passes that the commands never begin, were they to run."""
         found: dict[str, list[Event]] = {}
-        never = [each for each in self.frame.passes if not each.begun] if self.frame.has_commands and self.followed else []
+        never = (
+            [each for each in self.frame.passes if not each.begun]
+            if self.frame.has_commands and self.followed
+            else []
+        )
         for run in once_each(never):
             for key, event in self._run_events(run):
                 found.setdefault(key, []).append(event)
@@ -130,7 +147,11 @@ class Timeline:
     @cached_property
     def writes(self) -> bool:
         """Whether commands outside of passes write to images."""
-        return any(access.effect in COMMAND_WRITES for command in self.frame.commands for _, access in accesses(command))
+        return any(
+            access.effect in COMMAND_WRITES
+            for command in self.frame.commands
+            for _, access in accesses(command)
+        )
 
     @cached_property
     def presents(self) -> bool:
@@ -140,12 +161,17 @@ class Timeline:
     # Who wrote an image last.
 
     def last_writer(self, image: Target, position: int) -> tuple[int, Pass | None] | None:
-        """What wrote to an image last before a command, round the loop: its position and the pass that draws, None for a command.
+        """What wrote to an image last before a command, round the loop: its position and the pass
+        that draws, None for a command.
 
         Where the order is unknown: the only pass that draws to the image, before all else.
         """
         writers = self._writers.get(image.name, [])
-        return writers[bisect_left(writers, position, key=lambda writer: writer[0]) - 1] if writers else None
+        return (
+            writers[bisect_left(writers, position, key=lambda writer: writer[0]) - 1]
+            if writers
+            else None
+        )
 
     def area(self, render_pass: Pass, position: int | None) -> BegunArea:
         """What a pass writes to where the command at a position begins it."""
@@ -155,7 +181,9 @@ class Timeline:
         return self._areas[key]
 
     def drawn_by(self, image: Target, writer: tuple[int, Pass]) -> list[Attachment]:
-        """The attachments that an image is bound to in a pass that a command at a position begins."""
+        """The attachments that an image is bound to in a pass that a command at a position
+        begins.
+        """
         begin, render_pass = writer
         key = (begin, id(render_pass))
         if key not in self._bound:
@@ -171,7 +199,11 @@ class Timeline:
         found: dict[str, list[tuple[int, Pass | None]]] = {}
         for name, events in self.of.items():
             if not self.frame.document.ordered:
-                passes = {id(e.run.render_pass): e.run.render_pass for e in events if e.kind == DRAW and e.run is not None}
+                passes = {
+                    id(e.run.render_pass): e.run.render_pass
+                    for e in events
+                    if e.kind == DRAW and e.run is not None
+                }
                 if len(passes) == 1:
                     found[name] = [(-1, render_pass) for render_pass in passes.values()]
                 continue
@@ -198,9 +230,17 @@ class Timeline:
         for position, command in enumerate(self.frame.commands if self.frame.has_commands else ()):
             yield from self._command_events(2 * position, command)
 
-    def _seams(self, before: PassRun | None, run: PassRun | None, time: int) -> Iterator[tuple[str, Event]]:
-        """What is not described between two runs: where a rendering suspends and none resumes, or one resumes and none suspended."""
-        suspended = before if before is not None and before.render_pass.suspends and self.frame.has_commands else None
+    def _seams(
+        self, before: PassRun | None, run: PassRun | None, time: int
+    ) -> Iterator[tuple[str, Event]]:
+        """What is not described between two runs: where a rendering suspends and none resumes, or
+        one resumes and none suspended.
+        """
+        suspended = (
+            before
+            if before is not None and before.render_pass.suspends and self.frame.has_commands
+            else None
+        )
         resumes = run is not None and run.render_pass.resumes and self.frame.has_commands
         if resumes == (suspended is not None):
             return
@@ -215,11 +255,16 @@ class Timeline:
     def _run_events(self, run: PassRun) -> Iterator[tuple[str, Event]]:
         stores: list[tuple[str, Event]] = []
         covered: dict[str, bool] = {}
-        begin_command = run.position if run.position is not None else next(iter(run.render_pass.begun), None)
+        begin_command = (
+            run.position if run.position is not None else next(iter(run.render_pass.begun), None)
+        )
         if begin_command is not None:
             command = self.frame.commands[begin_command]
             for target in run.render_pass.rates:
-                yield key_of(target), Event(run.begin_time, READ, None, True, True, None, "", run, command)
+                yield (
+                    key_of(target),
+                    Event(run.begin_time, READ, None, True, True, None, "", run, command),
+                )
         for attachment in run.render_pass.attachments:
             if not (attachment.used or run.render_pass.unread):
                 continue
@@ -233,36 +278,104 @@ class Timeline:
                         # A structure that was not read may use it.
                         source = (attachment, aspect.load_member, run)
                         yield key, Event(run.begin_time, LOAD, aspect.name, whole, False, *source)
-                        stores.append((key, Event(run.end_time, STORE, aspect.name, whole, False, attachment, aspect.store_member, run)))
+                        stores.append(
+                            (
+                                key,
+                                Event(
+                                    run.end_time,
+                                    STORE,
+                                    aspect.name,
+                                    whole,
+                                    False,
+                                    attachment,
+                                    aspect.store_member,
+                                    run,
+                                ),
+                            )
+                        )
                         continue
                     begin = _BEGINS.get(aspect.load)
                     if aspect.load == "NONE" and (attachment.drawn or attachment.input):
-                        # Nothing is left inside the pass of what was there, though a pass that tests or blends with it means it.
+                        # Nothing is left inside the pass of what was there, though a pass that
+                        # tests or blends with it means it.
                         begin = LOAD, False
-                    # A render pass that begins with layout UNDEFINED keeps nothing of the image, outside of its render area too.
+                    # A render pass that begins with layout UNDEFINED keeps nothing of the image,
+                    # outside of its render area too.
                     undefined = aspect.load != "LOAD" and _is_undefined(attachment, aspect.name)
                     if undefined and aspect.load is not None:
                         begin = BEGIN, True
                     if begin is not None and not (attachment.only_rate and begin[0] == BEGIN):
                         kind, certain = begin
-                        all_of_it = whole or (undefined and one_surface(target.image) and frames is not SOME_FRAMES)
+                        all_of_it = whole or (
+                            undefined and one_surface(target.image) and frames is not SOME_FRAMES
+                        )
                         yield (
                             key,
-                            Event(run.begin_time, kind, aspect.name, all_of_it, certain, attachment, aspect.load_member, run, None, frames),
+                            Event(
+                                run.begin_time,
+                                kind,
+                                aspect.name,
+                                all_of_it,
+                                certain,
+                                attachment,
+                                aspect.load_member,
+                                run,
+                                None,
+                                frames,
+                            ),
                         )
                     for index in attachment.color | attachment.depth_stencil:
-                        yield key, Event(run.starts[index], DRAW, aspect.name, whole, True, attachment, "", run, None, frames)
+                        yield (
+                            key,
+                            Event(
+                                run.starts[index],
+                                DRAW,
+                                aspect.name,
+                                whole,
+                                True,
+                                attachment,
+                                "",
+                                run,
+                                None,
+                                frames,
+                            ),
+                        )
                     # The suspended rendering states the same, and performed it.
                     load = attachment.record.loadOp if aspect.load == RESUMED else aspect.load
                     # A pass does not write its density map, whose storeOp is DONT_CARE
-                    # (VUID-VkRenderPassFragmentDensityMapCreateInfoEXT-fragmentDensityMapAttachment-02551).
+                    # (VUID-VkRenderPassFragmentDensityMapCreateInfoEXT-fragmentDensityMapAttachment-02551).  # noqa: E501
                     end = None if attachment.only_rate else _end(attachment, load, aspect.store)
                     if end is not None:
                         kind, certain = end
-                        event = Event(run.end_time, kind, aspect.name, whole, certain, attachment, aspect.store_member, run, None, frames)
+                        event = Event(
+                            run.end_time,
+                            kind,
+                            aspect.name,
+                            whole,
+                            certain,
+                            attachment,
+                            aspect.store_member,
+                            run,
+                            None,
+                            frames,
+                        )
                         stores.append((key, event))
                 for index in attachment.input | attachment.rate:
-                    yield key, Event(run.starts[index], INPUT, None, whole, True, attachment, "", run, None, frames)
+                    yield (
+                        key,
+                        Event(
+                            run.starts[index],
+                            INPUT,
+                            None,
+                            whole,
+                            True,
+                            attachment,
+                            "",
+                            run,
+                            None,
+                            frames,
+                        ),
+                    )
         if not run.render_pass.suspends:
             for resolve in run.render_pass.resolves:
                 yield from self._resolve_events(resolve, run)
@@ -273,18 +386,42 @@ class Timeline:
         if resolve.mode == "NONE":
             return
         time = run.ends[resolve.subpass]
-        ends = ((RESOLVE_READ, resolve.source, resolve.source_image), (RESOLVE_WRITE, resolve.target, resolve.target_image))
+        ends = (
+            (RESOLVE_READ, resolve.source, resolve.source_image),
+            (RESOLVE_WRITE, resolve.target, resolve.target_image),
+        )
         for kind, attachment, image in ends:
-            images = self._images(attachment, run) if attachment is not None else [(image, None)] if image is not None else []
+            images = (
+                self._images(attachment, run)
+                if attachment is not None
+                else [(image, None)]
+                if image is not None
+                else []
+            )
             for target, frames in images:
-                whole = frames is not SOME_FRAMES and self.area(run.render_pass, run.position).covers(target)
+                whole = frames is not SOME_FRAMES and self.area(
+                    run.render_pass, run.position
+                ).covers(target)
                 yield (
                     key_of(target),
-                    Event(time, kind, resolve.aspect, whole, resolve.mode is not None, resolve, "", run, None, frames),
+                    Event(
+                        time,
+                        kind,
+                        resolve.aspect,
+                        whole,
+                        resolve.mode is not None,
+                        resolve,
+                        "",
+                        run,
+                        None,
+                        frames,
+                    ),
                 )
 
     def _images(self, attachment: Attachment, run: PassRun) -> list[tuple[Target, Frames | None]]:
-        """The images of an attachment in a run, each with the frames in which it is the attachment's."""
+        """The images of an attachment in a run, each with the frames in which it is the
+        attachment's.
+        """
         targets = targets_at(self.frame, attachment, run.position)
         if len(targets) <= 1:
             return [(target, None) for target in targets]
@@ -299,7 +436,10 @@ class Timeline:
                 if image is not None:
                     frames.setdefault(image, set()).add(number)
         count = len(names) if isinstance(names, tuple) else 0
-        return [(t, (count, frozenset(frames[t.name])) if t.name in frames else SOME_FRAMES) for t in targets]
+        return [
+            (t, (count, frozenset(frames[t.name])) if t.name in frames else SOME_FRAMES)
+            for t in targets
+        ]
 
     def _command_events(self, time: int, command: Command) -> Iterator[tuple[str, Event]]:
         resolve = self._resolves.get(time // 2)
@@ -317,13 +457,32 @@ class Timeline:
             yield name, Event(time, access.effect, None, whole, True, resolve, "", None, command)
         body = command.body
         for barrier in body.images if isinstance(body, PipelineBarrier) else ():
-            target = self.frame.target(barrier.image) if isinstance(barrier, ImageBarrier) and barrier.oldLayout == "UNDEFINED" else None
+            target = (
+                self.frame.target(barrier.image)
+                if isinstance(barrier, ImageBarrier) and barrier.oldLayout == "UNDEFINED"
+                else None
+            )
             if target is not None and isinstance(barrier, ImageBarrier):
-                yield target.name, Event(time, DISCARD, None, one_surface(target.image), plain(target), barrier, "", None, command)
+                yield (
+                    target.name,
+                    Event(
+                        time,
+                        DISCARD,
+                        None,
+                        one_surface(target.image),
+                        plain(target),
+                        barrier,
+                        "",
+                        None,
+                        command,
+                    ),
+                )
 
     @staticmethod
     def _writes_all(command: Command, target: Target) -> bool:
-        """Whether a clear or a resolve by command, which names no part of an image, writes all of it."""
+        """Whether a clear or a resolve by command, which names no part of an image, writes all of
+        it.
+        """
         if command.kind == "clearDepthStencilImage":
             # Depth and stencil may be cleared apart.
             return plain(target)
@@ -336,12 +495,16 @@ def key_of(target: Target) -> str:
 
 
 def discards_all(event: Event) -> bool:
-    """Whether an event is a barrier from layout UNDEFINED, after which nothing of an image is left."""
+    """Whether an event is a barrier from layout UNDEFINED, after which nothing of an image is
+    left.
+    """
     return event.kind == DISCARD and event.command is not None and event.whole and event.certain
 
 
 def plain(target: Target | None) -> bool:
-    """Whether a command that names an image and no part of it means all of it: one level, layer and aspect."""
+    """Whether a command that names an image and no part of it means all of it: one level, layer and
+    aspect.
+    """
     if target is None or not one_surface(target.image):
         return False
     return target.format is not None and len(target.format.aspects) == 1
@@ -356,13 +519,19 @@ def _is_undefined(attachment: Attachment, aspect: str | None) -> bool:
     return (record.stencilInitialLayout if separate else record.initialLayout) == "UNDEFINED"
 
 
-_BEGINS = {None: (LOAD, False), "LOAD": (LOAD, True), "CLEAR": (BEGIN, True), "DONT_CARE": (BEGIN, True)}
+_BEGINS = {
+    None: (LOAD, False),
+    "LOAD": (LOAD, True),
+    "CLEAR": (BEGIN, True),
+    "DONT_CARE": (BEGIN, True),
+}
 """What a load operation does to what was there, and whether that is certain; others do nothing."""
 
 
 def _end(attachment: Attachment, load: str | None, store: str | None) -> tuple[str, bool] | None:
-    """What a store operation leaves, and whether that is certain; None where it leaves what was in memory, and nothing wrote to it,
-    and where the rendering goes on in another one."""
+    """What a store operation leaves, and whether that is certain; None where it leaves what was in
+    memory, and nothing wrote to it, and where the rendering goes on in another one.
+    """
     if store == "STORE":
         return STORE, True
     if store == "DONT_CARE":

@@ -15,10 +15,12 @@ from .parts import Pass
 
 
 class PassRun:
-    """One run of a pass. `position` is that of the command that begins it, None where no commands are stated.
+    """One run of a pass. `position` is that of the command that begins it, None where no commands
+    are stated.
 
-    Times are twice the position of a command, and one more for what follows it. `starts` and `ends` are the times of the subpasses;
-    `commands` are the commands recorded in the run, each with its subpass.
+    Times are twice the position of a command, and one more for what follows it. `starts` and `ends`
+    are the times of the subpasses; `commands` are the commands recorded in the run, each with its
+    subpass.
     """
 
     __slots__ = ("commands", "ends", "position", "render_pass", "starts")
@@ -48,7 +50,9 @@ class PassRun:
 
 
 class Step(NamedTuple):
-    """A command where it is recorded: the run that it begins, ends or belongs to (None outside of passes), and the subpass."""
+    """A command where it is recorded: the run that it begins, ends or belongs to (None outside of
+    passes), and the subpass.
+    """
 
     position: int
     command: Command
@@ -80,22 +84,38 @@ class Walk:
     @cached_property
     def recorded_runs(self) -> dict[int, PassRun]:
         """The runs that the commands begin, in order, by the positions where they begin."""
-        return {step.position: step.run for step in self.steps if step.begins and step.run is not None}
+        return {
+            step.position: step.run for step in self.steps if step.begins and step.run is not None
+        }
 
     @cached_property
     def runs(self) -> list[PassRun]:
-        """The runs of the passes; where no commands are stated, or their order is unknown, every pass runs once, in order."""
-        return list(self.recorded_runs.values() if self.frame.has_commands else once_each(self.frame.passes))
+        """The runs of the passes; where no commands are stated, or their order is unknown, every
+        pass runs once, in order.
+        """
+        return list(
+            self.recorded_runs.values() if self.frame.has_commands else once_each(self.frame.passes)
+        )
 
     @cached_property
     def suspended(self) -> dict[int, Pass]:
-        """By the identity of a resumed rendering: the suspended one, which is the one before (VUID-VkSubmitInfo2-commandBuffer-06012)."""
-        passes = [run.render_pass for run in self.recorded_runs.values()] if self.frame.has_commands else []
+        """By the identity of a resumed rendering: the suspended one, which is the one before
+        (VUID-VkSubmitInfo2-commandBuffer-06012).
+        """
+        passes = (
+            [run.render_pass for run in self.recorded_runs.values()]
+            if self.frame.has_commands
+            else []
+        )
         return {id(other): one for one, other in pairwise(passes) if one.suspends and other.resumes}
 
     def runs_of(self, render_pass: Pass) -> list[PassRun]:
         """Those of `runs` that are of a pass."""
-        return self.recorded_runs_of(render_pass) if self.frame.has_commands else [self._only_runs[id(render_pass)]]
+        return (
+            self.recorded_runs_of(render_pass)
+            if self.frame.has_commands
+            else [self._only_runs[id(render_pass)]]
+        )
 
     @cached_property
     def _only_runs(self) -> dict[int, PassRun]:
@@ -113,7 +133,11 @@ class Walk:
         return found
 
     def _walk(self) -> Iterator[Step]:
-        begins = {position: render_pass for render_pass in self.frame.passes for position in render_pass.begun}
+        begins = {
+            position: render_pass
+            for render_pass in self.frame.passes
+            for position in render_pass.begun
+        }
         run: PassRun | None = None
         subpass = 0
         for position, command in enumerate(self.frame.commands):

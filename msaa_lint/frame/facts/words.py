@@ -10,7 +10,8 @@ from msaa_lint.frame.description.models.frame import VENDORS
 class Fact(NamedTuple):
     """A fact that rules may ask.
 
-    `type` is BOOL, INT, DOUBLE, STRING, LIST (of text) or INTS; `enum` is the Vulkan enum, or the key of `WORDS`, that its texts come from.
+    `type` is BOOL, INT, DOUBLE, STRING, LIST (of text) or INTS; `enum` is the Vulkan enum, or the
+    key of `WORDS`, that its texts come from.
     """
 
     name: str
@@ -27,7 +28,8 @@ WORDS: dict[str, tuple[str, ...]] = {
     "begun": ("YES", "NO", "NOT_STATED"),
     "resolve kind": ("subpass", "rendering", "command"),
     "other use": (
-        "NOTHING", "RESOLVE_TARGET", "COLOR_ATTACHMENT", "DEPTH_STENCIL_ATTACHMENT", "INPUT_ATTACHMENT", "PRESERVED_ATTACHMENT",
+        "NOTHING", "RESOLVE_TARGET", "COLOR_ATTACHMENT", "DEPTH_STENCIL_ATTACHMENT",
+        "INPUT_ATTACHMENT", "PRESERVED_ATTACHMENT",
     ),
     "copy command": ("copyImage", "blitImage", "copyImageToBuffer", "copyBufferToImage"),
     "encoding": ("LINEAR", "GAMMA", "DATA"),
@@ -41,22 +43,27 @@ WORDS: dict[str, tuple[str, ...]] = {
     "api": ("VULKAN", "METAL"),
     "storage mode": ("shared", "managed", "private", "memoryless"),
     "texture type": (
-        "type1D", "type1DArray", "type2D", "type2DArray", "type2DMultisample", "typeCube", "typeCubeArray", "type3D",
+        "type1D", "type1DArray", "type2D", "type2DArray", "type2DMultisample", "typeCube",
+        "typeCubeArray", "type3D",
         "type2DMultisampleArray", "typeTextureBuffer",
     ),
-    "texture usage": ("shaderRead", "shaderWrite", "renderTarget", "pixelFormatView", "shaderAtomic"),
+    "texture usage": ("shaderRead", "shaderWrite", "renderTarget", "pixelFormatView",
+    "shaderAtomic"),
     "load action": ("dontCare", "load", "clear"),
-    "store action": ("dontCare", "store", "multisampleResolve", "storeAndMultisampleResolve", "unknown", "customSampleDepthStore"),
+    "store action": ("dontCare", "store", "multisampleResolve", "storeAndMultisampleResolve",
+    "unknown", "customSampleDepthStore"),
     "resolve filter": ("sample0", "min", "max", "depthResolvedSample"),
     "family": (
-        *(f"apple{number}" for number in range(1, 11)), "mac1", "mac2", "macCatalyst1", "macCatalyst2", "common1", "common2", "common3",
+        *(f"apple{number}" for number in range(1, 11)), "mac1", "mac2", "macCatalyst1",
+        "macCatalyst2", "common1", "common2", "common3",
         "metal3", "metal4",
     ),
     "fits": ("SAME", "DIFFERENT", "NOT_STATED"),
     "combined": ("AND", "OR", "MIN", "MAX", "LOGICAL_AND", "LOGICAL_OR", "NONE"),
     "chosen": ("MAXIMUM", "ATMOST"),
     "study": ("NONE", "JUSTIFIES", "DECLINES", "STALE", "UNUSABLE"),
-    "numeric": ("UNORM", "SNORM", "USCALED", "SSCALED", "UINT", "SINT", "UFLOAT", "SFLOAT", "SRGB", "SFIXED5", "BOOL"),
+    "numeric": ("UNORM", "SNORM", "USCALED", "SSCALED", "UINT", "SINT", "UFLOAT", "SFLOAT", "SRGB",
+    "SFIXED5", "BOOL"),
     "vendor": VENDORS,
 }  # fmt: skip
 """The texts of such facts by `Fact.enum`."""

@@ -1,7 +1,8 @@
 """What the GPUs of Metal's families support.
 
-From Apple's documentation of supportsTextureSampleCount (1 and 4 on every device, 2 on every iPhone, iPad and Apple TV and some Macs, 8 on
-some Macs alone) and of MTLStorageMode.memoryless, with the families of the feature set tables: those up to apple6 are in no Mac.
+From Apple's documentation of supportsTextureSampleCount (1 and 4 on every device, 2 on every
+iPhone, iPad and Apple TV and some Macs, 8 on some Macs alone) and of MTLStorageMode.memoryless,
+with the families of the feature set tables: those up to apple6 are in no Mac.
 """
 
 from __future__ import annotations
@@ -21,13 +22,17 @@ _TILES = {7: "apple-g13", 8: "apple-g13"}
 
 
 def _apple(family: str | None) -> int:
-    """The number of a family of Apple GPUs; 0 for any other family, which also covers Macs with other GPUs."""
+    """The number of a family of Apple GPUs; 0 for any other family, which also covers Macs with
+    other GPUs.
+    """
     number = (family or "").removeprefix("apple")
     return int(number) if number.isdecimal() else 0
 
 
 def counts(family: str | None, stated: tuple[int, ...] | None) -> tuple[int, ...]:
-    """The sample counts that are certainly supported: those stated for supportsTextureSampleCount, else those of the family."""
+    """The sample counts that are certainly supported: those stated for supportsTextureSampleCount,
+    else those of the family.
+    """
     if stated is not None:
         return tuple(sorted({*stated}))
     return (1, 2, 4) if _apple(family) else EVERYWHERE
@@ -37,13 +42,19 @@ def offers_count(count: int, family: str | None, stated: tuple[int, ...] | None)
     """Whether devices of the family support a sample count; None if only some do."""
     if count in counts(family, stated):
         return True
-    if stated is not None or count not in SOMEWHERE or (count == 8 and 0 < _apple(family) <= _LAST_IN_NO_MAC):
+    if (
+        stated is not None
+        or count not in SOMEWHERE
+        or (count == 8 and 0 < _apple(family) <= _LAST_IN_NO_MAC)
+    ):
         return False
     return None
 
 
 def offers_memoryless(family: str | None) -> bool | None:
-    """Whether devices of the family have memoryless textures (apple2 and later); None for families that cover Macs with other GPUs."""
+    """Whether devices of the family have memoryless textures (apple2 and later); None for families
+    that cover Macs with other GPUs.
+    """
     number = _apple(family)
     return number >= 2 if number else None
 

@@ -1,15 +1,38 @@
 """MTLPixelFormat: each format, and the VkFormat with the same bits; empty if Vulkan has none.
 
-Metal names components from the least significant bit of a packed format up, Vulkan's `PACK` names from the most significant one down.
+Metal names components from the least significant bit of a packed format up, Vulkan's `PACK` names
+from the most significant one down.
 """
 
 from __future__ import annotations
 
-_BLOCKS = ("4x4", "5x4", "5x5", "6x5", "6x6", "8x5", "8x6", "8x8", "10x5", "10x6", "10x8", "10x10", "12x10", "12x12")
+_BLOCKS = (
+    "4x4",
+    "5x4",
+    "5x5",
+    "6x5",
+    "6x6",
+    "8x5",
+    "8x6",
+    "8x8",
+    "10x5",
+    "10x6",
+    "10x8",
+    "10x10",
+    "12x10",
+    "12x12",
+)
 
 _ASTC = {"srgb": "SRGB", "ldr": "UNORM", "hdr": "SFLOAT"}
 
-_NUMERIC = {"Unorm": "UNORM", "Snorm": "SNORM", "Uint": "UINT", "Sint": "SINT", "Float": "SFLOAT", "Unorm_srgb": "SRGB"}
+_NUMERIC = {
+    "Unorm": "UNORM",
+    "Snorm": "SNORM",
+    "Uint": "UINT",
+    "Sint": "SINT",
+    "Float": "SFLOAT",
+    "Unorm_srgb": "SRGB",
+}
 
 _KINDS: dict[int, tuple[str, ...]] = {
     8: ("Unorm", "Unorm_srgb", "Snorm", "Uint", "Sint"),
@@ -20,10 +43,16 @@ _KINDS: dict[int, tuple[str, ...]] = {
 
 def _plain() -> dict[str, str]:
     """Formats such as `rgba8Unorm`, whose components have one width."""
-    named = [(letters, bits, kind) for letters in ("r", "rg", "rgba") for bits, kinds in _KINDS.items() for kind in kinds]
+    named = [
+        (letters, bits, kind)
+        for letters in ("r", "rg", "rgba")
+        for bits, kinds in _KINDS.items()
+        for kind in kinds
+    ]
     named += [("bgra", 8, "Unorm"), ("bgra", 8, "Unorm_srgb")]
     return {
-        f"{letters}{bits}{kind}": "".join(f"{letter}{bits}" for letter in letters.upper()) + f"_{_NUMERIC[kind]}"
+        f"{letters}{bits}{kind}": "".join(f"{letter}{bits}" for letter in letters.upper())
+        + f"_{_NUMERIC[kind]}"
         for letters, bits, kind in named
     }
 
@@ -75,7 +104,11 @@ PIXEL_FORMATS: dict[str, str] = {
     "etc2_rgb8_srgb": "ETC2_R8G8B8_SRGB_BLOCK",
     "etc2_rgb8a1": "ETC2_R8G8B8A1_UNORM_BLOCK",
     "etc2_rgb8a1_srgb": "ETC2_R8G8B8A1_SRGB_BLOCK",
-    **{f"astc_{block}_{kind}": f"ASTC_{block}_{numeric}_BLOCK" for block in _BLOCKS for kind, numeric in _ASTC.items()},
+    **{
+        f"astc_{block}_{kind}": f"ASTC_{block}_{numeric}_BLOCK"
+        for block in _BLOCKS
+        for kind, numeric in _ASTC.items()
+    },
     "gbgr422": "G8B8G8R8_422_UNORM",
     "bgrg422": "B8G8R8G8_422_UNORM",
     "depth16Unorm": "D16_UNORM",
@@ -86,4 +119,6 @@ PIXEL_FORMATS: dict[str, str] = {
     "x32_stencil8": "",
     "x24_stencil8": "",
 }
-"""By Swift's name. The formats with extended range (`_xr`), and the views of stencil alone (`x32_stencil8`), have no VkFormat."""
+"""By Swift's name. The formats with extended range (`_xr`), and the views of stencil alone
+(`x32_stencil8`), have no VkFormat.
+"""

@@ -1,4 +1,6 @@
-"""Arithmetic on samples: sums, fractions, minima and maxima. Any other operation counts as a use that is not followed."""
+"""Arithmetic on samples: sums, fractions, minima and maxima. Any other operation counts as a use
+that is not followed.
+"""
 
 from __future__ import annotations
 
@@ -12,7 +14,9 @@ from .values import Opaque, Pointer, Sum, Value, combined, computed, extreme, pl
 _EXTREMES = {37: "MIN", 38: "MIN", 39: "MIN", 79: "MIN", 40: "MAX", 41: "MAX", 42: "MAX", 80: "MAX"}
 """Instructions of GLSL.std.450."""
 
-_PURE = frozenset({*range(77, 85), *range(109, 125), *range(126, 153), *range(154, 192), *range(194, 206)})
+_PURE = frozenset(
+    {*range(77, 85), *range(109, 125), *range(126, 153), *range(154, 192), *range(194, 206)}
+)
 """Instructions with equal results for equal operands."""
 
 
@@ -21,16 +25,25 @@ def _has_numbers(value: Value) -> bool:
 
 
 class Arithmetic(State):
-    """The instructions that compute numbers from numbers. Every method for an instruction returns the value of its result."""
+    """The instructions that compute numbers from numbers. Every method for an instruction returns
+    the value of its result.
+    """
 
     def _other(self, number: int, at: int, end: int) -> Value:
-        """An instruction that is not followed: its operands count as used, its result is unknown. None if it has no result."""
+        """An instruction that is not followed: its operands count as used, its result is unknown.
+        None if it has no result.
+        """
         words = self.words
         has_result = end > at + 2 and words[at + 1] in self.module.types
         operands = [self._value(each) for each in words[at + (3 if has_result else 1) : end]]
         pure = has_result and number in _PURE
         if pure and operands and self._width(words[at + 1]) == 1:
-            value = computed(number, self._kind(words[at + 1]), tuple(operands), self.constants.width(words[at + 3]))
+            value = computed(
+                number,
+                self._kind(words[at + 1]),
+                tuple(operands),
+                self.constants.width(words[at + 3]),
+            )
             if value is not None:
                 return value
         if pure:
@@ -38,8 +51,12 @@ class Arithmetic(State):
         self._escape(*operands)
         return Opaque() if has_result else None
 
-    def _by_component(self, type_id: int, operation: Callable[..., Value], *operands: Value) -> Value:
-        """The results of an operation on scalars for each component of the result's type; unknown if an operand has other components."""
+    def _by_component(
+        self, type_id: int, operation: Callable[..., Value], *operands: Value
+    ) -> Value:
+        """The results of an operation on scalars for each component of the result's type; unknown
+        if an operand has other components.
+        """
         kind, width = self._kind(type_id), self._width(type_id)
         if width == 1:
             return operation(kind, *operands)
@@ -70,7 +87,9 @@ class Arithmetic(State):
         elif number in (129, 131):
             value = combined(one, other, 1.0 if number == 129 else -1.0)
         elif number == 133:
-            value = scaled(one, other) if plain(other) else scaled(other, one) if plain(one) else None
+            value = (
+                scaled(one, other) if plain(other) else scaled(other, one) if plain(one) else None
+            )
         elif number == 136 and plain(other) and other != 0:
             value = scaled(one, 1.0 / other)
         if type(value) is Sum:
@@ -84,7 +103,11 @@ class Arithmetic(State):
 
     def _negate(self, at: int, end: int) -> Value:
         type_id, value = self.words[at + 1], self._value(self.words[at + 3])
-        return self._by_component(type_id, self._negated, value) if type(value) is tuple else self._negated(self._kind(type_id), value)
+        return (
+            self._by_component(type_id, self._negated, value)
+            if type(value) is tuple
+            else self._negated(self._kind(type_id), value)
+        )
 
     def _negated(self, kind: tuple[int, ...], value: Value) -> Value:
         negated = computed(127, kind, (value,)) if plain(value) else scaled(value, -1.0)

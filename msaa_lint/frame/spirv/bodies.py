@@ -1,4 +1,6 @@
-"""The functions that an entry point reaches: their blocks, the variables they refer to, and where they write."""
+"""The functions that an entry point reaches: their blocks, the variables they refer to, and where
+they write.
+"""
 
 from __future__ import annotations
 
@@ -18,7 +20,9 @@ GLOBALS = -1
 
 
 class Block(NamedTuple):
-    """A block: its first instruction, and the labels that its merge instruction names (None if it has none)."""
+    """A block: its first instruction, and the labels that its merge instruction names (None if it
+    has none).
+    """
 
     start: int
     merge: int | None
@@ -26,9 +30,22 @@ class Block(NamedTuple):
 
 
 class Body:
-    """A reached function. `writes` has pairs of a place and the variables written there, in the order of places."""
+    """A reached function. `writes` has pairs of a place and the variables written there, in the
+    order of places.
+    """
 
-    __slots__ = ("blocks", "calls", "discards", "fetches", "first", "function", "locals", "uses", "vectors", "writes")
+    __slots__ = (
+        "blocks",
+        "calls",
+        "discards",
+        "fetches",
+        "first",
+        "function",
+        "locals",
+        "uses",
+        "vectors",
+        "writes",
+    )
 
     def __init__(self, function: Function) -> None:
         self.function = function
@@ -40,7 +57,9 @@ class Body:
         """The places where samples are fetched, or a function that fetches them is called."""
         self.writes: list[tuple[int, int]] = []
         self.uses: dict[int, set[int | None]] = {}
-        """By pointer: the members that are referred to, as the ids of their indices; None for all of them."""
+        """By pointer: the members that are referred to, as the ids of their indices; None for all
+        of them.
+        """
         self.locals: set[int] = set()
         self.vectors: dict[int, int] = {}
         """The lengths of the vectors that the instructions create."""
@@ -60,35 +79,50 @@ MAX_WORDS = 0xFFFF
 """Words of an instruction."""
 
 _LEAST = {
-    op.EXT_INST: 5, op.FUNCTION_CALL: 4, op.VARIABLE: 4, op.IMAGE_TEXEL_POINTER: 6, op.LOAD: 4, op.STORE: 3, op.COPY_MEMORY: 3,
-    op.ACCESS_CHAIN: 4, op.IN_BOUNDS_ACCESS_CHAIN: 4, op.PTR_ACCESS_CHAIN: 5, op.VECTOR_SHUFFLE: 5, op.COMPOSITE_CONSTRUCT: 3,
-    op.COMPOSITE_EXTRACT: 4, op.COMPOSITE_INSERT: 5, op.COPY_OBJECT: 4, op.COPY_LOGICAL: 4, op.SAMPLED_IMAGE: 5, op.IMAGE_FETCH: 5,
-    op.IMAGE_READ: 5, op.SPARSE_FETCH: 5, op.SPARSE_READ: 5, op.IMAGE: 4, op.IMAGE_QUERY_SAMPLES: 4, op.PHI: 3, op.LOOP_MERGE: 4,
-    op.SELECTION_MERGE: 3, op.LABEL: 2, op.BRANCH: 2, op.BRANCH_CONDITIONAL: 4, op.SWITCH: 3, op.RETURN_VALUE: 2,
+    op.EXT_INST: 5, op.FUNCTION_CALL: 4, op.VARIABLE: 4, op.IMAGE_TEXEL_POINTER: 6, op.LOAD: 4,
+    op.STORE: 3, op.COPY_MEMORY: 3,
+    op.ACCESS_CHAIN: 4, op.IN_BOUNDS_ACCESS_CHAIN: 4, op.PTR_ACCESS_CHAIN: 5, op.VECTOR_SHUFFLE: 5,
+    op.COMPOSITE_CONSTRUCT: 3,
+    op.COMPOSITE_EXTRACT: 4, op.COMPOSITE_INSERT: 5, op.COPY_OBJECT: 4, op.COPY_LOGICAL: 4,
+    op.SAMPLED_IMAGE: 5, op.IMAGE_FETCH: 5,
+    op.IMAGE_READ: 5, op.SPARSE_FETCH: 5, op.SPARSE_READ: 5, op.IMAGE: 4,
+    op.IMAGE_QUERY_SAMPLES: 4, op.PHI: 3, op.LOOP_MERGE: 4,
+    op.SELECTION_MERGE: 3, op.LABEL: 2, op.BRANCH: 2, op.BRANCH_CONDITIONAL: 4, op.SWITCH: 3,
+    op.RETURN_VALUE: 2,
     115: 4, 127: 4, 129: 5, 131: 5, 133: 5, 136: 5, 142: 5, 169: 6,
 }  # fmt: skip
 """The minimum number of words of instructions in functions."""
 
 _USED = {
-    op.LOAD: (3, 4), op.STORE: (1, 3), op.FUNCTION_CALL: (4, MAX_WORDS), op.EXT_INST: (5, MAX_WORDS), op.COPY_OBJECT: (3, 4),
+    op.LOAD: (3, 4), op.STORE: (1, 3), op.FUNCTION_CALL: (4, MAX_WORDS), op.EXT_INST: (5,
+    MAX_WORDS), op.COPY_OBJECT: (3, 4),
     op.COPY_MEMORY: (1, 3), op.IMAGE_TEXEL_POINTER: (3, 4),
 }  # fmt: skip
-"""The words (first and end) of instructions that may be pointers to variables that are used as a whole."""
+"""The words (first and end) of instructions that may be pointers to variables that are used as a
+whole.
+"""
 
 _CHAINS = (op.ACCESS_CHAIN, op.IN_BOUNDS_ACCESS_CHAIN, op.PTR_ACCESS_CHAIN)
 
 _NOTED = frozenset({
-    op.LABEL, op.STORE, op.SELECTION_MERGE, op.LOOP_MERGE, op.FUNCTION_CALL, op.VARIABLE, op.EXT_INST, op.COPY_OBJECT, op.COPY_MEMORY,
+    op.LABEL, op.STORE, op.SELECTION_MERGE, op.LOOP_MERGE, op.FUNCTION_CALL, op.VARIABLE,
+    op.EXT_INST, op.COPY_OBJECT, op.COPY_MEMORY,
     *_CHAINS, *op.FETCHES, *op.DISCARDS,
 })  # fmt: skip
 """The instructions that the analysis of bodies records beyond such uses."""
 
 
 def reached(module: Module, start: int) -> dict[int, Body]:
-    """A function and those that it calls, directly or indirectly. Raises SpirvError if one is missing or truncated."""
+    """A function and those that it calls, directly or indirectly. Raises SpirvError if one is
+    missing or truncated.
+    """
     found: dict[int, Body] = {}
     waiting = [start]
-    lengths = {each: kind[2] for each, kind in module.types.items() if kind[0] == op.TYPE_VECTOR and len(kind) > 2 and kind[2] <= 16}
+    lengths = {
+        each: kind[2]
+        for each, kind in module.types.items()
+        if kind[0] == op.TYPE_VECTOR and len(kind) > 2 and kind[2] <= 16
+    }
     while waiting:
         identity = waiting.pop()
         if identity in found:
@@ -109,7 +143,9 @@ def reached(module: Module, start: int) -> dict[int, Body]:
         fetching |= new
         waiting.extend(new)
     for body in found.values():
-        body.fetches = sorted([*body.fetches, *(at for at, target in body.calls if target in fetching)])
+        body.fetches = sorted(
+            [*body.fetches, *(at for at, target in body.calls if target in fetching)]
+        )
     return found
 
 
@@ -146,7 +182,9 @@ def _body(module: Module, function: Function, lengths: dict[int, int]) -> Body:
         elif number in _CHAINS:
             base = words[at + 3]
             roots[words[at + 2]] = roots.get(base, base)
-            body.uses.setdefault(base, set()).add(words[at + 4] if after > at + 4 and number != op.PTR_ACCESS_CHAIN else None)
+            body.uses.setdefault(base, set()).add(
+                words[at + 4] if after > at + 4 and number != op.PTR_ACCESS_CHAIN else None
+            )
         elif number == op.SELECTION_MERGE:
             merge, continues = words[at + 1], None
         elif number == op.LOOP_MERGE:

@@ -11,7 +11,12 @@ from .values import MAX_PARTS, Opaque, Value, computed, given, literal, small, w
 MAX_DEPTH = 16
 """Levels of nested types."""
 
-_BOOLEANS = {op.CONSTANT_TRUE: True, op.SPEC_CONSTANT_TRUE: True, op.CONSTANT_FALSE: False, op.SPEC_CONSTANT_FALSE: False}
+_BOOLEANS = {
+    op.CONSTANT_TRUE: True,
+    op.SPEC_CONSTANT_TRUE: True,
+    op.CONSTANT_FALSE: False,
+    op.SPEC_CONSTANT_FALSE: False,
+}
 _ZEROS = {op.TYPE_BOOL: False, op.TYPE_INT: 0, op.TYPE_FLOAT: 0.0}
 
 
@@ -28,7 +33,9 @@ class Constants:
             value = self._value(identity, made, specialization)
             self.values[identity] = Opaque() if value is None else value
 
-    def _value(self, identity: int, made: tuple[int, ...], specialization: Mapping[int, float | bool]) -> Value:
+    def _value(
+        self, identity: int, made: tuple[int, ...], specialization: Mapping[int, float | bool]
+    ) -> Value:
         number, type_id, *operands = made
         kind = self.module.types.get(type_id, ())
         if number in (op.SPEC_CONSTANT_TRUE, op.SPEC_CONSTANT_FALSE, op.SPEC_CONSTANT):
@@ -42,7 +49,9 @@ class Constants:
         if number in (op.CONSTANT_COMPOSITE, op.SPEC_CONSTANT_COMPOSITE):
             parts = tuple(self.values.get(part) for part in operands[: MAX_PARTS + 1])
             # A part may have parts of its own, which many constants may share.
-            count = self._parts[identity] = 1 + sum(self._parts.get(part, 1) for part in operands[: MAX_PARTS + 1])
+            count = self._parts[identity] = 1 + sum(
+                self._parts.get(part, 1) for part in operands[: MAX_PARTS + 1]
+            )
             return None if None in parts or count > MAX_PARTS else parts
         if number == op.CONSTANT_NULL:
             if type_id not in self._nulls:
@@ -79,7 +88,13 @@ class Constants:
         kind = self.module.types.get(type_id, ())
         if kind and kind[0] == op.TYPE_VECTOR and len(kind) > 1:
             kind = self.module.types.get(kind[1], ())
-        return kind[1] if len(kind) > 1 and kind[0] in (op.TYPE_INT, op.TYPE_FLOAT) and kind[1] in (8, 16, 32, 64) else 32
+        return (
+            kind[1]
+            if len(kind) > 1
+            and kind[0] in (op.TYPE_INT, op.TYPE_FLOAT)
+            and kind[1] in (8, 16, 32, 64)
+            else 32
+        )
 
     def null(self, type_id: int, depth: int = 0) -> Value:
         """The zero of a type; None if it has none or is too large."""

@@ -1,7 +1,9 @@
-"""Follows an entry point from block to block: the samples of multisampled images that it fetches, their uses, and its outputs.
+"""Follows an entry point from block to block: the samples of multisampled images that it fetches,
+their uses, and its outputs.
 
-Conditions and loops that constants decide are followed as a GPU would; of others every way is followed, and what they disagree on is
-unknown. It takes a bounded number of steps; a shader that takes more is given up.
+Conditions and loops that constants decide are followed as a GPU would; of others every way is
+followed, and what they disagree on is unknown. It takes a bounded number of steps; a shader that
+takes more is given up.
 """
 
 from __future__ import annotations
@@ -22,21 +24,36 @@ MAX_NESTED = 100
 """Levels of nested constructs and calls."""
 
 MAX_ROUNDS, MAX_IDLE_ROUNDS = 128, 16
-"""Iterations of a loop with constant bounds, if it fetches samples and if not; after them, what it changes is unknown."""
+"""Iterations of a loop with constant bounds, if it fetches samples and if not; after them, what it
+changes is unknown.
+"""
 
 MAX_DOUBTFUL = 16
-"""Iterations of a loop that fetches and may end after any of them; in practice no image has more samples."""
+"""Iterations of a loop that fetches and may end after any of them; in practice no image has more
+samples.
+"""
 
 RETURNED = 0
 """In place of a label: the function returns."""
 
 _ENDS = frozenset(
-    {op.BRANCH, op.BRANCH_CONDITIONAL, op.SWITCH, op.RETURN, op.RETURN_VALUE, *op.DEAD_ENDS, op.FUNCTION_END, op.COPY_MEMORY_SIZED}
+    {
+        op.BRANCH,
+        op.BRANCH_CONDITIONAL,
+        op.SWITCH,
+        op.RETURN,
+        op.RETURN_VALUE,
+        *op.DEAD_ENDS,
+        op.FUNCTION_END,
+        op.COPY_MEMORY_SIZED,
+    }
 )
 """Instructions that end a block, and those after which nothing is followed."""
 
 _SILENT = frozenset({0, 8, op.LABEL, op.PHI, op.SELECTION_MERGE, op.LOOP_MERGE, 317, op.DEMOTE})
-"""Instructions without an effect here: no-ops, lines, merges, and phis, whose values are known already."""
+"""Instructions without an effect here: no-ops, lines, merges, and phis, whose values are known
+already.
+"""
 
 
 class _Ended(Exception):
@@ -44,7 +61,9 @@ class _Ended(Exception):
 
 
 class Exit(NamedTuple):
-    """An exit of a construct: its label, the memory, the values for the label's phis, and the returned value."""
+    """An exit of a construct: its label, the memory, the values for the label's phis, and the
+    returned value.
+    """
 
     label: int
     memory: dict[int, Value]
@@ -61,7 +80,9 @@ class Follower(Instructions):
         self._nested = 0
 
     def follow(self, function: int) -> dict[int, Value] | None:
-        """The values of variables where the entry point returns; None if it never does. Raises GivenUp if they cannot be found."""
+        """The values of variables where the entry point returns; None if it never does. Raises
+        GivenUp if they cannot be found.
+        """
         for identity, variable in self.module.variables.items():
             if variable.storage in op.LOCAL:
                 self.holds[identity] = variable.holds
@@ -101,7 +122,9 @@ class Follower(Instructions):
         return Opaque() if value is None else value
 
     def _run(self, body: Body, label: int, stops: frozenset[int], header: int = 0) -> list[Exit]:
-        """Follows from a label, whose phis have values, to the labels that stop it. `header` is that of the loop being iterated."""
+        """Follows from a label, whose phis have values, to the labels that stop it. `header` is
+        that of the loop being iterated.
+        """
         self._nested += 1
         if self._nested > MAX_NESTED:
             raise GivenUp
@@ -145,7 +168,9 @@ class Follower(Instructions):
             self.guarded += conditional
             label, header = merge, 0
 
-    def _ways(self, body: Body, label: int, targets: Sequence[int], stops: frozenset[int]) -> list[Exit]:
+    def _ways(
+        self, body: Body, label: int, targets: Sequence[int], stops: frozenset[int]
+    ) -> list[Exit]:
         """Follows every target of an undecided branch."""
         before = self.memory
         exits: list[Exit] = []
@@ -188,7 +213,9 @@ class Follower(Instructions):
             if widened:
                 self._forget(body, label, begin, end, before, True)
                 break
-            if doubtful > (MAX_DOUBTFUL if fetching else 0) or rounds >= (MAX_ROUNDS if fetching else MAX_IDLE_ROUNDS):
+            if doubtful > (MAX_DOUBTFUL if fetching else 0) or rounds >= (
+                MAX_ROUNDS if fetching else MAX_IDLE_ROUNDS
+            ):
                 widened = True
                 self._forget(body, label, begin, end, before, False)
         self.guarded -= doubtful
@@ -199,8 +226,12 @@ class Follower(Instructions):
                 self.values[identity] = Opaque((self.values[identity],))
         return left
 
-    def _forget(self, body: Body, label: int, begin: int, end: int, before: dict[int, Value], used: bool) -> None:
-        """Forgets what a loop may change before an iteration; `used` marks the present values as used."""
+    def _forget(
+        self, body: Body, label: int, begin: int, end: int, before: dict[int, Value], used: bool
+    ) -> None:
+        """Forgets what a loop may change before an iteration; `used` marks the present values as
+        used.
+        """
         self._take(len(self.memory) >> 3)
         roots = {root for root, value in self.memory.items() if before.get(root) is not value}
         for root in body.written(begin, end) if end > begin else {ANYWHERE}:
@@ -210,8 +241,13 @@ class Follower(Instructions):
         if GLOBALS in roots:
             self._take(len(self.module.variables) >> 3)
             roots.update(self.module.variables)
-        unknown = ANYWHERE in roots or any(root > 0 and root not in self.memory and root not in self.module.variables for root in roots)
-        for root in list(self.memory) if unknown else [root for root in roots if root in self.memory]:
+        unknown = ANYWHERE in roots or any(
+            root > 0 and root not in self.memory and root not in self.module.variables
+            for root in roots
+        )
+        for root in (
+            list(self.memory) if unknown else [root for root in roots if root in self.memory]
+        ):
             if used:
                 self._escape(self.memory[root])
             self.memory[root] = Opaque((self.memory[root],))
@@ -241,7 +277,9 @@ class Follower(Instructions):
             pairs = list(zip(words[at + 3 : end : 2], words[at + 4 : end : 2], strict=False))
             if plain(selector):
                 wanted = int(selector) & 0xFFFFFFFF
-                return [next((label for literal, label in pairs if literal == wanted), words[at + 2])]
+                return [
+                    next((label for literal, label in pairs if literal == wanted), words[at + 2])
+                ]
             self._escape(selector)
             return list(dict.fromkeys([words[at + 2], *(label for _, label in pairs)]))
         if number == op.RETURN:
@@ -252,7 +290,9 @@ class Follower(Instructions):
             raise GivenUp
         return []
 
-    def _go(self, body: Body, source: int, target: int, stops: frozenset[int], exits: list[Exit]) -> bool:
+    def _go(
+        self, body: Body, source: int, target: int, stops: frozenset[int], exits: list[Exit]
+    ) -> bool:
         """Continues at a label, or records an exit if following stops there."""
         phis = tuple(self._phis(body, target, source))
         if target in stops:
@@ -274,7 +314,9 @@ class Follower(Instructions):
             self._take((end - at) >> 4)
             if words[at] & 0xFFFF == op.PHI:
                 pairs = zip(words[at + 3 : end : 2], words[at + 4 : end : 2], strict=False)
-                value = next((self._value(value) for value, parent in pairs if parent == source), None)
+                value = next(
+                    (self._value(value) for value, parent in pairs if parent == source), None
+                )
                 found.append((words[at + 2], Opaque() if value is None else value))
             at = end
         return found
@@ -315,13 +357,22 @@ class Follower(Instructions):
 
 
 _INSTRUCTIONS: dict[int, Callable[[Follower, int, int], Value]] = {
-    op.LOAD: Follower._load, op.STORE: Follower._store, op.VARIABLE: Follower._variable, op.FUNCTION_CALL: Follower._call,
-    op.ACCESS_CHAIN: Follower._chain, op.IN_BOUNDS_ACCESS_CHAIN: Follower._chain, op.COPY_MEMORY: Follower._copy_memory,
-    op.COPY_OBJECT: Follower._same, op.COPY_LOGICAL: Follower._same, op.IMAGE: Follower._same, op.SAMPLED_IMAGE: Follower._same,
-    op.COMPOSITE_CONSTRUCT: Follower._construct, op.COMPOSITE_EXTRACT: Follower._extract, op.COMPOSITE_INSERT: Follower._insert,
-    op.VECTOR_SHUFFLE: Follower._shuffle, op.IMAGE_FETCH: Follower._fetch, op.IMAGE_READ: Follower._fetch, op.SPARSE_FETCH: Follower._fetch,
-    op.SPARSE_READ: Follower._fetch, op.IMAGE_QUERY_SAMPLES: Follower._query, op.EXT_INST: Follower._extended, 115: Follower._same,
-    127: Follower._negate, 129: Follower._arithmetic, 131: Follower._arithmetic, 133: Follower._arithmetic, 136: Follower._arithmetic,
+    op.LOAD: Follower._load, op.STORE: Follower._store, op.VARIABLE: Follower._variable,
+    op.FUNCTION_CALL: Follower._call,
+    op.ACCESS_CHAIN: Follower._chain, op.IN_BOUNDS_ACCESS_CHAIN: Follower._chain,
+    op.COPY_MEMORY: Follower._copy_memory,
+    op.COPY_OBJECT: Follower._same, op.COPY_LOGICAL: Follower._same, op.IMAGE: Follower._same,
+    op.SAMPLED_IMAGE: Follower._same,
+    op.COMPOSITE_CONSTRUCT: Follower._construct, op.COMPOSITE_EXTRACT: Follower._extract,
+    op.COMPOSITE_INSERT: Follower._insert,
+    op.VECTOR_SHUFFLE: Follower._shuffle, op.IMAGE_FETCH: Follower._fetch,
+    op.IMAGE_READ: Follower._fetch, op.SPARSE_FETCH: Follower._fetch,
+    op.SPARSE_READ: Follower._fetch, op.IMAGE_QUERY_SAMPLES: Follower._query,
+    op.EXT_INST: Follower._extended, 115: Follower._same,
+    127: Follower._negate, 129: Follower._arithmetic, 131: Follower._arithmetic,
+    133: Follower._arithmetic, 136: Follower._arithmetic,
     142: Follower._arithmetic, 169: Follower._select,
 }  # fmt: skip
-"""The instructions that are followed. Not an attribute of the follower, which would refer to itself and live until garbage is collected."""
+"""The instructions that are followed. Not an attribute of the follower, which would refer to itself
+and live until garbage is collected.
+"""

@@ -12,11 +12,15 @@ from .values import Opaque, Pointer, Sum, Value
 MAX_SAMPLE = 63
 
 QUERIED = 5
-"""The assumed result of a query for an image's sample count. No image has it, so a bound by it differs from a constant."""
+"""The assumed result of a query for an image's sample count. No image has it, so a bound by it
+differs from a constant.
+"""
 
 
 class Instructions(Arithmetic):
-    """The instructions that compute no numbers. Every method for one returns the value of its result, None if it has no result."""
+    """The instructions that compute no numbers. Every method for one returns the value of its
+    result, None if it has no result.
+    """
 
     def _same(self, at: int, end: int) -> Value:
         return self._value(self.words[at + 3])
@@ -26,7 +30,9 @@ class Instructions(Arithmetic):
         identity = words[at + 2]
         pointer = self._kind(words[at + 1])
         self.holds[identity] = pointer[2] if len(pointer) > 2 else 0
-        self.memory[identity] = self.constants.values.get(words[at + 4], UNWRITTEN) if end > at + 4 else UNWRITTEN
+        self.memory[identity] = (
+            self.constants.values.get(words[at + 4], UNWRITTEN) if end > at + 4 else UNWRITTEN
+        )
         return Pointer(identity, ())
 
     def _chain(self, at: int, end: int) -> Value:
@@ -69,7 +75,12 @@ class Instructions(Arithmetic):
 
     def _insert(self, at: int, end: int) -> Value:
         words = self.words
-        return self._put(self._value(words[at + 4]), tuple(words[at + 5 : end]), self._value(words[at + 3]), words[at + 1])
+        return self._put(
+            self._value(words[at + 4]),
+            tuple(words[at + 5 : end]),
+            self._value(words[at + 3]),
+            words[at + 1],
+        )
 
     def _shuffle(self, at: int, end: int) -> tuple[Value, ...]:
         words = self.words
@@ -81,7 +92,9 @@ class Instructions(Arithmetic):
                 self._escape(value)
                 parts = (Opaque(),) * self._lengths.get(each, 4)
             both.extend(parts)
-        return tuple(both[index] if index < len(both) else Opaque() for index in words[at + 5 : end])
+        return tuple(
+            both[index] if index < len(both) else Opaque() for index in words[at + 5 : end]
+        )
 
     def _fetch(self, at: int, end: int) -> Value:
         words = self.words
@@ -131,7 +144,11 @@ class Instructions(Arithmetic):
     def _is_current(self, value: Value) -> bool:
         """Whether a value is SampleId."""
         origin = value.origin if type(value) is Opaque else ()
-        return len(origin) == 3 and origin[0] == "load" and self.module.decoration(origin[1], op.BUILT_IN) == op.SAMPLE_ID
+        return (
+            len(origin) == 3
+            and origin[0] == "load"
+            and self.module.decoration(origin[1], op.BUILT_IN) == op.SAMPLE_ID
+        )
 
     def _query(self, at: int, end: int) -> Value:
         key = self._image(self._value(self.words[at + 3]))

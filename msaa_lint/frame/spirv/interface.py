@@ -1,4 +1,6 @@
-"""What an entry point takes from outside and hands on: descriptors, push constants, inputs, outputs, specialization constants."""
+"""What an entry point takes from outside and hands on: descriptors, push constants, inputs,
+outputs, specialization constants.
+"""
 
 from collections.abc import Mapping
 from typing import NamedTuple
@@ -11,15 +13,22 @@ from .module import Entry, Module
 from .uses import Uses, uses
 from .words import SpirvError
 
-INTERPOLATIONS = {op.FLAT: "flat", op.NO_PERSPECTIVE: "noperspective", op.CENTROID: "centroid", op.SAMPLE: "sample"}
+INTERPOLATIONS = {
+    op.FLAT: "flat",
+    op.NO_PERSPECTIVE: "noperspective",
+    op.CENTROID: "centroid",
+    op.SAMPLE: "sample",
+}
 
 MAX_LOCATIONS = 128
 """Locations of an interface; devices have 32 on the whole."""
 
 
 class Varying(NamedTuple):
-    """A user-defined input or output: the variable, its type by id and in GLSL's words, the location of a block's first member if the
-    variable has none (None if none is stated), the first component, the index of dual-source blending, and how it is interpolated."""
+    """A user-defined input or output: the variable, its type by id and in GLSL's words, the
+    location of a block's first member if the variable has none (None if none is stated), the first
+    component, the index of dual-source blending, and how it is interpolated.
+    """
 
     variable: int
     type_id: int
@@ -31,9 +40,11 @@ class Varying(NamedTuple):
 
 
 class Interface(NamedTuple):
-    """The interface of an entry point. `version` is that of SPIR-V; `built_ins` are numbers of the SPIR-V registry, of inputs, with the
-    number of elements (1 if it is no array); `push_constants` is the id of the block (0 without) and `push_size` its size in bytes;
-    `specialization` has the types, in GLSL's words, by constant id."""
+    """The interface of an entry point. `version` is that of SPIR-V; `built_ins` are numbers of the
+    SPIR-V registry, of inputs, with the number of elements (1 if it is no array); `push_constants`
+    is the id of the block (0 without) and `push_size` its size in bytes; `specialization` has the
+    types, in GLSL's words, by constant id.
+    """
 
     entry: Entry
     version: tuple[int, int]
@@ -49,7 +60,9 @@ class Interface(NamedTuple):
 
 
 def interface(module: Module, entry: Entry, constants: Constants) -> Interface:
-    """The interface of an entry point, with the descriptors that it refers to. Raises SpirvError for an invalid module."""
+    """The interface of an entry point, with the descriptors that it refers to. Raises SpirvError
+    for an invalid module.
+    """
     used = uses(module, entry)
     layouts = Layouts(module, constants)
     push, push_size = _push_constants(module, used, layouts)
@@ -75,20 +88,34 @@ def interface(module: Module, entry: Entry, constants: Constants) -> Interface:
 
 
 def _push_constants(module: Module, used: Uses, layouts: Layouts) -> tuple[int, int]:
-    blocks = [v.holds for identity, v in module.variables.items() if v.storage == op.PUSH_CONSTANT and identity in used.referred]
+    blocks = [
+        v.holds
+        for identity, v in module.variables.items()
+        if v.storage == op.PUSH_CONSTANT and identity in used.referred
+    ]
     return (blocks[0], layouts.size(blocks[0])) if blocks else (0, 0)
 
 
 def _varyings(module: Module, entry: Entry, storage: int, layouts: Layouts) -> tuple[Varying, ...]:
     found = []
     for identity, variable in module.variables.items():
-        if variable.storage != storage or identity not in entry.interface or _is_built_in(module, identity):
+        if (
+            variable.storage != storage
+            or identity not in entry.interface
+            or _is_built_in(module, identity)
+        ):
             continue
         members = module.members.get(variable.holds, {}).values()
-        decorations = {*module.decorations.get(identity, ()), *(number for member in members for number in member)}
+        decorations = {
+            *module.decorations.get(identity, ()),
+            *(number for member in members for number in member),
+        }
         location = module.decoration(identity, op.LOCATION)
         if location is None and layouts.kind(variable.holds)[0] == op.TYPE_STRUCT:
-            location = min((member[op.LOCATION][0] for member in members if member.get(op.LOCATION)), default=None)
+            location = min(
+                (member[op.LOCATION][0] for member in members if member.get(op.LOCATION)),
+                default=None,
+            )
         found.append(
             Varying(
                 identity,
@@ -100,12 +127,24 @@ def _varyings(module: Module, entry: Entry, storage: int, layouts: Layouts) -> t
                 frozenset(word for number, word in INTERPOLATIONS.items() if number in decorations),
             )
         )
-    return tuple(sorted(found, key=lambda each: (each.location is None, each.location or 0, each.component, each.variable)))
+    return tuple(
+        sorted(
+            found,
+            key=lambda each: (
+                each.location is None,
+                each.location or 0,
+                each.component,
+                each.variable,
+            ),
+        )
+    )
 
 
 def _is_built_in(module: Module, identity: int) -> bool:
     members = module.members.get(module.variables[identity].holds, {}).values()
-    return module.decoration(identity, op.BUILT_IN) is not None or any(op.BUILT_IN in member for member in members)
+    return module.decoration(identity, op.BUILT_IN) is not None or any(
+        op.BUILT_IN in member for member in members
+    )
 
 
 def _built_ins(module: Module, entry: Entry, layouts: Layouts) -> dict[int, int]:
@@ -114,10 +153,16 @@ def _built_ins(module: Module, entry: Entry, layouts: Layouts) -> dict[int, int]
         if variable.storage == op.INPUT and identity in entry.interface:
             kind = layouts.kind(variable.holds)
             stated = [(module.decorations.get(identity, {}), kind)]
-            stated += [(each, layouts.kind(kind[1 + n])) for n, each in module.members.get(variable.holds, {}).items() if n + 1 < len(kind)]
+            stated += [
+                (each, layouts.kind(kind[1 + n]))
+                for n, each in module.members.get(variable.holds, {}).items()
+                if n + 1 < len(kind)
+            ]
             for decorations, own in stated:
                 if decorations.get(op.BUILT_IN):
-                    found[decorations[op.BUILT_IN][0]] = layouts.count(own) if own[0] == op.TYPE_ARRAY else 1
+                    found[decorations[op.BUILT_IN][0]] = (
+                        layouts.count(own) if own[0] == op.TYPE_ARRAY else 1
+                    )
     return found
 
 
@@ -137,7 +182,9 @@ def type_name(layouts: Layouts, type_id: int, depth: int = 0) -> str:
         return ("int" if kind[2] else "uint") + ("" if kind[1] == 32 else f"{kind[1]}_t")
     if kind[0] == op.TYPE_VECTOR and len(kind) > 2:
         component = type_name(layouts, kind[1], depth + 1)
-        return f"{_VECTORS[component]}{kind[2]}" if component in _VECTORS else f"{component}{kind[2]}"
+        return (
+            f"{_VECTORS[component]}{kind[2]}" if component in _VECTORS else f"{component}{kind[2]}"
+        )
     if kind[0] == op.TYPE_MATRIX and len(kind) > 2:
         column = layouts.kind(kind[1])
         return f"mat{kind[2]}x{column[2] if len(column) > 2 else 0}"

@@ -1,4 +1,6 @@
-"""How the types of a module lie in memory: sizes and offsets in bytes, by the decorations of the module."""
+"""How the types of a module lie in memory: sizes and offsets in bytes, by the decorations of the
+module.
+"""
 
 from collections.abc import Iterator
 from typing import NamedTuple
@@ -13,7 +15,9 @@ MAX_BLOCK = 16 << 20
 
 
 class Matrix(NamedTuple):
-    """The layout of the matrices in a member of a structure: the stride of columns in bytes, or of rows."""
+    """The layout of the matrices in a member of a structure: the stride of columns in bytes, or of
+    rows.
+    """
 
     stride: int = 0
     rows: bool = False
@@ -28,7 +32,9 @@ class Member(NamedTuple):
 
 
 class Layouts:
-    """The sizes of types. Methods raise SpirvError for types that cannot be in a block, and for blocks above MAX_BLOCK."""
+    """The sizes of types. Methods raise SpirvError for types that cannot be in a block, and for
+    blocks above MAX_BLOCK.
+    """
 
     def __init__(self, module: Module, constants: Constants) -> None:
         self.module = module
@@ -94,7 +100,11 @@ class Layouts:
             return self.count(kind) * self.stride(type_id)
         if number == op.TYPE_STRUCT:
             return self._struct_size(type_id, depth)
-        raise SpirvError("a block has pointers to buffers" if number == op.TYPE_POINTER else "a block has a member of an unknown type")
+        raise SpirvError(
+            "a block has pointers to buffers"
+            if number == op.TYPE_POINTER
+            else "a block has a member of an unknown type"
+        )
 
     def _struct_size(self, type_id: int, depth: int) -> int:
         end = total = 0
@@ -116,4 +126,8 @@ class Layouts:
             if last is None:
                 return None
             type_id, offset = last.type_id, offset + last.offset
-        return last._replace(offset=offset) if last is not None and self.kind(last.type_id)[0] == op.TYPE_RUNTIME_ARRAY else None
+        return (
+            last._replace(offset=offset)
+            if last is not None and self.kind(last.type_id)[0] == op.TYPE_RUNTIME_ARRAY
+            else None
+        )

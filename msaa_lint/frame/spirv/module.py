@@ -1,4 +1,6 @@
-"""A module's declarations: entry points, decorations, types, constants, variables, and the places of its functions."""
+"""A module's declarations: entry points, decorations, types, constants, variables, and the places
+of its functions.
+"""
 
 from __future__ import annotations
 
@@ -13,7 +15,9 @@ MAX_BYTES = 16 << 20
 
 
 class Entry(NamedTuple):
-    """An entry point: its execution model, its function, its name, the variables of its interface."""
+    """An entry point: its execution model, its function, its name, the variables of its
+    interface.
+    """
 
     model: int
     function: int
@@ -30,7 +34,9 @@ class Function(NamedTuple):
 
 
 class Variable(NamedTuple):
-    """A variable: the type of its value, its storage class, the id of its initial value (0 if it has none)."""
+    """A variable: the type of its value, its storage class, the id of its initial value (0 if it
+    has none).
+    """
 
     holds: int
     storage: int
@@ -106,22 +112,32 @@ class Module:
         elif number == op.DECORATE:
             self._decorate(self.decorations.setdefault(words[at + 1], {}), at + 2, end)
         elif number == op.MEMBER_DECORATE:
-            self._decorate(self.members.setdefault(words[at + 1], {}).setdefault(words[at + 2], {}), at + 3, end)
+            self._decorate(
+                self.members.setdefault(words[at + 1], {}).setdefault(words[at + 2], {}),
+                at + 3,
+                end,
+            )
         elif number == op.GROUP_DECORATE:
             group = self.decorations.get(words[at + 1], {})
             for target in words[at + 2 : end]:
                 self.decorations.setdefault(target, {}).update(group)
         elif number == op.GROUP_MEMBER_DECORATE:
             group = self.decorations.get(words[at + 1], {})
-            for target, member in zip(words[at + 2 : end : 2], words[at + 3 : end : 2], strict=False):
+            for target, member in zip(
+                words[at + 2 : end : 2], words[at + 3 : end : 2], strict=False
+            ):
                 self.members.setdefault(target, {}).setdefault(member, {}).update(group)
         elif number == op.VARIABLE:
             pointer = self.types.get(words[at + 1], ())
             holds = pointer[2] if len(pointer) > 2 and pointer[0] == op.TYPE_POINTER else 0
-            self.variables[words[at + 2]] = Variable(holds, words[at + 3], words[at + 4] if end > at + 4 else 0)
+            self.variables[words[at + 2]] = Variable(
+                holds, words[at + 3], words[at + 4] if end > at + 4 else 0
+            )
         elif number == op.ENTRY_POINT:
             name, after = text_at(words, at + 3, end)
-            self.entries.append(Entry(words[at + 1], words[at + 2], name, frozenset(words[after:end])))
+            self.entries.append(
+                Entry(words[at + 1], words[at + 2], name, frozenset(words[after:end]))
+            )
         elif number == op.EXECUTION_MODE:
             self.modes.setdefault(words[at + 1], set()).add(words[at + 2])
         elif number == op.CAPABILITY:
@@ -137,7 +153,8 @@ class Module:
             decorations[self.words[at]] = tuple(self.words[at + 1 : min(end, at + 2)])
 
     def entry(self, name: str | None) -> Entry:
-        """The entry point with a name; without a name the only one, or the only fragment shader. Raises SpirvError if there is none.
+        """The entry point with a name; without a name the only one, or the only fragment shader.
+        Raises SpirvError if there is none.
 
         Of several with one name (of different stages) the fragment shader.
         """
@@ -151,18 +168,24 @@ class Module:
         if name is None:
             raise SpirvError(f"it has several entry points: {names}")
         raise SpirvError(
-            f"it has no entry point `{name[:40]}`, but {names}" if not found else f"several entry points are called `{name[:40]}`"
+            f"it has no entry point `{name[:40]}`, but {names}"
+            if not found
+            else f"several entry points are called `{name[:40]}`"
         )
 
     def decoration(self, of: int, number: int) -> int | None:
-        """The first operand of a decoration; 0 if it has no operand, None if there is no such decoration."""
+        """The first operand of a decoration; 0 if it has no operand, None if there is no such
+        decoration.
+        """
         operands = self.decorations.get(of, {}).get(number)
         return None if operands is None else operands[0] if operands else 0
 
 
 _ASKED = frozenset({
-    op.SPEC_ID, op.BLOCK, op.BUFFER_BLOCK, op.ROW_MAJOR, op.ARRAY_STRIDE, op.MATRIX_STRIDE, op.BUILT_IN, op.NO_PERSPECTIVE, op.FLAT,
-    op.CENTROID, op.SAMPLE, op.NON_WRITABLE, op.NON_READABLE, op.LOCATION, op.COMPONENT, op.INDEX, op.BINDING, op.DESCRIPTOR_SET,
+    op.SPEC_ID, op.BLOCK, op.BUFFER_BLOCK, op.ROW_MAJOR, op.ARRAY_STRIDE, op.MATRIX_STRIDE,
+    op.BUILT_IN, op.NO_PERSPECTIVE, op.FLAT,
+    op.CENTROID, op.SAMPLE, op.NON_WRITABLE, op.NON_READABLE, op.LOCATION, op.COMPONENT, op.INDEX,
+    op.BINDING, op.DESCRIPTOR_SET,
     op.OFFSET, op.INPUT_ATTACHMENT_INDEX,
 })  # fmt: skip
 """The decorations that are recorded."""

@@ -1,4 +1,6 @@
-"""The state while an entry point is followed: values by id, memory, and the uses of multisampled images."""
+"""The state while an entry point is followed: values by id, memory, and the uses of multisampled
+images.
+"""
 
 from __future__ import annotations
 
@@ -27,7 +29,9 @@ ImageKey = tuple[int, tuple[Value, ...]]
 
 
 class Seen:
-    """The uses of a multisampled image: the fetched samples, whether others may be fetched, and the uses of the values."""
+    """The uses of a multisampled image: the fetched samples, whether others may be fetched, and the
+    uses of the values.
+    """
 
     __slots__ = ("always", "queried", "samples", "unknown", "uses")
 
@@ -41,7 +45,9 @@ class Seen:
 
 
 class Site:
-    """The uses of one instruction that fetches: the image (None if unknown) and the sample operands."""
+    """The uses of one instruction that fetches: the image (None if unknown) and the sample
+    operands.
+    """
 
     __slots__ = ("current", "images", "samples", "unknown")
 
@@ -77,7 +83,11 @@ class State:
         self._places: dict[tuple[object, ...], int] = {}
         """The numbers of fetched texels, by image and place."""
         self._known: dict[tuple[object, ...], Opaque] = {}
-        self._lengths = {identity: length for body in bodies.values() for identity, length in body.vectors.items()}
+        self._lengths = {
+            identity: length
+            for body in bodies.values()
+            for identity, length in body.vectors.items()
+        }
         """The lengths of the vectors that instructions create."""
 
     def _take(self, steps: int) -> None:
@@ -100,7 +110,11 @@ class State:
             return self.values[identity]
         if identity in self.constants.values:
             return self.constants.values[identity]
-        return Pointer(identity, ()) if identity in self.module.variables else self._same_as("id", identity)
+        return (
+            Pointer(identity, ())
+            if identity in self.module.variables
+            else self._same_as("id", identity)
+        )
 
     def _same_as(self, *origin: object) -> Opaque:
         """An unknown value that is equal whenever it is created from the same origin."""
@@ -155,7 +169,11 @@ class State:
             elif type(each) is Extreme:
                 sources = {(term[0], term[1]) for term in each.terms}
                 for fetched, _ in sources:
-                    self._used(fetched, each.kind if len(sources) == 1 else "OTHER", (term[2] for term in each.terms))
+                    self._used(
+                        fetched,
+                        each.kind if len(sources) == 1 else "OTHER",
+                        (term[2] for term in each.terms),
+                    )
             elif type(each) is Pointer:
                 waiting.extend(each.path)
                 if each.root in self.memory and each.root not in roots:
@@ -209,12 +227,16 @@ class State:
         return self.module.decoration(inner, op.BUFFER_BLOCK) is None
 
     def _stored(self, pointer: Value, value: Value) -> None:
-        if not isinstance(pointer, Pointer) and self.module.capabilities.isdisjoint(op.ANY_POINTERS):
+        if not isinstance(pointer, Pointer) and self.module.capabilities.isdisjoint(
+            op.ANY_POINTERS
+        ):
             raise GivenUp
         if not isinstance(pointer, Pointer) or pointer.root not in self.memory:
             self._escape(pointer, value)
             return
-        whole = self._put(self.memory[pointer.root], pointer.path, value, self.holds.get(pointer.root, 0))
+        whole = self._put(
+            self.memory[pointer.root], pointer.path, value, self.holds.get(pointer.root, 0)
+        )
         self.memory[pointer.root] = self._copy(whole) if small(whole) else Opaque((whole,))
 
     def _put(self, before: Value, path: tuple[Value, ...], value: Value, type_id: int) -> Value:
@@ -227,7 +249,11 @@ class State:
         if parts is None or own is None or type(index) is not int or not 0 <= index < len(parts):
             self._escape(index)
             return Opaque((before, value))
-        return (*own[:index], self._put(own[index], path[1:], value, parts[index]), *own[index + 1 :])
+        return (
+            *own[:index],
+            self._put(own[index], path[1:], value, parts[index]),
+            *own[index + 1 :],
+        )
 
     def _image(self, value: Value) -> ImageKey | None:
         """The image that a value refers to; None if it is unknown."""

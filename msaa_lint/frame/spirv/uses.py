@@ -1,4 +1,6 @@
-"""What the functions that an entry point reaches do with the variables declared outside of functions."""
+"""What the functions that an entry point reaches do with the variables declared outside of
+functions.
+"""
 
 from collections.abc import Iterable
 from typing import NamedTuple
@@ -9,25 +11,33 @@ from .module import Entry, Module
 
 _ALL = (1, 1 << 16)
 _OPERANDS = {
-    op.LOAD: (3, 4), op.STORE: (1, 3), op.COMPOSITE_EXTRACT: (3, 4), op.COMPOSITE_INSERT: (3, 5), op.VECTOR_SHUFFLE: (3, 5),
-    op.EXT_INST: (5, 1 << 16), op.LINE: (0, 0), op.LABEL: (0, 0), op.LOOP_MERGE: (0, 0), op.SELECTION_MERGE: (0, 0), op.BRANCH: (0, 0),
+    op.LOAD: (3, 4), op.STORE: (1, 3), op.COMPOSITE_EXTRACT: (3, 4), op.COMPOSITE_INSERT: (3, 5),
+    op.VECTOR_SHUFFLE: (3, 5),
+    op.EXT_INST: (5, 1 << 16), op.LINE: (0, 0), op.LABEL: (0, 0), op.LOOP_MERGE: (0, 0),
+    op.SELECTION_MERGE: (0, 0), op.BRANCH: (0, 0),
     op.SWITCH: (1, 2), op.VARIABLE: (4, 5),
 }  # fmt: skip
 """The words (first and end) that are ids of values; all words of other instructions."""
 
 _SOURCES = {
-    op.LOAD: (3, 4), op.ACCESS_CHAIN: (3, 4), op.IN_BOUNDS_ACCESS_CHAIN: (3, 4), op.PTR_ACCESS_CHAIN: (3, 4), op.COPY_OBJECT: (3, 4),
-    op.COPY_LOGICAL: (3, 4), op.SAMPLED_IMAGE: (3, 5), op.IMAGE: (3, 4), op.IMAGE_TEXEL_POINTER: (3, 4), op.SELECT: (4, 6),
+    op.LOAD: (3, 4), op.ACCESS_CHAIN: (3, 4), op.IN_BOUNDS_ACCESS_CHAIN: (3, 4),
+    op.PTR_ACCESS_CHAIN: (3, 4), op.COPY_OBJECT: (3, 4),
+    op.COPY_LOGICAL: (3, 4), op.SAMPLED_IMAGE: (3, 5), op.IMAGE: (3, 4),
+    op.IMAGE_TEXEL_POINTER: (3, 4), op.SELECT: (4, 6),
     op.PHI: (3, 1 << 16),
 }  # fmt: skip
 """The words from which the result is derived: pointers, images, samplers."""
 
-_HANDLES = frozenset({op.TYPE_IMAGE, op.TYPE_SAMPLER, op.TYPE_SAMPLED_IMAGE, op.TYPE_ACCELERATION_STRUCTURE})
+_HANDLES = frozenset(
+    {op.TYPE_IMAGE, op.TYPE_SAMPLER, op.TYPE_SAMPLED_IMAGE, op.TYPE_ACCELERATION_STRUCTURE}
+)
 
 
 class Uses(NamedTuple):
-    """The ids of variables: those that are referred to at all, those of images and samplers that compare with a depth reference, samplers
-    of images that cannot be filtered (of integers, and depth images), and those whose contents are read and written."""
+    """The ids of variables: those that are referred to at all, those of images and samplers that
+    compare with a depth reference, samplers of images that cannot be filtered (of integers, and
+    depth images), and those whose contents are read and written.
+    """
 
     referred: frozenset[int]
     compared: frozenset[int]
@@ -37,10 +47,17 @@ class Uses(NamedTuple):
 
 
 def uses(module: Module, entry: Entry) -> Uses:
-    """The variables that an entry point uses. Raises SpirvError if a function is missing or truncated."""
+    """The variables that an entry point uses. Raises SpirvError if a function is missing or
+    truncated.
+    """
     sources: dict[int, list[int]] = {}
     referred: set[int] = set()
-    seeds: dict[str, set[int]] = {"compared": set(), "unfiltered": set(), "read": set(), "written": set()}
+    seeds: dict[str, set[int]] = {
+        "compared": set(),
+        "unfiltered": set(),
+        "read": set(),
+        "written": set(),
+    }
     pairs: set[tuple[int, int]] = set()
     for body in reached(module, entry.function).values():
         at, words = body.function.start, module.words
@@ -50,9 +67,13 @@ def uses(module: Module, entry: Entry) -> Uses:
             at = end
     compared = _variables(module, seeds["compared"], sources)
     for image, sampler in pairs:
-        if compared & _variables(module, [image], sources) and not compared & _variables(module, [sampler], sources):
+        if compared & _variables(module, [image], sources) and not compared & _variables(
+            module, [sampler], sources
+        ):
             seeds["unfiltered"].add(sampler)
-    others = (_variables(module, seeds[name], sources) for name in ("unfiltered", "read", "written"))
+    others = (
+        _variables(module, seeds[name], sources) for name in ("unfiltered", "read", "written")
+    )
     return Uses(frozenset(referred), compared, *others)
 
 
@@ -103,7 +124,9 @@ def _is_integer(module: Module, sampled_image: int) -> bool:
     return bool(component) and component[0] == op.TYPE_INT
 
 
-def _variables(module: Module, seeds: Iterable[int], sources: dict[int, list[int]]) -> frozenset[int]:
+def _variables(
+    module: Module, seeds: Iterable[int], sources: dict[int, list[int]]
+) -> frozenset[int]:
     """The variables that values are derived from."""
     found: set[int] = set()
     waiting = list(seeds)

@@ -1,7 +1,8 @@
 """The known values of a shader, and arithmetic on them.
 
-A value is a number or a boolean; a tuple, of a vector, matrix, array or structure; a Sum of samples that were fetched, or the Extreme of
-some; a Pointer; or an Opaque, of which only is known whether it is the same as another.
+A value is a number or a boolean; a tuple, of a vector, matrix, array or structure; a Sum of samples
+that were fetched, or the Extreme of some; a Pointer; or an Opaque, of which only is known whether
+it is the same as another.
 """
 
 from __future__ import annotations
@@ -24,7 +25,9 @@ MAX_TERMS = 256
 
 
 class Opaque:
-    """An unknown value. `held` has the values that it may be, for when it is used; unknown values with the same `origin` are equal."""
+    """An unknown value. `held` has the values that it may be, for when it is used; unknown values
+    with the same `origin` are equal.
+    """
 
     __slots__ = ("held", "origin")
 
@@ -53,13 +56,20 @@ class Sum:
         self.terms = terms
 
     def average(self) -> tuple[int, int] | None:
-        """The texel and the number of samples that this is the average of: samples 0 and up of one component."""
+        """The texel and the number of samples that this is the average of: samples 0 and up of one
+        component.
+        """
         count = len(self.terms)
         if count < 2:
             return None
         fetched, component, _ = next(iter(self.terms))
         for (other, part, sample), factor in self.terms.items():
-            if other != fetched or part != component or sample >= count or abs(factor * count - 1) > 1e-5:
+            if (
+                other != fetched
+                or part != component
+                or sample >= count
+                or abs(factor * count - 1) > 1e-5
+            ):
                 return None
         return fetched, count
 
@@ -92,7 +102,9 @@ def small(value: Value) -> bool:
 
 
 def weight(value: Value) -> int:
-    """What it takes to copy a value: its numbers, tuples and terms; at most some thousands, as values and sums are limited."""
+    """What it takes to copy a value: its numbers, tuples and terms; at most some thousands, as
+    values and sums are limited.
+    """
     if type(value) is tuple:
         return 1 + sum(map(weight, value))
     return len(value.terms) if type(value) is Sum or type(value) is Extreme else 1
@@ -114,7 +126,11 @@ def combined(one: Value, other: Value, sign: float) -> Sum | None:
         return one
     if plain(one) and one == 0 and type(other) is Sum:
         return Sum({term: sign * factor for term, factor in other.terms.items()})
-    if type(one) is not Sum or type(other) is not Sum or len(one.terms) + len(other.terms) > MAX_TERMS:
+    if (
+        type(one) is not Sum
+        or type(other) is not Sum
+        or len(one.terms) + len(other.terms) > MAX_TERMS
+    ):
         return None
     terms = dict(one.terms)
     for term, factor in other.terms.items():
@@ -165,14 +181,21 @@ def as_float(value: float, width: int) -> float:
 
 def literal(kind: tuple[int, ...], words: tuple[int, ...]) -> Value:
     """The value of an OpConstant's literal by its type; None if it has none."""
-    if len(kind) < 2 or not words or kind[1] not in (8, 16, 32, 64) or (kind[1] == 64 and len(words) < 2):
+    if (
+        len(kind) < 2
+        or not words
+        or kind[1] not in (8, 16, 32, 64)
+        or (kind[1] == 64 and len(words) < 2)
+    ):
         return None
     bits = words[0] | words[1] << 32 if kind[1] == 64 else words[0]
     if kind[0] == op.TYPE_INT:
         return wrapped(bits, kind[1], len(kind) > 2 and kind[2] == 1)
     if kind[0] != op.TYPE_FLOAT or kind[1] == 8:
         return None
-    return struct.unpack_from({16: "<e", 32: "<f", 64: "<d"}[kind[1]], bits.to_bytes(8, "little"))[0]
+    return struct.unpack_from({16: "<e", 32: "<f", 64: "<d"}[kind[1]], bits.to_bytes(8, "little"))[
+        0
+    ]
 
 
 def given(kind: tuple[int, ...], value: float | bool) -> Value:
@@ -181,7 +204,12 @@ def given(kind: tuple[int, ...], value: float | bool) -> Value:
         return None
     if kind[0] == op.TYPE_BOOL:
         return bool(value)
-    if kind[0] == op.TYPE_INT and len(kind) > 2 and kind[1] in (8, 16, 32, 64) and float(value).is_integer():
+    if (
+        kind[0] == op.TYPE_INT
+        and len(kind) > 2
+        and kind[1] in (8, 16, 32, 64)
+        and float(value).is_integer()
+    ):
         return wrapped(int(value), kind[1], kind[2] == 1)
     return as_float(float(value), kind[1]) if kind[0] == op.TYPE_FLOAT and len(kind) > 1 else None
 
@@ -229,8 +257,12 @@ _FLOATS: dict[int, Callable[[float, float], float]] = {
 }
 
 
-def computed(number: int, kind: tuple[int, ...], operands: tuple[Value, ...], widths: int = 32) -> Value:
-    """The number that an instruction computes from numbers; None if it is unknown. `kind` is the type of the result."""
+def computed(
+    number: int, kind: tuple[int, ...], operands: tuple[Value, ...], widths: int = 32
+) -> Value:
+    """The number that an instruction computes from numbers; None if it is unknown. `kind` is the
+    type of the result.
+    """
     if not all(map(plain, operands)) or not kind:
         return None
     try:

@@ -19,7 +19,9 @@ class SpirvError(ValueError):
 
 
 def words_of(code: bytes) -> array.array[int]:
-    """The words of SPIR-V in this machine's byte order. Raises SpirvError if the bytes are not SPIR-V."""
+    """The words of SPIR-V in this machine's byte order. Raises SpirvError if the bytes are not
+    SPIR-V.
+    """
     if len(code) < 4 * HEADER or len(code) % 4:
         raise SpirvError("not SPIR-V: its length is none of whole words")
     words = array.array("I", code)
@@ -31,7 +33,9 @@ def words_of(code: bytes) -> array.array[int]:
 
 
 def instructions(words: array.array[int]) -> Iterator[tuple[int, array.array[int]]]:
-    """Every instruction: its opcode and its words. Raises SpirvError if one extends beyond the end."""
+    """Every instruction: its opcode and its words. Raises SpirvError if one extends beyond the
+    end.
+    """
     at = HEADER
     while at < len(words):
         length = words[at] >> 16
@@ -44,7 +48,9 @@ def instructions(words: array.array[int]) -> Iterator[tuple[int, array.array[int
 
 
 def text_at(words: array.array[int], start: int, end: int) -> tuple[str, int]:
-    """A string that begins at a word, and the index of the word after it. Raises SpirvError if it does not end before `end`."""
+    """A string that begins at a word, and the index of the word after it. Raises SpirvError if it
+    does not end before `end`.
+    """
     made = bytearray()
     for at in range(start, end):
         part = words[at].to_bytes(4, "little")

@@ -9,10 +9,12 @@ from .formats_table import ARM_FLOAT_BLEND, ROWS
 class Format(NamedTuple):
     """A VkFormat, by its canonical short name.
 
-    `bytes` is what one texel block takes as it is allocated: 4 for D24_UNORM_S8_UINT, where both aspects share a word, and by convention
-    5 for D32_SFLOAT_S8_UINT, whose aspects drivers keep apart (4 + 1). `block` is the block's extent in texels, (1, 1, 1) but for
-    compressed and chroma-subsampled formats. `numeric` is the colour's type (empty without colour), `components` the components in the
-    order of the name with their bits (0 where compressed); widths of depth and stencil are 0 and their types empty where there is none.
+    `bytes` is what one texel block takes as it is allocated: 4 for D24_UNORM_S8_UINT, where both
+    aspects share a word, and by convention 5 for D32_SFLOAT_S8_UINT, whose aspects drivers keep
+    apart (4 + 1). `block` is the block's extent in texels, (1, 1, 1) but for compressed and
+    chroma-subsampled formats. `numeric` is the colour's type (empty without colour), `components`
+    the components in the order of the name with their bits (0 where compressed); widths of depth
+    and stencil are 0 and their types empty where there is none.
     """
 
     name: str
@@ -45,7 +47,9 @@ class Format(NamedTuple):
 
     @property
     def arm_float_blend(self) -> bool:
-        """Whether it is a float format that Mali GPUs do not blend at full rate when multisampled."""
+        """Whether it is a float format that Mali GPUs do not blend at full rate when
+        multisampled.
+        """
         return self.name in ARM_FLOAT_BLEND
 
     @property
@@ -60,7 +64,9 @@ class Format(NamedTuple):
 
 
 def format_of(name: str) -> Format | None:
-    """The format with a canonical short name (`R8G8B8A8_UNORM`); None for UNDEFINED and unknown names."""
+    """The format with a canonical short name (`R8G8B8A8_UNORM`); None for UNDEFINED and unknown
+    names.
+    """
     row = ROWS.get(name)
     return None if row is None else _read(name, row)
 
@@ -79,7 +85,22 @@ def _read(name: str, text: str) -> Format:
         else:
             components.append((part[0], int(width)))
     x, y, z = map(int, extent.split("x"))
-    aspects = tuple(a for a, there in (("color", components), ("depth", depth[0]), ("stencil", stencil[0])) if there)
+    aspects = tuple(
+        a
+        for a, there in (("color", components), ("depth", depth[0]), ("stencil", stencil[0]))
+        if there
+    )
     ycbcr = scheme.startswith("YCBCR")
     kind = "" if numeric == "-" else numeric
-    return Format(name, int(size), (x, y, z), aspects, kind, tuple(components), *depth, *stencil, not ycbcr and scheme != "-", ycbcr)
+    return Format(
+        name,
+        int(size),
+        (x, y, z),
+        aspects,
+        kind,
+        tuple(components),
+        *depth,
+        *stencil,
+        not ycbcr and scheme != "-",
+        ycbcr,
+    )

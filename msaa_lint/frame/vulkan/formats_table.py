@@ -306,7 +306,7 @@ ROWS: dict[str, str] = {
 """Bytes of a block, its extent, numeric type, components with their bits, compression or chroma subsampling."""
 
 ARM_FLOAT_BLEND: frozenset[str] = frozenset((
-    "B10G11R11_UFLOAT_PACK32", "R16_SFLOAT", "R16G16_SFLOAT", "R16G16B16_SFLOAT", "R16G16B16A16_SFLOAT", "R32_SFLOAT", "R32G32_SFLOAT",
-    "R32G32B32_SFLOAT", "R32G32B32A32_SFLOAT",
+    "B10G11R11_UFLOAT_PACK32", "R16_SFLOAT", "R16G16_SFLOAT", "R16G16B16_SFLOAT",
+    "R16G16B16A16_SFLOAT", "R32_SFLOAT", "R32G32_SFLOAT", "R32G32B32_SFLOAT", "R32G32B32A32_SFLOAT",
 ))
 """Float formats that Mali GPUs do not blend at full rate when multisampled (Khronos best-practices layer, Arm)."""

@@ -1,4 +1,6 @@
-"""The spellings of enumerants: full names, short names and numbers; and the name nearest to a misspelled one."""
+"""The spellings of enumerants: full names, short names and numbers; and the name nearest to a
+misspelled one.
+"""
 
 from __future__ import annotations
 
@@ -12,15 +14,30 @@ from .enums import ALIASES, BITLESS, PREFIXES, VALUES
 
 _NUMBER = re.compile(r"0[xX][0-9a-fA-F]{1,18}|[1-9][0-9]{0,19}|0{1,20}")
 
-VENDORS = ("AMD", "ANDROID", "ARM", "EXT", "HUAWEI", "IMG", "INTEL", "KHR", "NV", "NVX", "QCOM", "VALVE")
+VENDORS = (
+    "AMD",
+    "ANDROID",
+    "ARM",
+    "EXT",
+    "HUAWEI",
+    "IMG",
+    "INTEL",
+    "KHR",
+    "NV",
+    "NVX",
+    "QCOM",
+    "VALVE",
+)
 
 _AFTER_BIT = ("", *(f"_{vendor}" for vendor in VENDORS))
 
 
 def parse_enum(enum: str, text: str) -> str | None:
-    """The canonical short name of an enumerant of `enum` (a name in `enums.VALUES`); None if the text is not one.
+    """The canonical short name of an enumerant of `enum` (a name in `enums.VALUES`); None if the
+    text is not one.
 
-    The type's prefix, or only its `VK_`, and for flag bits `_BIT` may be left out. Names are case-sensitive, as in Vulkan.
+    The type's prefix, or only its `VK_`, and for flag bits `_BIT` may be left out. Names are
+    case-sensitive, as in Vulkan.
     """
     values, aliases = VALUES[enum], ALIASES.get(enum, {})
     if text in values:
@@ -55,7 +72,9 @@ def _names_by_value(enum: str) -> dict[int, str]:
 
 
 def flag_names(enum: str, mask: int) -> list[str] | None:
-    """The canonical short names of the bits of a mask, lowest first; None if a bit is unknown. A mask of 0 has no names."""
+    """The canonical short names of the bits of a mask, lowest first; None if a bit is unknown. A
+    mask of 0 has no names.
+    """
     if mask == 0:
         return []
     if not 0 < mask < 1 << 64:
@@ -69,10 +88,11 @@ def flag_names(enum: str, mask: int) -> list[str] | None:
 
 
 def parse_flags(enum: str, text: str) -> list[str]:
-    """The canonical short names in `A | B`, `0`, `0x11`, `17` or `17 (A | B)`, each once, in their order.
+    """The canonical short names in `A | B`, `0`, `0x11`, `17` or `17 (A | B)`, each once, in their
+    order.
 
-    A name without bits (`NONE`) adds nothing. In a number with names in parentheses, the number counts. Raises ValueError, with the
-    unknown part as its text.
+    A name without bits (`NONE`) adds nothing. In a number with names in parentheses, the number
+    counts. Raises ValueError, with the unknown part as its text.
     """
     text = text.strip()
     if text.endswith(")"):
@@ -99,13 +119,17 @@ def parse_flags(enum: str, text: str) -> list[str]:
 
 
 def _mask(word: str) -> int | None:
-    """A decimal or hexadecimal number below 2^64; None for another word, also with a leading zero, which is octal in C."""
+    """A decimal or hexadecimal number below 2^64; None for another word, also with a leading zero,
+    which is octal in C.
+    """
     value = int(word, 0) if _NUMBER.fullmatch(word) is not None else 1 << 64
     return value if value < 1 << 64 else None
 
 
 def nearest_name(word: str, names: Iterable[str]) -> str | None:
-    """The name that was most likely meant by a word, whatever its type's prefix, `_BIT` and vendor's suffix; None if none is near."""
+    """The name that was most likely meant by a word, whatever its type's prefix, `_BIT` and
+    vendor's suffix; None if none is near.
+    """
     return nearest(word, names, _bare)
 
 

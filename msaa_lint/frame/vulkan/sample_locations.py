@@ -12,7 +12,9 @@ STANDARD: dict[int, tuple[tuple[int, int], ...]] = {
         (6, 14), (8, 1), (4, 2), (2, 12), (0, 8), (15, 4), (14, 15), (1, 0),
     ),
 }  # fmt: skip
-"""By the sample count: x and y of every sample in sixteenths of a pixel, from its upper left corner, in sample order.
+"""By the sample count: x and y of every sample in sixteenths of a pixel, from its upper left
+corner, in sample order.
 
-The standard sample locations of the Vulkan specification (Rasterization, "Multisampling"); there are none for 32 and 64.
+The standard sample locations of the Vulkan specification (Rasterization, "Multisampling"); there
+are none for 32 and 64.
 """

@@ -1,1 +1,3 @@
-"""Captures: the calls of a program, followed to the frames they draw, and written as a description."""
+"""Captures: the calls of a program, followed to the frames they draw, and written as a
+description.
+"""

@@ -11,7 +11,12 @@ from .descriptors import Descriptors
 from .objects import DescriptorSet
 
 GRAPHICS = ("VK_PIPELINE_BIND_POINT_GRAPHICS", 0, "0")
-RAY_TRACING = ("VK_PIPELINE_BIND_POINT_RAY_TRACING_KHR", "VK_PIPELINE_BIND_POINT_RAY_TRACING_NV", 1000165000, "1000165000")
+RAY_TRACING = (
+    "VK_PIPELINE_BIND_POINT_RAY_TRACING_KHR",
+    "VK_PIPELINE_BIND_POINT_RAY_TRACING_NV",
+    1000165000,
+    "1000165000",
+)
 
 MAX_BOUND = 64
 """Maximum number of descriptor sets that are bound at a time; devices allow 32."""
@@ -20,7 +25,9 @@ MAX_PUSHED = 256
 """Maximum number of images that are pushed at a time; devices allow a few dozen descriptors."""
 
 INFOS = ("pBindDescriptorSetsInfo", "pPushDescriptorSetInfo", "pPushDescriptorSetWithTemplateInfo")
-"""The parameters that hold those of the calls of Vulkan 1.4, which name stages instead of a bind point."""
+"""The parameters that hold those of the calls of Vulkan 1.4, which name stages instead of a bind
+point.
+"""
 
 
 class BoundSets(Descriptors):
@@ -33,7 +40,9 @@ class BoundSets(Descriptors):
         self.pools: dict[int, set[int]] = {}
 
     def buffer(self, call: Call) -> CommandBuffer:
-        """The command buffer of a command. It may be new, because a trimmed capture may lack its allocation."""
+        """The command buffer of a command. It may be new, because a trimmed capture may lack its
+        allocation.
+        """
         handle = call.args.get("commandBuffer")
         if type(handle) is not int:
             handle = values.handle(handle)
@@ -73,7 +82,9 @@ class BoundSets(Descriptors):
         buffer = self.buffer(call)
         for args, point in _points(buffer, call):
             slot = values.integer(args.get("firstSet")) or 0
-            for item in values.items(args.get("pDescriptorSets"))[: max(MAX_BOUND - slot, 0) if slot >= 0 else 0]:
+            for item in values.items(args.get("pDescriptorSets"))[
+                : max(MAX_BOUND - slot, 0) if slot >= 0 else 0
+            ]:
                 descriptors = self.set(item)
                 if descriptors is not point.sets.get(slot):
                     # Rebinding the same set with other offsets does not change its images.
@@ -101,7 +112,11 @@ class BoundSets(Descriptors):
         buffer = self.buffer(call)
         for args, _ in _points(buffer, call):
             template = self.templates.get(values.handle(args.get("descriptorUpdateTemplate")))
-            for point in (bind_point(buffer, template.point),) if template is not None else (buffer.graphics, buffer.compute):
+            for point in (
+                (bind_point(buffer, template.point),)
+                if template is not None
+                else (buffer.graphics, buffer.compute)
+            ):
                 pushed = self._pushed(point, args)
                 if pushed is not None:
                     self.write_template(pushed, args)
@@ -127,7 +142,9 @@ class BoundSets(Descriptors):
         return pushed
 
     @staticmethod
-    def _push(buffer: CommandBuffer, point: BindPoint, args: dict[str, Any], pushed: DescriptorSet | None) -> None:
+    def _push(
+        buffer: CommandBuffer, point: BindPoint, args: dict[str, Any], pushed: DescriptorSet | None
+    ) -> None:
         if pushed is not None:
             for slot in list(pushed.images)[:-MAX_PUSHED]:
                 pushed.remove(slot)
@@ -148,16 +165,32 @@ class BoundSets(Descriptors):
 
 def bind_point(buffer: CommandBuffer, point: object) -> BindPoint:
     """What is bound at a VkPipelineBindPoint."""
-    return buffer.graphics if point in GRAPHICS else buffer.ray_tracing if point in RAY_TRACING else buffer.compute
+    return (
+        buffer.graphics
+        if point in GRAPHICS
+        else buffer.ray_tracing
+        if point in RAY_TRACING
+        else buffer.compute
+    )
 
 
 def _points(buffer: CommandBuffer, call: Call) -> list[tuple[dict[str, Any], BindPoint]]:
-    """The parameters of a call that binds descriptors, and what it binds them for: a bind point, or those of some stages."""
+    """The parameters of a call that binds descriptors, and what it binds them for: a bind point, or
+    those of some stages.
+    """
     args = call.args
     point = args.get("pipelineBindPoint")
-    info = next((args[name] for name in INFOS if isinstance(args.get(name), dict)), None) if point is None else None
+    info = (
+        next((args[name] for name in INFOS if isinstance(args.get(name), dict)), None)
+        if point is None
+        else None
+    )
     if info is None:
         return [(args, bind_point(buffer, point))]
     stages = values.bits("VkShaderStageFlagBits", info.get("stageFlags"))
-    points = ((buffer.graphics, set_layouts.GRAPHICS), (buffer.compute, set_layouts.COMPUTE), (buffer.ray_tracing, set_layouts.RAY_TRACING))
+    points = (
+        (buffer.graphics, set_layouts.GRAPHICS),
+        (buffer.compute, set_layouts.COMPUTE),
+        (buffer.ray_tracing, set_layouts.RAY_TRACING),
+    )
     return [(info, point) for point, mask in points if stages is None or stages & mask]

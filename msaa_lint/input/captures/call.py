@@ -7,9 +7,11 @@ _SUFFIX = re.compile(r"(?:KHR|EXT|NV|AMD|QCOM|ARM|LUNARG)\Z")
 
 
 class Place(NamedTuple):
-    """The place of a call: the line and column of its first character (1-based; None in binary inputs) and its index.
+    """The place of a call: the line and column of its first character (1-based; None in binary
+    inputs) and its index.
 
-    The index is the tool's own if it numbers calls, as gfxreconstruct does; otherwise the call's position in the file, from 0.
+    The index is the tool's own if it numbers calls, as gfxreconstruct does; otherwise the call's
+    position in the file, from 0.
     """
 
     line: int | None = None
@@ -18,12 +20,15 @@ class Place(NamedTuple):
 
 
 class Call(NamedTuple):
-    """A Vulkan call. `args` is keyed by C parameter name; `result` is the VkResult if the capture has it.
+    """A Vulkan call. `args` is keyed by C parameter name; `result` is the VkResult if the capture
+    has it.
 
-    `recurring` is the length of its text if an identical call came before it, with which it shares its `args`; otherwise 0.
+    `recurring` is the length of its text if an identical call came before it, with which it shares
+    its `args`; otherwise 0.
 
-    Structures are mappings with C's member names, arrays are lists, null pointers are None, and handles are integers (0 is null); a pNext
-    chain is nested mappings with `sType`. Enumerants, flags and numbers keep the capture's spelling; `values` parses them.
+    Structures are mappings with C's member names, arrays are lists, null pointers are None, and
+    handles are integers (0 is null); a pNext chain is nested mappings with `sType`. Enumerants,
+    flags and numbers keep the capture's spelling; `values` parses them.
     """
 
     name: str
@@ -39,8 +44,9 @@ class Call(NamedTuple):
 
 
 class Mark(NamedTuple):
-    """An event of a capture that is not a call. `frame`: a frame ends; `trimmed`: earlier calls are missing; `frameless`: the file is a
-    single frame; `truncated`: the last entry is incomplete."""
+    """An event of a capture that is not a call. `frame`: a frame ends; `trimmed`: earlier calls are
+    missing; `frameless`: the file is a single frame; `truncated`: the last entry is incomplete.
+    """
 
     kind: str
     at: Place

@@ -8,7 +8,15 @@ from typing import Any, NamedTuple
 
 from .call import Call, Place, without_vendor
 from .labels import BufferLabels
-from .objects import DescriptorSet, Framebuffer, Image, Pipeline, ReadableBindings, RenderPass, SetBindings
+from .objects import (
+    DescriptorSet,
+    Framebuffer,
+    Image,
+    Pipeline,
+    ReadableBindings,
+    RenderPass,
+    SetBindings,
+)
 
 PASS_BEGINS = ("beginRenderPass", "beginRendering")
 PASS_ENDS = ("endRenderPass", "endRendering")
@@ -17,7 +25,9 @@ MAX_FULLSCREEN_VERTICES = 6
 """A draw with at most this many vertices may be a full-screen triangle or quad."""
 
 MAX_COMMANDS = 200_000
-"""Maximum number of commands per command buffer: equal draws and reads are stored once per subpass, the rest are passes and transfers."""
+"""Maximum number of commands per command buffer: equal draws and reads are stored once per subpass,
+the rest are passes and transfers.
+"""
 
 MAX_CACHED_COMMANDS = 32_768
 """Maximum number of distinct commands in the cache."""
@@ -30,8 +40,10 @@ ANY_SET = -1
 
 
 class DrawCounts:
-    """The counts of a draw and of those after it that are equal but for their counts: how many (`draws`), their `vertices` in total over
-    all instances, and the `count` of vertices or indices and the `instances` of the first. None where a count is in a buffer."""
+    """The counts of a draw and of those after it that are equal but for their counts: how many
+    (`draws`), their `vertices` in total over all instances, and the `count` of vertices or indices
+    and the `instances` of the first. None where a count is in a buffer.
+    """
 
     __slots__ = ("count", "draws", "instances", "vertices")
 
@@ -43,19 +55,27 @@ class DrawCounts:
         """Adds a draw."""
         self.draws += draws
         if self.vertices is not None:
-            self.vertices = self.vertices + count * instances if type(count) is int and type(instances) is int else None
+            self.vertices = (
+                self.vertices + count * instances
+                if type(count) is int and type(instances) is int
+                else None
+            )
 
 
 class RecordedCommand:
-    """A recorded command: its name in a description (`kind`), its objects and values (`key`), and the first call that recorded it.
+    """A recorded command: its name in a description (`kind`), its objects and values (`key`), and
+    the first call that recorded it.
 
-    Equal commands, with the same `kind`, `key` and `parts`, are one object. `detail` holds the counts of a draw, in the subpass that
-    had the first of them, and `parts` the first mip level and layer of each attachment of a pass, empty if all are 0.
+    Equal commands, with the same `kind`, `key` and `parts`, are one object. `detail` holds the
+    counts of a draw, in the subpass that had the first of them, and `parts` the first mip level and
+    layer of each attachment of a pass, empty if all are 0.
     """
 
     __slots__ = ("at", "by", "detail", "identity", "key", "kind", "layouts", "parts", "written")
 
-    def __init__(self, kind: str, key: Hashable, at: Place, by: str, detail: DrawCounts | None = None) -> None:
+    def __init__(
+        self, kind: str, key: Hashable, at: Place, by: str, detail: DrawCounts | None = None
+    ) -> None:
         self.kind = kind
         self.key = key
         self.at = at
@@ -63,7 +83,9 @@ class RecordedCommand:
         self.detail = detail
         self.parts: Parts = ()
         self.identity: Any = None
-        """The PassIdentity of a pass that it begins, without pipelines; None until that is asked."""
+        """The PassIdentity of a pass that it begins, without pipelines; None until that is
+        asked.
+        """
         self.written: tuple[Image | None, ...] | None = None
         """The images that it writes; None until that is asked."""
         self.layouts: Any = None
@@ -71,7 +93,8 @@ class RecordedCommand:
 
 
 class DescriptorReads(NamedTuple):
-    """Descriptor sets that a draw or dispatch may read, each with the bindings that its pipeline can read (None if that is unknown).
+    """Descriptor sets that a draw or dispatch may read, each with the bindings that its pipeline
+    can read (None if that is unknown).
 
     Their contents are looked up when the commands are submitted.
     """
@@ -81,14 +104,18 @@ class DescriptorReads(NamedTuple):
 
 
 class Execution(NamedTuple):
-    """The first `length` commands of a list: what a secondary command buffer had recorded when vkCmdExecuteCommands was recorded."""
+    """The first `length` commands of a list: what a secondary command buffer had recorded when
+    vkCmdExecuteCommands was recorded.
+    """
 
     commands: list[RecordedCommand | Execution]
     length: int
 
 
 class RenderPassBegin(NamedTuple):
-    """vkCmdBeginRenderPass. `images` come from the framebuffer, or from the call if the framebuffer is imageless."""
+    """vkCmdBeginRenderPass. `images` come from the framebuffer, or from the call if the framebuffer
+    is imageless.
+    """
 
     render_pass: RenderPass
     framebuffer: Framebuffer | None
@@ -104,9 +131,18 @@ class CommandCache:
         self._commands: dict[tuple[str, Hashable, Parts], RecordedCommand] = {}
         self._older: dict[tuple[str, Hashable, Parts], RecordedCommand] = {}
         self.forgotten = 0
-        """How often commands were forgotten: a command that is recorded again may be another object."""
+        """How often commands were forgotten: a command that is recorded again may be another
+        object.
+        """
 
-    def command(self, kind: str, key: Hashable, call: Call, detail: DrawCounts | None = None, parts: Parts = ()) -> RecordedCommand:
+    def command(
+        self,
+        kind: str,
+        key: Hashable,
+        call: Call,
+        detail: DrawCounts | None = None,
+        parts: Parts = (),
+    ) -> RecordedCommand:
         """The command with a kind, key and parts, created on first use."""
         identity = (kind, key, parts)
         command = self._commands.get(identity)
@@ -123,7 +159,9 @@ class CommandCache:
 
 
 class BindPoint:
-    """What is bound for draws, dispatches, or traced rays: descriptor sets by number, and what the pipeline can read of them."""
+    """What is bound for draws, dispatches, or traced rays: descriptor sets by number, and what the
+    pipeline can read of them.
+    """
 
     __slots__ = ("bindings", "sets")
 
@@ -144,7 +182,9 @@ class BindPoint:
         pairs: list[tuple[DescriptorSet, ReadableBindings | None]] = []
         for number, descriptors in sorted(self.sets.items()):
             of_set = self.bindings[number : number + 1] if number != ANY_SET else self.bindings
-            pairs += [(descriptors, bindings) for bindings in of_set if bindings is None or bindings.kinds]
+            pairs += [
+                (descriptors, bindings) for bindings in of_set if bindings is None or bindings.kinds
+            ]
         return tuple(pairs)
 
 
@@ -183,7 +223,9 @@ class CommandBuffer:
         self.counted = False
         """Whether it was submitted."""
         self.submission: Any = None
-        """The Submission of its first `submitted_length` commands, if it does not depend on the frame."""
+        """The Submission of its first `submitted_length` commands, if it does not depend on the
+        frame.
+        """
         self.submitted_length = 0
         self.pipeline: Pipeline | None = None
         self.graphics = BindPoint()
@@ -192,11 +234,17 @@ class CommandBuffer:
         self.subpass_commands: set[RecordedCommand] = set()
         """The draws and clears of the current subpass."""
         self.draws: set[RecordedCommand] = set()
-        """The draws of the current subpass that no other subpass had before: theirs are the counts."""
+        """The draws of the current subpass that no other subpass had before: theirs are the
+        counts.
+        """
         self.many: dict[Pipeline | None, DrawCounts | None] = {}
-        """The pipelines that drew many vertices in the current subpass, each with the counts to add to."""
+        """The pipelines that drew many vertices in the current subpass, each with the counts to add
+        to.
+        """
         self.fresh = True
-        """Whether descriptor sets, or a pipeline that reads others, were bound since the last draw of the current subpass."""
+        """Whether descriptor sets, or a pipeline that reads others, were bound since the last draw
+        of the current subpass.
+        """
         self.samples: int | None = None
         self.label_depth: Any = None
         """How many labels are open, if one of them ends frames."""
@@ -206,8 +254,16 @@ class CommandBuffer:
         """A command buffer that recorded the same."""
         buffer = copy(self)
         buffer.commands = self.commands.copy()
-        buffer.graphics, buffer.compute, buffer.ray_tracing = self.graphics.copy(), self.compute.copy(), self.ray_tracing.copy()
-        buffer.subpass_commands, buffer.many, buffer.draws = self.subpass_commands.copy(), self.many.copy(), self.draws.copy()
+        buffer.graphics, buffer.compute, buffer.ray_tracing = (
+            self.graphics.copy(),
+            self.compute.copy(),
+            self.ray_tracing.copy(),
+        )
+        buffer.subpass_commands, buffer.many, buffer.draws = (
+            self.subpass_commands.copy(),
+            self.many.copy(),
+            self.draws.copy(),
+        )
         buffer.label_depth, buffer.labels = copy(self.label_depth), self.labels.copy()
         return buffer
 
@@ -245,6 +301,8 @@ class CommandBuffer:
 
 
 def kind_of(call: Call) -> str:
-    """The name in a description of the command that a call records: `copyImage` for vkCmdCopyImage2KHR."""
+    """The name in a description of the command that a call records: `copyImage` for
+    vkCmdCopyImage2KHR.
+    """
     name = without_vendor(call.name).removeprefix("vkCmd").removesuffix("2")
     return name[:1].lower() + name[1:]

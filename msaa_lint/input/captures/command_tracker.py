@@ -37,17 +37,32 @@ MAX_QUEUE_LABELS = 256
 """Maximum number of labels of a queue that are open at a time."""
 
 COUNTED = {"vkCmdDraw": "vertexCount", "vkCmdDrawIndexed": "indexCount"}
-"""The parameter with the number of vertices or indices of a draw; most other draws have it in a buffer."""
+"""The parameter with the number of vertices or indices of a draw; most other draws have it in a
+buffer.
+"""
 
-MULTIPLE = {"vkCmdDrawMultiEXT": ("vertexCount", "pVertexInfo"), "vkCmdDrawMultiIndexedEXT": ("indexCount", "pIndexInfo")}
-"""Of commands that draw several times: the member with the number of vertices or indices, and the array of structures that has it."""
+MULTIPLE = {
+    "vkCmdDrawMultiEXT": ("vertexCount", "pVertexInfo"),
+    "vkCmdDrawMultiIndexedEXT": ("indexCount", "pIndexInfo"),
+}
+"""Of commands that draw several times: the member with the number of vertices or indices, and the
+array of structures that has it.
+"""
 
 
 RATES: dict[str, tuple[str, type[Record]]] = {
-    "RENDERING_FRAGMENT_DENSITY_MAP_ATTACHMENT_INFO": ("fragmentDensityMapAttachment", FragmentDensityMapAttachment),
-    "RENDERING_FRAGMENT_SHADING_RATE_ATTACHMENT_INFO": ("fragmentShadingRateAttachment", FragmentShadingRateAttachment),
+    "RENDERING_FRAGMENT_DENSITY_MAP_ATTACHMENT_INFO": (
+        "fragmentDensityMapAttachment",
+        FragmentDensityMapAttachment,
+    ),
+    "RENDERING_FRAGMENT_SHADING_RATE_ATTACHMENT_INFO": (
+        "fragmentShadingRateAttachment",
+        FragmentShadingRateAttachment,
+    ),
 }
-"""Structures chained to a VkRenderingInfo that name an image, with the member of a description for each."""
+"""Structures chained to a VkRenderingInfo that name an image, with the member of a description for
+each.
+"""
 
 
 class CommandTracker(BoundSets):
@@ -73,14 +88,20 @@ class CommandTracker(BoundSets):
         if render_pass is None:
             return
         framebuffer = self.framebuffers.get(values.handle(info.get("framebuffer")))
-        images: tuple[Image | None, ...] = framebuffer.images or () if framebuffer is not None else ()
+        images: tuple[Image | None, ...] = (
+            framebuffer.images or () if framebuffer is not None else ()
+        )
         parts = framebuffer.parts if framebuffer is not None else ()
         imageless = values.chained(info, "RENDER_PASS_ATTACHMENT_BEGIN_INFO")
         if imageless is not None:
             views = values.items(imageless.get("pAttachments"))[:64]
             images, parts = tuple(map(self.view, views)), self.parts_of(views)
         begin = RenderPassBegin(
-            render_pass, framebuffer, images, area_of(info.get("renderArea")), values.count(info.get("clearValueCount"))
+            render_pass,
+            framebuffer,
+            images,
+            area_of(info.get("renderArea")),
+            values.count(info.get("clearValueCount")),
         )
         buffer.record_boundary(self.commands.command("beginRenderPass", begin, call, parts=parts))
 
@@ -89,7 +110,9 @@ class CommandTracker(BoundSets):
     def on_CmdNextSubpass(self, call: Call) -> None:
         self._record_boundary(call, kind_of(call), None)
 
-    on_CmdNextSubpass2 = on_CmdEndRenderPass = on_CmdEndRenderPass2 = on_CmdEndRendering = on_CmdEndRendering2 = on_CmdNextSubpass
+    on_CmdNextSubpass2 = on_CmdEndRenderPass = on_CmdEndRenderPass2 = on_CmdEndRendering = (
+        on_CmdEndRendering2
+    ) = on_CmdNextSubpass
 
     def _record_boundary(self, call: Call, kind: str, key: Hashable, parts: Parts = ()) -> None:
         """Records a command that begins or ends a pass or subpass."""
@@ -97,13 +120,23 @@ class CommandTracker(BoundSets):
 
     def on_CmdBeginRendering(self, call: Call) -> None:
         info = values.record(call.args.get("pRenderingInfo"))
-        tree = to_tree(BeginRendering, {key: item for key, item in info.items() if not key.endswith(("Attachment", "Attachments"))})
+        tree = to_tree(
+            BeginRendering,
+            {
+                key: item
+                for key, item in info.items()
+                if not key.endswith(("Attachment", "Attachments"))
+            },
+        )
         area = area_of(info.get("renderArea"))
         if area is not None:
             tree["renderArea"] = dict(zip(("x", "y", "width", "height"), area, strict=True))
         colors = values.items(info.get("pColorAttachments"))[:64]
         tree["colorAttachments"] = [self._attachment(each) for each in colors]
-        for name, member in (("pDepthAttachment", "depthAttachment"), ("pStencilAttachment", "stencilAttachment")):
+        for name, member in (
+            ("pDepthAttachment", "depthAttachment"),
+            ("pStencilAttachment", "stencilAttachment"),
+        ):
             attachment = self._attachment(info.get(name))
             if attachment is not None:
                 tree[member] = attachment
@@ -117,13 +150,20 @@ class CommandTracker(BoundSets):
         tree["flags"] = [flag for flag in tree.get("flags", []) if not flag.startswith("CONTENTS")]
         parts = self.parts_of(
             values.record(each).get(member)
-            for each in (info.get("pDepthAttachment"), info.get("pStencilAttachment"), *colors, *rates)
+            for each in (
+                info.get("pDepthAttachment"),
+                info.get("pStencilAttachment"),
+                *colors,
+                *rates,
+            )
             for member in ("imageView", "resolveImageView")
         )
         self._record_boundary(call, "beginRendering", freeze(tree), parts)
 
     def _attachment(self, value: object, kind: type[Record] = RenderingAttachment) -> Tree | None:
-        """A VkRenderingAttachmentInfo, or another `kind`, with images in place of views; None if it has no view."""
+        """A VkRenderingAttachmentInfo, or another `kind`, with images in place of views; None if it
+        has no view.
+        """
         info = values.record(value)
         image = self.view(info.get("imageView"))
         if image is None:
@@ -147,7 +187,9 @@ class CommandTracker(BoundSets):
                 buffer.omitted = buffer.omitted or secondary.omitted
                 if secondary.commands:
                     buffer.executes = True
-                    buffer.labels.execute(secondary.labels, pass_is_empty=not buffer.subpass_commands)
+                    buffer.labels.execute(
+                        secondary.labels, pass_is_empty=not buffer.subpass_commands
+                    )
                     buffer.record(Execution(secondary.commands, len(secondary.commands)))
         # vkCmdExecuteCommands makes all bound state undefined.
         buffer.pipeline = None
@@ -196,7 +238,11 @@ class CommandTracker(BoundSets):
                 return
         counted, counts = _counts(call, counted)
         # The rules ask only for the count of a full-screen triangle or quad.
-        few = counts.count is not None and counts.count <= MAX_FULLSCREEN_VERTICES and counts.instances == 1
+        few = (
+            counts.count is not None
+            and counts.count <= MAX_FULLSCREEN_VERTICES
+            and counts.instances == 1
+        )
         key = (buffer.pipeline, counted, counts.count if few else None, buffer.dynamic_samples)
         if buffer.fresh:
             self._reads(buffer, buffer.graphics, "FRAGMENT", call)
@@ -210,9 +256,15 @@ class CommandTracker(BoundSets):
         if counted and not few:
             buffer.many[buffer.pipeline] = command.detail if command in buffer.draws else None
 
-    on_CmdDrawIndexed = on_CmdDrawIndirect = on_CmdDrawIndexedIndirect = on_CmdDrawIndirectByteCount = on_CmdDraw
-    on_CmdDrawIndirectCount = on_CmdDrawIndexedIndirectCount = on_CmdDrawMulti = on_CmdDrawMultiIndexed = on_CmdDraw
-    on_CmdDrawMeshTasks = on_CmdDrawMeshTasksIndirect = on_CmdDrawMeshTasksIndirectCount = on_CmdDraw
+    on_CmdDrawIndexed = on_CmdDrawIndirect = on_CmdDrawIndexedIndirect = (
+        on_CmdDrawIndirectByteCount
+    ) = on_CmdDraw
+    on_CmdDrawIndirectCount = on_CmdDrawIndexedIndirectCount = on_CmdDrawMulti = (
+        on_CmdDrawMultiIndexed
+    ) = on_CmdDraw
+    on_CmdDrawMeshTasks = on_CmdDrawMeshTasksIndirect = on_CmdDrawMeshTasksIndirectCount = (
+        on_CmdDraw
+    )
 
     def on_CmdDispatch(self, call: Call) -> None:
         buffer = self.buffer(call)
@@ -227,7 +279,8 @@ class CommandTracker(BoundSets):
     on_CmdTraceRaysIndirect = on_CmdTraceRaysIndirect2 = on_CmdTraceRays
 
     def _reads(self, buffer: CommandBuffer, point: BindPoint, stage: str, call: Call) -> None:
-        # Contents are looked up at submission: a set with UPDATE_AFTER_BIND may be written after it is bound.
+        # Contents are looked up at submission: a set with UPDATE_AFTER_BIND may be written after it
+        # is bound.
         sets = point.reads() if point.sets else ()
         if sets:
             buffer.reads = True
@@ -250,7 +303,10 @@ class CommandTracker(BoundSets):
         self.buffer(call).labels.insert(self.label(call))
         self.follow_label(call, "insert")
 
-    on_CmdDebugMarkerBegin, on_CmdDebugMarkerEnd = on_CmdBeginDebugUtilsLabel, on_CmdEndDebugUtilsLabel
+    on_CmdDebugMarkerBegin, on_CmdDebugMarkerEnd = (
+        on_CmdBeginDebugUtilsLabel,
+        on_CmdEndDebugUtilsLabel,
+    )
     on_CmdDebugMarkerInsert = on_CmdInsertDebugUtilsLabel
 
     def on_QueueBeginDebugUtilsLabel(self, call: Call) -> None:
@@ -272,7 +328,9 @@ class CommandTracker(BoundSets):
         self.follow_label(call, "insert")
 
     def follow_label(self, call: Call, event: str) -> None:
-        """Processes a label that begins, ends, or is inserted as a mark of frames, which FrameMarks tracks."""
+        """Processes a label that begins, ends, or is inserted as a mark of frames, which FrameMarks
+        tracks.
+        """
 
     def label(self, call: Call) -> str:
         """The text of the label that a call begins or inserts."""
@@ -282,15 +340,27 @@ class CommandTracker(BoundSets):
     # Submission.
 
     def on_QueueSubmit(self, call: Call) -> None:
-        batches = (values.items(values.record(item).get("pCommandBuffers")) for item in values.items(call.args.get("pSubmits")))
+        batches = (
+            values.items(values.record(item).get("pCommandBuffers"))
+            for item in values.items(call.args.get("pSubmits"))
+        )
         self._submit([handle for batch in batches for handle in batch], call)
 
     def on_QueueSubmit2(self, call: Call) -> None:
-        batches = (values.items(values.record(item).get("pCommandBufferInfos")) for item in values.items(call.args.get("pSubmits")))
-        self._submit([values.record(info).get("commandBuffer") for batch in batches for info in batch], call)
+        batches = (
+            values.items(values.record(item).get("pCommandBufferInfos"))
+            for item in values.items(call.args.get("pSubmits"))
+        )
+        self._submit(
+            [values.record(info).get("commandBuffer") for batch in batches for info in batch], call
+        )
 
     def _submit(self, handles: list[object], call: Call) -> None:
-        buffers = [buffer for buffer in (self.buffers.get(values.handle(handle)) for handle in handles) if buffer is not None]
+        buffers = [
+            buffer
+            for buffer in (self.buffers.get(values.handle(handle)) for handle in handles)
+            if buffer is not None
+        ]
         self.frames.start_submission(buffers)
         # A label may end in a later command buffer than it begins.
         outer: Path = tuple(self.queue_labels.get(values.handle(call.args.get("queue")), ()))
@@ -320,12 +390,21 @@ def area_of(value: object) -> tuple[int, int, int, int] | None:
 
 
 def _counts(call: Call, counted: str) -> tuple[str, DrawCounts]:
-    """The member with the number of vertices or indices of a draw, empty if it is in a buffer; and the counts."""
+    """The member with the number of vertices or indices of a draw, empty if it is in a buffer; and
+    the counts.
+    """
     instances = values.count(call.args.get("instanceCount"))
     if counted:
         return counted, DrawCounts(values.count(call.args.get(counted)), instances)
     member, array = MULTIPLE.get(call.name, ("", ""))
-    found = [values.count(values.record(draw).get(member)) for draw in values.items(call.args.get(array))] if array else []
+    found = (
+        [
+            values.count(values.record(draw).get(member))
+            for draw in values.items(call.args.get(array))
+        ]
+        if array
+        else []
+    )
     numbers = [number for number in found if number is not None]
     if not numbers or len(numbers) < len(found) or instances is None:
         return "", DrawCounts(None, None, max(len(found), 1))

@@ -1,4 +1,6 @@
-"""Converts VkRenderPassCreateInfo, VkRenderPassCreateInfo2 and VkGraphicsPipelineCreateInfo to the form of a description."""
+"""Converts VkRenderPassCreateInfo, VkRenderPassCreateInfo2 and VkGraphicsPipelineCreateInfo to the
+form of a description.
+"""
 
 from __future__ import annotations
 
@@ -23,10 +25,17 @@ def render_pass_of(info: dict[str, Any]) -> Tree:
 
 
 def _drop_stencil(attachment: Tree) -> None:
-    """Removes the stencil operations, which C always states, from an attachment whose format has no stencil."""
+    """Removes the stencil operations, which C always states, from an attachment whose format has no
+    stencil.
+    """
     format = format_of(attachment["format"]) if "format" in attachment else None
     if format is not None and "stencil" not in format.aspects:
-        for member in ("stencilLoadOp", "stencilStoreOp", "stencilInitialLayout", "stencilFinalLayout"):
+        for member in (
+            "stencilLoadOp",
+            "stencilStoreOp",
+            "stencilInitialLayout",
+            "stencilFinalLayout",
+        ):
             attachment.pop(member, None)
 
 
@@ -39,7 +48,12 @@ def _drop_dangling_references(tree: Tree) -> None:
         return reference if isinstance(index, int) and index < count else None
 
     for subpass in subpasses:
-        for member in ("inputAttachments", "colorAttachments", "resolveAttachments", "preserveAttachments"):
+        for member in (
+            "inputAttachments",
+            "colorAttachments",
+            "resolveAttachments",
+            "preserveAttachments",
+        ):
             if member in subpass:
                 subpass[member] = [valid_or_none(reference) for reference in subpass[member]]
         for member in ("depthStencilAttachment", "fragmentShadingRateAttachment"):
@@ -55,15 +69,24 @@ def _drop_dangling_references(tree: Tree) -> None:
     tree["dependencies"] = [
         dependency
         for dependency in dependencies
-        if all(dependency.get(end) in (None, "EXTERNAL") or dependency[end] < len(subpasses) for end in ends)
+        if all(
+            dependency.get(end) in (None, "EXTERNAL") or dependency[end] < len(subpasses)
+            for end in ends
+        )
     ]
     if not tree["dependencies"]:
         del tree["dependencies"]
 
 
-def pipeline_of(info: dict[str, Any], modules: Mapping[int, bytes]) -> tuple[Tree, dict[str, bytes]]:
+def pipeline_of(
+    info: dict[str, Any], modules: Mapping[int, bytes]
+) -> tuple[Tree, dict[str, bytes]]:
     """A pipeline's tree, and the code of the shader modules by the names that the tree uses."""
-    structure = {key: item for key, item in info.items() if key not in ("pDynamicState", "renderPass", "pStages", "stages")}
+    structure = {
+        key: item
+        for key, item in info.items()
+        if key not in ("pDynamicState", "renderPass", "pStages", "stages")
+    }
     # A description lists the dynamic states directly.
     dynamic = values.record(info.get("pDynamicState") or info.get("dynamicState"))
     structure["dynamicState"] = dynamic.get("pDynamicStates", dynamic.get("dynamicState")) or []
@@ -84,7 +107,8 @@ def _stages(stages: list[Any], modules: Mapping[int, bytes]) -> tuple[list[Tree]
         info = values.record(stage)
         kind = values.enum("VkShaderStageFlagBits", info.get("stage"))
         code = modules.get(values.handle(info.get("module")))
-        # The capture omits the values of specialization constants, so the behavior of the code is unknown.
+        # The capture omits the values of specialization constants, so the behavior of the code is
+        # unknown.
         specialized = info.get("pSpecializationInfo") or info.get("specializationInfo")
         if kind != "FRAGMENT" or code is None or specialized:
             continue

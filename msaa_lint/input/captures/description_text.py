@@ -1,4 +1,5 @@
-"""Writes a capture as the text of a description: one document for each kind of frame, the most frequent first.
+"""Writes a capture as the text of a description: one document for each kind of frame, the most
+frequent first.
 
 `msaa-lint check` checks this text and `msaa-lint convert` prints it, so the two cannot disagree.
 """
@@ -17,7 +18,10 @@ from .objects import CapturedObject, Image, Pipeline, RenderPass, freeze, images
 from .tracker import Tracker
 from .yaml_text import Lines, scalar
 
-TOO_MUCH = "the description would be too large to be read again; commands and kinds of frame beyond that are not checked"
+TOO_MUCH = (
+    "the description would be too large to be read again; commands and kinds of frame "
+    "beyond that are not checked"
+)
 """The limit of a description, as a finding states it."""
 
 MAX_UNUSED = 500
@@ -25,9 +29,11 @@ MAX_UNUSED = 500
 
 
 class CaptureDescription(NamedTuple):
-    """The description of a capture: its text, the call behind each line, and the shader code by the names in the text.
+    """The description of a capture: its text, the call behind each line, and the shader code by the
+    names in the text.
 
-    `left_out` says what has nothing to do with multisampling and is therefore not described; empty if that is nothing.
+    `left_out` says what has nothing to do with multisampling and is therefore not described; empty
+    if that is nothing.
     """
 
     text: str
@@ -41,7 +47,9 @@ def describe_capture(tracker: Tracker) -> CaptureDescription:
     lines = Lines()
     writer = _Writer(tracker, lines)
     writer.write()
-    return CaptureDescription("\n".join(lines.text) + "\n", lines.origins, writer.modules, writer.left_out)
+    return CaptureDescription(
+        "\n".join(lines.text) + "\n", lines.origins, writer.modules, writer.left_out
+    )
 
 
 class _Writer:
@@ -63,13 +71,21 @@ class _Writer:
         used_keys = {image_key(image) for images in self.images.values() for image in images}
         # What frames that are not described use is unknown.
         idle = (
-            alike for alike in tracker.multisampled.values() if not alike.first.frames and not any(each.frames for each in alike.together)
+            alike
+            for alike in tracker.multisampled.values()
+            if not alike.first.frames and not any(each.frames for each in alike.together)
         )
         unused = [alike.first for alike in idle if image_key(alike.first) not in used_keys]
         self.unused_images = unused[:MAX_UNUSED]
-        distinct = [each for each in tracker.distinct.values() if not each.frames and is_multisampled(each)]
-        self.unused_passes = [each for each in distinct if isinstance(each, RenderPass)][:MAX_UNUSED]
-        self.unused_pipelines = [each for each in distinct if isinstance(each, Pipeline)][:MAX_UNUSED]
+        distinct = [
+            each for each in tracker.distinct.values() if not each.frames and is_multisampled(each)
+        ]
+        self.unused_passes = [each for each in distinct if isinstance(each, RenderPass)][
+            :MAX_UNUSED
+        ]
+        self.unused_pipelines = [each for each in distinct if isinstance(each, Pipeline)][
+            :MAX_UNUSED
+        ]
         self.part = MultisampledPart(kinds)
         if kinds and not self.part.images and (self.unused_passes or self.unused_pipelines):
             # A frame has to show that it does not begin them.
@@ -77,7 +93,11 @@ class _Writer:
 
     def write(self) -> None:
         """Writes all documents."""
-        kinds = [kind for kind, images in self.images.items() if self.part.passes(kind) or not self.part.images.isdisjoint(images)]
+        kinds = [
+            kind
+            for kind, images in self.images.items()
+            if self.part.passes(kind) or not self.part.images.isdisjoint(images)
+        ]
         for number, kind in enumerate(kinds):
             start = len(self.lines.text)
             if number:
@@ -96,10 +116,14 @@ class _Writer:
         self.left_out = _left_out(len(every - self.part.images), passes)
 
     def structures(self) -> None:
-        """Writes a capture whose frames, if it has any, show nothing multisampled: only the objects that it creates."""
+        """Writes a capture whose frames, if it has any, show nothing multisampled: only the objects
+        that it creates.
+        """
         self._head(None)
         self._images(self.unused_images)
-        self._passes(list(dict.fromkeys([*self.unused_passes, *_render_passes_of(self.unused_pipelines)])))
+        self._passes(
+            list(dict.fromkeys([*self.unused_passes, *_render_passes_of(self.unused_pipelines)]))
+        )
         self._pipelines(self.unused_pipelines)
         for kind, images in self.images.items():
             self._left_out(kind, images)
@@ -107,14 +131,28 @@ class _Writer:
         self.lines.line("commands: []")
 
     def frame(self, kind: FrameKind, first: bool) -> None:
-        """Writes one kind of frame. The first document also contains the objects that no frame uses."""
+        """Writes one kind of frame. The first document also contains the objects that no frame
+        uses.
+        """
         numbers = self.part.passes(kind)
         begins = [kind.passes[number].key for number in sorted(numbers)]
-        passes = list(dict.fromkeys(begin.render_pass for begin in begins if isinstance(begin, RenderPassBegin)))
-        commands = (command for number in sorted(numbers) for command in kind.pass_commands[number].values())
-        drawn = (command.key[0] for command in commands if command.kind == "draw" and isinstance(command.key, tuple))
+        passes = list(
+            dict.fromkeys(
+                begin.render_pass for begin in begins if isinstance(begin, RenderPassBegin)
+            )
+        )
+        commands = (
+            command for number in sorted(numbers) for command in kind.pass_commands[number].values()
+        )
+        drawn = (
+            command.key[0]
+            for command in commands
+            if command.kind == "draw" and isinstance(command.key, tuple)
+        )
         pipelines = [each for each in dict.fromkeys(drawn) if isinstance(each, Pipeline)]
-        images = self._with_turns(kind, [image for image in self.images[kind] if image in self.part.images])
+        images = self._with_turns(
+            kind, [image for image in self.images[kind] if image in self.part.images]
+        )
         if first:
             images = list(dict.fromkeys([*images, *self.unused_images]))
             passes += self.unused_passes
@@ -127,10 +165,21 @@ class _Writer:
         framebuffers = self._framebuffers(kind, numbers)
         self._pipelines(pipelines)
         labels = self.tracker.frames.labels
-        CommandWriter(self.lines, self.names, kind, self.described_images, numbers, framebuffers, self.total, labels).write()
+        CommandWriter(
+            self.lines,
+            self.names,
+            kind,
+            self.described_images,
+            numbers,
+            framebuffers,
+            self.total,
+            labels,
+        ).write()
 
     def _with_turns(self, kind: FrameKind, images: list[Image]) -> list[Image]:
-        """The images of a kind of frame, with those that take their place in other frames if there is one for each swapchain image."""
+        """The images of a kind of frame, with those that take their place in other frames if there
+        is one for each swapchain image.
+        """
         swapchains = {image.swapchain: None for image in images if image.swapchain is not None}
         swapchain = next(iter(swapchains), None)
         if swapchain is None or len(swapchains) > 1 or len(swapchain.images) < 2:
@@ -138,7 +187,11 @@ class _Writer:
         result: dict[Image, None] = {}
         roles = {image: role for role, image in enumerate(kind.images)}
         for image in images:
-            turns = self._turns(image, kind.rotations.get(roles.get(image, -1))) if image.samples > 1 else ()
+            turns = (
+                self._turns(image, kind.rotations.get(roles.get(image, -1)))
+                if image.samples > 1
+                else ()
+            )
             if len(turns) == len(swapchain.images):
                 frames = min(sum(each.frames for each in turns), self.total)
                 self._frames.update(dict.fromkeys(turns, frames))
@@ -147,12 +200,18 @@ class _Writer:
         return list(result)
 
     def _turns(self, image: Image, rotation: Mapping[Image, None] | None) -> Sequence[Image]:
-        """The images that exist together and have the same role in other frames, as `rotation`, or that no frame uses."""
+        """The images that exist together and have the same role in other frames, as `rotation`, or
+        that no frame uses.
+        """
         together = image.alike.together if image.alike is not None else ()
         rotation = rotation or {image: None}
         if len(rotation) == 1 and image in together:
             return [each for each in together if each is image or not each.frames]
-        return [each for each in together if each in rotation] if rotation.keys() <= set(together) else ()
+        return (
+            [each for each in together if each in rotation]
+            if rotation.keys() <= set(together)
+            else ()
+        )
 
     def _left_out(self, kind: FrameKind, images: list[Image]) -> None:
         """Writes what of a kind of frame is not described."""
@@ -176,14 +235,22 @@ class _Writer:
 
     def origin(self, created: CapturedObject) -> Origin:
         """The call that created an object."""
-        return Origin(*created.at, created.by, self._frames.get(created, created.frames) or None, self.total)
+        return Origin(
+            *created.at, created.by, self._frames.get(created, created.frames) or None, self.total
+        )
 
     def _images(self, images: list[Image]) -> None:
         self.described_images = set(images)
         if images:
             self.lines.line("images:")
         for image in images:
-            self.lines.member(2, self.names.image(image), image.description, self.origin(image), origin_comment(image))
+            self.lines.member(
+                2,
+                self.names.image(image),
+                image.description,
+                self.origin(image),
+                origin_comment(image),
+            )
 
     def _passes(self, passes: list[RenderPass]) -> None:
         if passes:
@@ -191,7 +258,11 @@ class _Writer:
         for render_pass in passes:
             tree, origin = render_pass.tree, self.origin(render_pass)
             value = "" if tree else " {}"
-            self.lines.line(f"  {scalar(self.names.render_pass(render_pass))}:{value}  # {origin_comment(render_pass)}", origin)
+            self.lines.line(
+                f"  {scalar(self.names.render_pass(render_pass))}:{value}  # "
+                f"{origin_comment(render_pass)}",
+                origin,
+            )
             for member in ("flags", "fragmentDensityMapAttachment", "pNext"):
                 if member in tree:
                     self.lines.member(4, member, tree[member], origin)
@@ -202,7 +273,9 @@ class _Writer:
                     self.lines.item(6, item, origin)
 
     def _framebuffers(self, kind: FrameKind, numbers: Collection[int]) -> dict[Hashable, str]:
-        """Writes the framebuffers of some passes of the kind, one for each set of images, and returns their names."""
+        """Writes the framebuffers of some passes of the kind, one for each set of images, and
+        returns their names.
+        """
         names: dict[Hashable, str] = {}
         for number in sorted(numbers):
             for begin in kind.alternates[number].values():
@@ -211,13 +284,25 @@ class _Writer:
                     continue
                 if not names:
                     self.lines.line("framebuffers:")
-                names[key] = self.names.framebuffer(begin.framebuffer, begin.images, begin.render_pass)
+                names[key] = self.names.framebuffer(
+                    begin.framebuffer, begin.images, begin.render_pass
+                )
                 tree: dict[str, Any] = {"renderPass": self.names.render_pass(begin.render_pass)}
-                # With another count, the capture lacks some views: it is unknown which image belongs to which attachment.
+                # With another count, the capture lacks some views: it is unknown which image
+                # belongs to which attachment.
                 if len(begin.images) == len(begin.render_pass.tree.get("attachments", [])):
-                    tree["attachments"] = [self.names.image(image) if image is not None else None for image in begin.images]
+                    tree["attachments"] = [
+                        self.names.image(image) if image is not None else None
+                        for image in begin.images
+                    ]
                 tree.update(begin.framebuffer.tree)
-                self.lines.member(2, names[key], tree, self.origin(begin.framebuffer), origin_comment(begin.framebuffer))
+                self.lines.member(
+                    2,
+                    names[key],
+                    tree,
+                    self.origin(begin.framebuffer),
+                    origin_comment(begin.framebuffer),
+                )
         return names
 
     def _pipelines(self, pipelines: list[Pipeline]) -> None:
@@ -229,7 +314,13 @@ class _Writer:
                 tree["renderPass"] = self.names.render_pass(pipeline.render_pass)
             tree.update(pipeline.tree)
             self.modules.update(pipeline.modules)
-            self.lines.member(2, self.names.pipeline(pipeline), tree, self.origin(pipeline), origin_comment(pipeline))
+            self.lines.member(
+                2,
+                self.names.pipeline(pipeline),
+                tree,
+                self.origin(pipeline),
+                origin_comment(pipeline),
+            )
 
 
 def origin_comment(created: CapturedObject) -> str:
@@ -249,7 +340,11 @@ def _left_out(images: int, passes: int) -> str:
         for count, noun, plural in ((images, "image", "images"), (passes, "pass", "passes"))
         if count
     ]
-    return f"{' and '.join(counted)} that multisampled images neither depend on nor lead to" if counted else ""
+    return (
+        f"{' and '.join(counted)} that multisampled images neither depend on nor lead to"
+        if counted
+        else ""
+    )
 
 
 def _render_passes_of(pipelines: list[Pipeline]) -> list[RenderPass]:

@@ -31,7 +31,11 @@ class Descriptors(SetLayouts):
         for number, item in enumerate(values.items(call.args.get("pDescriptorSets"))):
             handle = values.handle(item)
             if self.has_room(self.sets, call):
-                self.sets[handle] = self.set_layouts.get(values.handle(layouts[number])) if number < len(layouts) else None
+                self.sets[handle] = (
+                    self.set_layouts.get(values.handle(layouts[number]))
+                    if number < len(layouts)
+                    else None
+                )
                 pool[handle] = None
 
     def set(self, value: object) -> DescriptorSet | None:
@@ -69,7 +73,8 @@ class Descriptors(SetLayouts):
     def _copy(self, source: DescriptorSet, target: DescriptorSet, copy: dict[str, Any]) -> None:
         """Applies a VkCopyDescriptorSet.
 
-        More than one descriptor may continue in the next binding, so all images are copied then: the rules only ask what may be read.
+        More than one descriptor may continue in the next binding, so all images are copied then:
+        the rules only ask what may be read.
         """
         target.opaque = target.opaque or source.opaque
         if len(source.unknown) > MAX_COPIED and not self.frames.spend(len(source.unknown)):
@@ -78,13 +83,21 @@ class Descriptors(SetLayouts):
             target.unknown.update(source.unknown)
             target.updates += 1
         if values.integer(copy.get("descriptorCount")) == 1:
-            ends = [(values.integer(copy.get(f"{end}Binding")) or 0, values.integer(copy.get(f"{end}ArrayElement")) or 0) for end in _ENDS]
+            ends = [
+                (
+                    values.integer(copy.get(f"{end}Binding")) or 0,
+                    values.integer(copy.get(f"{end}ArrayElement")) or 0,
+                )
+                for end in _ENDS
+            ]
             use = source.images.get(ends[0])
             if use is not None:
                 target.put(ends[1], *use)
             else:
                 target.remove(ends[1])
-        elif len(source.images) > MAX_COPIED and not self.frames.spend(len(source.images) - MAX_COPIED):
+        elif len(source.images) > MAX_COPIED and not self.frames.spend(
+            len(source.images) - MAX_COPIED
+        ):
             # Copies of copies multiply: beyond the budget, the contents are unknown.
             target.opaque = True
         else:
@@ -102,7 +115,10 @@ class Descriptors(SetLayouts):
         if not storage:
             return
         infos = values.items(write.get("pImageInfo"))
-        binding, first = values.count(write.get("dstBinding")) or 0, values.count(write.get("dstArrayElement")) or 0
+        binding, first = (
+            values.count(write.get("dstBinding")) or 0,
+            values.count(write.get("dstArrayElement")) or 0,
+        )
         start = 0
         for run in _runs(target, binding, first, len(infos)):
             for element, item in enumerate(infos[start : start + run.size], run.element):
@@ -119,22 +135,31 @@ class Descriptors(SetLayouts):
                 target.updates += 1
 
     def write_template(self, target: DescriptorSet, args: dict[str, Any]) -> None:
-        """Applies an update template to a set. What it writes is unknown if the capture omits it, or the template."""
+        """Applies an update template to a set. What it writes is unknown if the capture omits it,
+        or the template.
+        """
         writes = args.get("pDescriptorWrites")
         template = self.templates.get(values.handle(args.get("descriptorUpdateTemplate")))
         if isinstance(writes, list):
             # RenderDoc resolves the template.
             for write in writes:
                 self.write(target, values.record(write))
-        elif template is not None and (len(template.entries) <= MAX_COPIED or self.frames.spend(len(template.entries))):
+        elif template is not None and (
+            len(template.entries) <= MAX_COPIED or self.frames.spend(len(template.entries))
+        ):
             self._write_entries(target, template, values.record(args.get("pData")))
         else:
             target.opaque = True
 
-    def _write_entries(self, target: DescriptorSet, template: Template, data: dict[str, Any]) -> None:
-        # gfxreconstruct 0.9 writes all structures of the data in order, in a VkWriteDescriptorSet without handles; 1.x writes handles.
+    def _write_entries(
+        self, target: DescriptorSet, template: Template, data: dict[str, Any]
+    ) -> None:
+        # gfxreconstruct 0.9 writes all structures of the data in order, in a VkWriteDescriptorSet
+        # without handles; 1.x writes handles.
         infos = values.items(data.get("imageInfos", data.get("pImageInfo")))
-        states_handles = "imageInfos" in data or any(values.handle(values.record(info).get("imageView")) for info in infos)
+        states_handles = "imageInfos" in data or any(
+            values.handle(values.record(info).get("imageView")) for info in infos
+        )
         start = 0
         for entry in template.entries:
             part = infos[start : start + entry.size]
@@ -143,7 +168,9 @@ class Descriptors(SetLayouts):
                 continue
             if states_handles and len(part) == entry.size:
                 ends = {"dstBinding": entry.binding, "dstArrayElement": entry.element}
-                self.write(target, {**ends, "descriptorType": entry.descriptor_type, "pImageInfo": part})
+                self.write(
+                    target, {**ends, "descriptorType": entry.descriptor_type, "pImageInfo": part}
+                )
             else:
                 _write_unknown(target, entry, part)
 
@@ -157,7 +184,9 @@ class _Run(NamedTuple):
 
 
 def _runs(target: DescriptorSet, binding: int, element: int, count: int) -> Iterator[_Run]:
-    """The descriptors that an update writes, by binding: with the set's layout, those beyond the end of a binding are in the next one."""
+    """The descriptors that an update writes, by binding: with the set's layout, those beyond the
+    end of a binding are in the next one.
+    """
     layout: SetLayout | None = target.layout
     if layout is None or layout.size(binding) >= element + count:
         yield _Run(binding, element, count)
@@ -171,7 +200,9 @@ def _write_unknown(target: DescriptorSet, entry: TemplateEntry, infos: list[Any]
     target.updates += 1
     layouts: frozenset[str] | None = None
     if len(infos) == entry.size:
-        names = {values.enum("VkImageLayout", values.record(info).get("imageLayout")) for info in infos}
+        names = {
+            values.enum("VkImageLayout", values.record(info).get("imageLayout")) for info in infos
+        }
         layouts = frozenset().union(*map(readable, names))
     for run in _runs(target, entry.binding, entry.element, entry.size):
         for element in range(run.element, run.element + min(run.size, MAX_COPIED)):
@@ -179,7 +210,15 @@ def _write_unknown(target: DescriptorSet, entry: TemplateEntry, infos: list[Any]
         before = target.unknown.get(run.binding)
         if before is not None and (run.element or run.size < before.size):
             # The other descriptors of the binding are what they were.
-            both = layouts | before.layouts if layouts is not None and before.layouts is not None else None
-            target.unknown[run.binding] = UnknownDescriptors(max(before.size, run.element + run.size), before.storage, both)
+            both = (
+                layouts | before.layouts
+                if layouts is not None and before.layouts is not None
+                else None
+            )
+            target.unknown[run.binding] = UnknownDescriptors(
+                max(before.size, run.element + run.size), before.storage, both
+            )
         else:
-            target.unknown[run.binding] = UnknownDescriptors(run.element + run.size, entry.storage, layouts)
+            target.unknown[run.binding] = UnknownDescriptors(
+                run.element + run.size, entry.storage, layouts
+            )

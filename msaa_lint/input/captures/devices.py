@@ -1,4 +1,6 @@
-"""Tracks the physical device's properties, and the extensions and features that the application enables."""
+"""Tracks the physical device's properties, and the extensions and features that the application
+enables.
+"""
 
 from __future__ import annotations
 
@@ -42,7 +44,9 @@ class Devices:
 
     def on_CreateInstance(self, call: Call) -> None:
         info = values.record(values.record(call.args.get("pCreateInfo")).get("pApplicationInfo"))
-        self.program = _versioned(info.get("pApplicationName"), info.get("applicationVersion")) or self.program
+        self.program = (
+            _versioned(info.get("pApplicationName"), info.get("applicationVersion")) or self.program
+        )
         self.engine = _versioned(info.get("pEngineName"), info.get("engineVersion")) or self.engine
         version = values.integer(info.get("apiVersion"))
         if version:
@@ -56,7 +60,10 @@ class Devices:
     on_GetPhysicalDeviceProperties2 = on_GetPhysicalDeviceProperties
 
     def on_GetPhysicalDeviceFeatures(self, call: Call) -> None:
-        _add(self._queried(call.args.get("physicalDevice"))["features"], values.record(call.args.get("pFeatures")))
+        _add(
+            self._queried(call.args.get("physicalDevice"))["features"],
+            values.record(call.args.get("pFeatures")),
+        )
 
     def on_GetPhysicalDeviceFeatures2(self, call: Call) -> None:
         for structure in _features_in(call.args.get("pFeatures")):
@@ -69,7 +76,8 @@ class Devices:
         types = values.items(properties.get("memoryTypes"))
         if types:
             self._queried(call.args.get("physicalDevice"))["memory"] = [
-                values.record(each).get("propertyFlags") for each in types[: count if count is not None else 64]
+                values.record(each).get("propertyFlags")
+                for each in types[: count if count is not None else 64]
             ]
 
     on_GetPhysicalDeviceMemoryProperties2 = on_GetPhysicalDeviceMemoryProperties
@@ -77,14 +85,22 @@ class Devices:
     def on_EnumerateDeviceExtensionProperties(self, call: Call) -> None:
         properties = values.items(call.args.get("pProperties"))
         if properties and not call.args.get("pLayerName"):
-            names = [values.text(values.record(each).get("extensionName")) for each in properties[:1024]]
-            self._queried(call.args.get("physicalDevice"))["extensions"] = [name for name in names if name is not None]
+            names = [
+                values.text(values.record(each).get("extensionName")) for each in properties[:1024]
+            ]
+            self._queried(call.args.get("physicalDevice"))["extensions"] = [
+                name for name in names if name is not None
+            ]
 
     # A trimmed capture of gfxreconstruct has these meta commands instead of the queries.
 
     def device_properties_command(self, call: Call) -> None:
         args = call.args
-        properties = {"vendorID": args.get("vendor_id"), "deviceName": args.get("device_name"), "apiVersion": args.get("api_version")}
+        properties = {
+            "vendorID": args.get("vendor_id"),
+            "deviceName": args.get("device_name"),
+            "apiVersion": args.get("api_version"),
+        }
         stated = {key: item for key, item in properties.items() if item is not None}
         _add(self._queried(args.get("physical_device_id"))["properties"], stated)
 
@@ -97,10 +113,16 @@ class Devices:
     def on_CreateDevice(self, call: Call) -> None:
         self.used = values.handle(call.args.get("physicalDevice"))
         info = values.record(call.args.get("pCreateInfo"))
-        names = [values.text(each) for each in values.items(info.get("ppEnabledExtensionNames"))[:1024]]
+        names = [
+            values.text(each) for each in values.items(info.get("ppEnabledExtensionNames"))[:1024]
+        ]
         self.extensions = [name for name in names if name is not None]
         structures = [values.record(info.get("pEnabledFeatures")), *_features_in(info.get("pNext"))]
-        self.features = [name for name in FEATURES if any(values.boolean(structure.get(name)) for structure in structures)]
+        self.features = [
+            name
+            for name in FEATURES
+            if any(values.boolean(structure.get(name)) for structure in structures)
+        ]
 
     @property
     def current(self) -> dict[str, Any]:
@@ -111,7 +133,11 @@ class Devices:
 
     def device_name(self) -> str:
         """The name of the device in use; empty if the capture does not state it."""
-        names = (values.text(structure.get("deviceName")) for each in self.current.get("properties", ()) for structure in _nested(each))
+        names = (
+            values.text(structure.get("deviceName"))
+            for each in self.current.get("properties", ())
+            for structure in _nested(each)
+        )
         return printable(next(filter(None, names), ""))
 
     def memory_flags(self, index: int) -> list[str] | None:
@@ -123,27 +149,44 @@ class Devices:
         return parsed[0] if parsed is not None and parsed[1] else None
 
     def device(self) -> str:
-        """The `device` section of a description, as YAML; empty if the capture has no information about it."""
+        """The `device` section of a description, as YAML; empty if the capture has no information
+        about it.
+        """
         queries = self.current
         members = gathered(*queries.get("properties", ()))
         for member, stated in members.items():
-            members[member] = [spelled for value in stated if (spelled := _spelled(member, value)) is not None]
+            members[member] = [
+                spelled for value in stated if (spelled := _spelled(member, value)) is not None
+            ]
         members = {member: stated for member, stated in members.items() if stated}
         if not members and "memory" not in queries:
             return ""
         available = queries.get("features") or None
         features: dict[object, object] | None = None
         if available:
-            features = {name: True for name in FEATURES if any(values.boolean(each.get(name)) for each in available)}
-        types: list[object] | None = [values.bits("VkMemoryPropertyFlagBits", flags) for flags in queries.get("memory", ())]
+            features = {
+                name: True
+                for name in FEATURES
+                if any(values.boolean(each.get(name)) for each in available)
+            }
+        types: list[object] | None = [
+            values.bits("VkMemoryPropertyFlagBits", flags) for flags in queries.get("memory", ())
+        ]
         if not types or None in types:
             types = None
-        api = next((version for version in map(values.integer, members.pop("apiVersion", ())) if version), None)
-        report_members = Found(members, features, queries.get("extensions"), types, None, "", api, what="capture")
+        api = next(
+            (version for version in map(values.integer, members.pop("apiVersion", ())) if version),
+            None,
+        )
+        report_members = Found(
+            members, features, queries.get("extensions"), types, None, "", api, what="capture"
+        )
         return description(Offer(report(report_members))) + "  captured: true\n"
 
     def enabled(self) -> dict[str, Any] | None:
-        """The `enabled` section of a description, with the extensions and features that matter for multisampling."""
+        """The `enabled` section of a description, with the extensions and features that matter for
+        multisampling.
+        """
         section: dict[str, Any] = {}
         if self.api is not None:
             section["apiVersion"] = self.api
@@ -165,7 +208,9 @@ def _versioned(name: object, version: object) -> str:
 
 
 def _nested(structure: dict[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
-    """A structure of properties, and the one within it: VkPhysicalDeviceProperties2 has the others' names."""
+    """A structure of properties, and the one within it: VkPhysicalDeviceProperties2 has the others'
+    names.
+    """
     return structure, values.record(structure.get("properties"))
 
 

@@ -1,6 +1,8 @@
-"""How a frame first uses an image and what it leaves in it, to follow contents from one frame to the next.
+"""How a frame first uses an image and what it leaves in it, to follow contents from one frame to
+the next.
 
-A description covers a single frame, which is assumed to repeat. A capture shows which frame actually follows.
+A description covers a single frame, which is assumed to repeat. A capture shows which frame
+actually follows.
 """
 
 from __future__ import annotations
@@ -22,8 +24,9 @@ DISCARD = "discard"
 class AspectUse(NamedTuple):
     """The use of one aspect of an image in a frame.
 
-    `first` is its first use: `read`, `overwrite`, or None; `is_fetched` says whether that is a shader's read. `last` is its state at the
-    end: `unread` (stored and not read since), `read`, `discarded`, or None if the frame does not write it.
+    `first` is its first use: `read`, `overwrite`, or None; `is_fetched` says whether that is a
+    shader's read. `last` is its state at the end: `unread` (stored and not read since), `read`,
+    `discarded`, or None if the frame does not write it.
     """
 
     first: str | None
@@ -36,7 +39,9 @@ def aspect_uses(commands: list[RecordedCommand]) -> dict[Image, dict[str, Aspect
     uses: dict[Image, dict[str, AspectUse]] = {}
     for image, aspect, use in _uses(commands):
         for used_aspect in image.aspects if aspect is None else (aspect,):
-            first, last, is_fetched = uses.setdefault(image, {}).get(used_aspect, AspectUse(None, None))
+            first, last, is_fetched = uses.setdefault(image, {}).get(
+                used_aspect, AspectUse(None, None)
+            )
             if first is None and use in (READ, FETCH, OVERWRITE):
                 first, is_fetched = OVERWRITE if use == OVERWRITE else READ, use == FETCH
             if use in (READ, FETCH):
@@ -53,7 +58,9 @@ _SOURCES = ("present", "copyImageToBuffer")
 
 
 def _uses(commands: list[RecordedCommand]) -> Iterator[tuple[Image, str | None, str]]:
-    """The uses of images in command order: image, aspect (None for all) and use. The stores of a pass come at its beginning."""
+    """The uses of images in command order: image, aspect (None for all) and use. The stores of a
+    pass come at its beginning.
+    """
     for command in commands:
         key: Any = command.key
         if isinstance(key, RenderPassBegin):
@@ -69,7 +76,12 @@ def _uses(commands: list[RecordedCommand]) -> Iterator[tuple[Image, str | None, 
             if command.kind == "resolveImage":
                 yield key[1], None, OVERWRITE
             yield key[1], None, STORE
-        elif command.kind in ("clearColorImage", "clearDepthStencilImage", "copyBufferToImage", "writeImage"):
+        elif command.kind in (
+            "clearColorImage",
+            "clearDepthStencilImage",
+            "copyBufferToImage",
+            "writeImage",
+        ):
             yield _image(key), None, STORE
 
 
@@ -79,18 +91,29 @@ def _image(key: Any) -> Image:
 
 def _render_pass(begin: RenderPassBegin) -> Iterator[tuple[Image, str | None, str]]:
     attachments = begin.render_pass.tree.get("attachments", [])
-    pairs = [(tree, image) for tree, image in zip(attachments, begin.images, strict=False) if image is not None]
+    pairs = [
+        (tree, image)
+        for tree, image in zip(attachments, begin.images, strict=False)
+        if image is not None
+    ]
     for tree, image in pairs:
         covered = _covers(image, begin)
         for aspect in image.aspects:
-            yield from _load(image, aspect, tree.get("stencilLoadOp" if aspect == "stencil" else "loadOp"), covered)
+            yield from _load(
+                image,
+                aspect,
+                tree.get("stencilLoadOp" if aspect == "stencil" else "loadOp"),
+                covered,
+            )
     for tree, image in pairs:
         for aspect in image.aspects:
             store = tree.get("stencilStoreOp" if aspect == "stencil" else "storeOp")
             yield image, aspect, STORE if store in ("STORE", None) else DISCARD
 
 
-def _load(image: Image, aspect: str, load: object, covered: bool) -> Iterator[tuple[Image, str | None, str]]:
+def _load(
+    image: Image, aspect: str, load: object, covered: bool
+) -> Iterator[tuple[Image, str | None, str]]:
     if load in ("LOAD", None):
         yield image, aspect, READ
     elif covered:
@@ -108,7 +131,12 @@ def _rendering(key: Any) -> Iterator[tuple[Image, str | None, str]]:
         image = attachment.get("image")
         if image is None:
             continue
-        yield from _load(image, aspect, "LOAD" if "RESUMING" in flags else attachment.get("loadOp"), image.is_single_level)
+        yield from _load(
+            image,
+            aspect,
+            "LOAD" if "RESUMING" in flags else attachment.get("loadOp"),
+            image.is_single_level,
+        )
         stored = attachment.get("storeOp") in ("STORE", None) or "SUSPENDING" in flags
         stores.append((image, aspect, STORE if stored else DISCARD))
         target = attachment.get("resolveImage")

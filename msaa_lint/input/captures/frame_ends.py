@@ -1,7 +1,8 @@
 """Where frames end that nothing marks: at the submission that begins a pass again.
 
-A pass that begins again draws into the same images with the same attachments (formats, load and store operations), and shares a pipeline
-and a part of the area with the earlier one. Handles do not matter: programs create framebuffers, views, and images anew for each frame.
+A pass that begins again draws into the same images with the same attachments (formats, load and
+store operations), and shares a pipeline and a part of the area with the earlier one. Handles do not
+matter: programs create framebuffers, views, and images anew for each frame.
 """
 
 from __future__ import annotations
@@ -20,8 +21,9 @@ MAX_USES = 64
 """Maximum number of similar passes of a frame that are compared."""
 
 MAX_SIMILAR = 8
-"""Maximum number of submissions of a frame that begin similar passes: on equally created images, with other pipelines, or on top of
-what the frame drew."""
+"""Maximum number of submissions of a frame that begin similar passes: on equally created images,
+with other pipelines, or on top of what the frame drew.
+"""
 
 Area = tuple[int, int, int, int] | None
 """x, y, width, height in pixels; None if unknown."""
@@ -30,8 +32,8 @@ Area = tuple[int, int, int, int] | None
 class PassIdentity(NamedTuple):
     """What of a pass recurs in each frame.
 
-    `key` is the same for passes on the same images, `similar` for those on equally created ones. `loads` says whether the pass draws on top
-    of what the images have.
+    `key` is the same for passes on the same images, `similar` for those on equally created ones.
+    `loads` says whether the pass draws on top of what the images have.
     """
 
     key: Hashable
@@ -43,7 +45,9 @@ class PassIdentity(NamedTuple):
 
 
 class FrameLabel:
-    """The debug label with which frames end. `is_found` says whether the capture has it, `others` which other labels it has."""
+    """The debug label with which frames end. `is_found` says whether the capture has it, `others`
+    which other labels it has.
+    """
 
     def __init__(self, text: str) -> None:
         self.text = text
@@ -61,7 +65,9 @@ class FrameLabel:
         return False
 
     def ends_frame(self, mark: str) -> bool:
-        """Whether a mark ends the frame: the label ends or is inserted, or it begins again although it has not ended."""
+        """Whether a mark ends the frame: the label ends or is inserted, or it begins again although
+        it has not ended.
+        """
         return mark in ("end", "insert") or self._is_open
 
     def follow(self, mark: str) -> None:
@@ -71,7 +77,9 @@ class FrameLabel:
 
 
 class _Use(NamedTuple):
-    """A pass of the current frame: the number of its submission, and the numbers of created images and of waits at that time."""
+    """A pass of the current frame: the number of its submission, and the numbers of created images
+    and of waits at that time.
+    """
 
     identity: PassIdentity
     submission: int
@@ -80,8 +88,9 @@ class _Use(NamedTuple):
 
 
 class Repetitions:
-    """The passes of the current frame. `created` is the number of images that the program has created, `waits` how often it has waited for
-    the device."""
+    """The passes of the current frame. `created` is the number of images that the program has
+    created, `waits` how often it has waited for the device.
+    """
 
     def __init__(self) -> None:
         self.created = 0
@@ -116,14 +125,26 @@ class Repetitions:
         if self._counts.get(identity.similar, 0) >= MAX_SIMILAR:
             return True
         # A pass that loads continues the frame, unless the frame started with it.
-        uses = (use for use in self._uses.get(identity.similar, ()) if use.submission == 0 or not identity.loads)
-        return any(_is_alike(identity, use.identity) and self._is_next(identity, use) for use in uses)
+        uses = (
+            use
+            for use in self._uses.get(identity.similar, ())
+            if use.submission == 0 or not identity.loads
+        )
+        return any(
+            _is_alike(identity, use.identity) and self._is_next(identity, use) for use in uses
+        )
 
     def _is_next(self, identity: PassIdentity, use: _Use) -> bool:
-        """Whether the pass has the images of the earlier one, images created since, or other images after a wait for the device."""
+        """Whether the pass has the images of the earlier one, images created since, or other images
+        after a wait for the device.
+        """
         if identity.key == use.identity.key or use.waits < self.waits:
             return True
-        return any(image.number >= use.created for image in identity.images if image not in use.identity.images)
+        return any(
+            image.number >= use.created
+            for image in identity.images
+            if image not in use.identity.images
+        )
 
 
 def passes_of(submission: Submission) -> tuple[PassIdentity, ...]:
@@ -148,14 +169,21 @@ def passes_of(submission: Submission) -> tuple[PassIdentity, ...]:
 
 def _is_alike(identity: PassIdentity, other: PassIdentity) -> bool:
     """Whether two passes share a pipeline and a part of the area."""
-    shares = not identity.pipelines or not other.pipelines or not identity.pipelines.isdisjoint(other.pipelines)
+    shares = (
+        not identity.pipelines
+        or not other.pipelines
+        or not identity.pipelines.isdisjoint(other.pipelines)
+    )
     return shares and _overlap(identity.area, other.area)
 
 
 def _overlap(area: Area, other: Area) -> bool:
     if area is None or other is None:
         return True
-    return all(area[axis] < other[axis] + other[axis + 2] and other[axis] < area[axis] + area[axis + 2] for axis in (0, 1))
+    return all(
+        area[axis] < other[axis] + other[axis + 2] and other[axis] < area[axis] + area[axis + 2]
+        for axis in (0, 1)
+    )
 
 
 def _identity(begin: RecordedCommand, pipelines: frozenset[Hashable]) -> PassIdentity:
@@ -176,11 +204,19 @@ def _new_identity(begin: RecordedCommand) -> PassIdentity:
     else:
         members = dict(key)
         area = tuple(dict(members["renderArea"]).values()) if "renderArea" in members else None
-        trees = [dict(tree or ()) for name in ("depthAttachment", "stencilAttachment") for tree in [members.get(name)]]
+        trees = [
+            dict(tree or ())
+            for name in ("depthAttachment", "stencilAttachment")
+            for tree in [members.get(name)]
+        ]
         trees += [dict(tree or ()) for tree in members.get("colorAttachments", ())]
         images = tuple(tree.get(member) for tree in trees for member in ("image", "resolveImage"))
-        loads = any(tree.get("loadOp") == "LOAD" for tree in trees) or "RESUMING" in members.get("flags", ())
-        attachments = tuple((tree.get("loadOp"), tree.get("storeOp"), tree.get("resolveMode")) for tree in trees)
+        loads = any(tree.get("loadOp") == "LOAD" for tree in trees) or "RESUMING" in members.get(
+            "flags", ()
+        )
+        attachments = tuple(
+            (tree.get("loadOp"), tree.get("storeOp"), tree.get("resolveMode")) for tree in trees
+        )
     parts = tuple(zip(images, begin.parts or ((0, 0),) * len(images), strict=False))
     multisampled = any(image is not None and image.samples > 1 for image in images)
     exact, similar = [], []
@@ -188,9 +224,15 @@ def _new_identity(begin: RecordedCommand) -> PassIdentity:
         alike = (_parameters(image), part)
         similar.append(alike)
         # The samples of one image may be resolved to others in turns.
-        exact.append((image, part) if image is not None and (image.samples > 1 or not multisampled) else alike)
+        exact.append(
+            (image, part)
+            if image is not None and (image.samples > 1 or not multisampled)
+            else alike
+        )
     drawn = tuple(image for image in images if image is not None)
-    return PassIdentity((attachments, tuple(exact)), (attachments, tuple(similar)), drawn, area, frozenset(), loads)
+    return PassIdentity(
+        (attachments, tuple(exact)), (attachments, tuple(similar)), drawn, area, frozenset(), loads
+    )
 
 
 def _parameters(image: Image | None) -> Hashable:
@@ -198,4 +240,10 @@ def _parameters(image: Image | None) -> Hashable:
     if image is None:
         return None
     tree = image.tree
-    return (tree.get("format"), image.samples, *tree.get("extent", {}).values(), tree.get("arrayLayers"), tree.get("mipLevels"))
+    return (
+        tree.get("format"),
+        image.samples,
+        *tree.get("extent", {}).values(),
+        tree.get("arrayLayers"),
+        tree.get("mipLevels"),
+    )

@@ -1,4 +1,6 @@
-"""Kinds of frames: the passes that a frame begins, their contents merged over all of its frames, and what is between them."""
+"""Kinds of frames: the passes that a frame begins, their contents merged over all of its frames,
+and what is between them.
+"""
 
 from __future__ import annotations
 
@@ -32,7 +34,9 @@ class Role(int):
 
 
 Segment = tuple[RecordedCommand | None, list[RecordedCommand]]
-"""The commands within a pass, after the command that begins it, or between two passes, after None."""
+"""The commands within a pass, after the command that begins it, or between two passes, after
+None.
+"""
 
 
 class GapVariant:
@@ -44,9 +48,13 @@ class GapVariant:
 
 
 class FrameKind:
-    """Frames of the same kind: the passes and images of the first, the number of frames, and the merged contents."""
+    """Frames of the same kind: the passes and images of the first, the number of frames, and the
+    merged contents.
+    """
 
-    def __init__(self, number: int, images: list[Image], passes: list[RecordedCommand], length: int) -> None:
+    def __init__(
+        self, number: int, images: list[Image], passes: list[RecordedCommand], length: int
+    ) -> None:
         self.number = number
         self.length = length
         """The number of commands of the first frame."""
@@ -65,21 +73,29 @@ class FrameKind:
         self.is_complete = True
         """Whether the passes have all of their commands."""
         self.later: dict[tuple[Hashable, str], bool] = {}
-        """Images and aspects whose contents a later frame reads, and whether a shader of it does."""
+        """Images and aspects whose contents a later frame reads, and whether a shader of it
+        does.
+        """
         self.defined: set[tuple[Hashable, str]] = set()
         self.undefined: set[tuple[Hashable, str]] = set()
-        """Images and aspects that the frame reads first: `defined` if an earlier frame stored them, `undefined` if it discarded them."""
+        """Images and aspects that the frame reads first: `defined` if an earlier frame stored them,
+        `undefined` if it discarded them.
+        """
 
 
 class Merged:
-    """The number of commands that were added to the passes of all kinds after their first frames."""
+    """The number of commands that were added to the passes of all kinds after their first
+    frames.
+    """
 
     def __init__(self) -> None:
         self.count = 0
 
 
 class AspectState(NamedTuple):
-    """The state in which a frame left an aspect of an image, with the frame's kind and the image's role in it."""
+    """The state in which a frame left an aspect of an image, with the frame's kind and the image's
+    role in it.
+    """
 
     state: str
     kind: FrameKind
@@ -87,10 +103,16 @@ class AspectState(NamedTuple):
 
 
 class DistinctFrame:
-    """A frame with a distinct command sequence: its kind (None above MAX_KINDS), and how often it occurred since the last count."""
+    """A frame with a distinct command sequence: its kind (None above MAX_KINDS), and how often it
+    occurred since the last count.
+    """
 
     def __init__(
-        self, kind: FrameKind | None, commands: list[RecordedCommand], roles: Iterable[Image], gaps: list[list[RecordedCommand]]
+        self,
+        kind: FrameKind | None,
+        commands: list[RecordedCommand],
+        roles: Iterable[Image],
+        gaps: list[list[RecordedCommand]],
     ) -> None:
         self.kind = kind
         self.gaps = gaps
@@ -100,8 +122,16 @@ class DistinctFrame:
         self.count = 0
         self.images = list(roles)
         begins = [command.key for command in commands if isinstance(command.key, RenderPassBegin)]
-        pipelines = [command.key[0] for command in commands if command.kind == "draw" and isinstance(command.key, tuple)]
-        self.used: list[Any] = list(dict.fromkeys((*roles, *(begin.render_pass for begin in begins), *filter(None, pipelines))))
+        pipelines = [
+            command.key[0]
+            for command in commands
+            if command.kind == "draw" and isinstance(command.key, tuple)
+        ]
+        self.used: list[Any] = list(
+            dict.fromkeys(
+                (*roles, *(begin.render_pass for begin in begins), *filter(None, pipelines))
+            )
+        )
         """The images, render passes and pipelines."""
 
 
@@ -114,7 +144,10 @@ def add_counts(frame: DistinctFrame) -> None:
         for variants, items in zip(frame.kind.gaps, frame.gaps, strict=True):
             sequence = tuple((command.kind, command.key) for command in items)
             if sequence not in variants:
-                if variants and (len(variants) >= MAX_GAP_VARIANTS or frame.kind.variant_commands + len(items) > MAX_VARIANT_COMMANDS):
+                if variants and (
+                    len(variants) >= MAX_GAP_VARIANTS
+                    or frame.kind.variant_commands + len(items) > MAX_VARIANT_COMMANDS
+                ):
                     continue
                 frame.kind.variant_commands += len(items)
                 variants[sequence] = GapVariant(items)
@@ -122,8 +155,12 @@ def add_counts(frame: DistinctFrame) -> None:
     frame.count = 0
 
 
-def merge(kind: FrameKind, segments: list[Segment], roles: dict[Image, Role], merged: Merged) -> list[list[RecordedCommand]]:
-    """Merges the contents of a frame's passes into its kind, and returns the commands between them."""
+def merge(
+    kind: FrameKind, segments: list[Segment], roles: dict[Image, Role], merged: Merged
+) -> list[list[RecordedCommand]]:
+    """Merges the contents of a frame's passes into its kind, and returns the commands between
+    them.
+    """
     number = 0
     is_first = not any(kind.pass_commands)
     for image, role in roles.items():
@@ -180,10 +217,16 @@ def segments_of(commands: list[RecordedCommand]) -> list[Segment]:
 
 
 def shape_of(begin: RecordedCommand, roles: dict[Image, Role]) -> Hashable:
-    """The properties of a pass that define the kind of a frame. Images are replaced by their roles and creation parameters."""
+    """The properties of a pass that define the kind of a frame. Images are replaced by their roles
+    and creation parameters.
+    """
     if isinstance(begin.key, RenderPassBegin):
-        size = tuple(begin.key.framebuffer.tree.items()) if begin.key.framebuffer is not None else None
-        images = tuple(_role(image, roles) if image is not None else None for image in begin.key.images)
+        size = (
+            tuple(begin.key.framebuffer.tree.items()) if begin.key.framebuffer is not None else None
+        )
+        images = tuple(
+            _role(image, roles) if image is not None else None for image in begin.key.images
+        )
         return ("renderPass", begin.key.render_pass.number, images, size, begin.key.area)
     return ("rendering", _rendering_shape(begin.key, roles))
 
@@ -195,7 +238,9 @@ def _role(image: Image, roles: dict[Image, Role]) -> Hashable:
 
 
 def _rendering_shape(key: Hashable, roles: dict[Image, Role]) -> Hashable:
-    """The key of a beginRendering command with images replaced by their roles and creation parameters."""
+    """The key of a beginRendering command with images replaced by their roles and creation
+    parameters.
+    """
     if isinstance(key, Image):
         return _role(key, roles)
     return tuple(_rendering_shape(item, roles) for item in key) if isinstance(key, tuple) else key
@@ -205,7 +250,9 @@ def _with_roles(command: RecordedCommand, roles: dict[Image, Role]) -> RecordedC
     """A command with the images of passes replaced by their roles."""
     key: Hashable
     if isinstance(command.key, tuple) and not isinstance(command.key, RenderPassBegin):
-        key = tuple(roles.get(item, item) if isinstance(item, Image) else item for item in command.key)
+        key = tuple(
+            roles.get(item, item) if isinstance(item, Image) else item for item in command.key
+        )
     elif isinstance(command.key, Image):
         key = roles.get(command.key, command.key)
     else:

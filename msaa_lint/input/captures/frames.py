@@ -1,7 +1,8 @@
 """Frames: the submitted commands from one present to the next, grouped into kinds.
 
-Frames are of the same kind if they begin the same passes in the same order on equally created images. The contents of a pass are merged
-over all frames of a kind; between passes, the most frequent sequence of commands represents the kind.
+Frames are of the same kind if they begin the same passes in the same order on equally created
+images. The contents of a pass are merged over all frames of a kind; between passes, the most
+frequent sequence of commands represents the kind.
 """
 
 from __future__ import annotations
@@ -51,29 +52,51 @@ MAX_CANDIDATES = 4096
 """Maximum number of kinds of frames that are counted in order to keep the most frequent ones."""
 
 MAX_FOREIGN = 1024
-"""Maximum number of images for each kind of frame that no pass uses, and that it reads from earlier frames or leaves to later ones."""
+"""Maximum number of images for each kind of frame that no pass uses, and that it reads from earlier
+frames or leaves to later ones.
+"""
 
 MAX_FRAME_COMMANDS = 200_000
 """Maximum number of commands per frame."""
 
 MAX_DESCRIBED = 100_000
 MAX_DESCRIBED_TOTAL = 300_000
-"""Maximum number of commands of all kinds of frames, beyond those that the capture records, because frames that share commands repeat them;
-and in total."""
+"""Maximum number of commands of all kinds of frames, beyond those that the capture records, because
+frames that share commands repeat them; and in total.
+"""
 
 WORK = 2_000_000
 WORK_PER_SUBMISSION = 2048
 WORK_PER_COMMAND = 16
-"""The number of commands, and of images in descriptor sets, that are looked at: so many, and so many more for each submission of a command
-buffer and for each command that it records. Further frames are not linted: command buffers that execute others, and sets that are bound
-again, can make them grow faster than the capture."""
+"""The number of commands, and of images in descriptor sets, that are looked at: so many, and so
+many more for each submission of a command buffer and for each command that it records. Further
+frames are not linted: command buffers that execute others, and sets that are bound again, can make
+them grow faster than the capture.
+"""
 
-REPEATED = f"a frame executes command buffers again that have {MAX_REPEATED:,} commands together; further repetitions are not checked"
-TOO_LONG = f"a frame has more than {MAX_FRAME_COMMANDS:,} commands; those after them are not checked"
-TOO_MANY_RECORDED = f"a command buffer records more than {MAX_COMMANDS:,} commands; those after them are not checked"
-TOO_MANY_IN_PASS = f"a pass has more than {MAX_PASS_COMMANDS:,} different commands; those after them are not checked"
-TOO_MANY_MERGED = f"later frames add more than {MAX_MERGED:,} commands to the passes of earlier ones; those after them are not checked"
-TOO_MUCH_WORK = "frames execute far more commands, or read far more images, than the capture records; some of them are not checked"
+REPEATED = (
+    f"a frame executes command buffers again that have {MAX_REPEATED:,} commands together; "
+    f"further repetitions are not checked"
+)
+TOO_LONG = (
+    f"a frame has more than {MAX_FRAME_COMMANDS:,} commands; those after them are not checked"
+)
+TOO_MANY_RECORDED = (
+    f"a command buffer records more than {MAX_COMMANDS:,} commands; those after "
+    f"them are not checked"
+)
+TOO_MANY_IN_PASS = (
+    f"a pass has more than {MAX_PASS_COMMANDS:,} different commands; those after "
+    f"them are not checked"
+)
+TOO_MANY_MERGED = (
+    f"later frames add more than {MAX_MERGED:,} commands to the passes of earlier "
+    f"ones; those after them are not checked"
+)
+TOO_MUCH_WORK = (
+    "frames execute far more commands, or read far more images, than the capture "
+    "records; some of them are not checked"
+)
 """The limits, as findings state them."""
 
 
@@ -115,7 +138,9 @@ class Frames:
         self.repetitions = Repetitions()
         """The passes of the current frame, by which it is seen to end if nothing marks that."""
         self._recent: dict[tuple[Submission, ...], DistinctFrame] = {}
-        """Frames by what they submit, to recognize command buffers that are submitted in every frame."""
+        """Frames by what they submit, to recognize command buffers that are submitted in every
+        frame.
+        """
         self._recent_commands = 0
         self._candidates: dict[int, int] = {}
         """The number of frames of kinds that are not kept, by the hash of the kind."""
@@ -140,7 +165,9 @@ class Frames:
             self.end()
 
     def end_of_present(self) -> None:
-        """A present ends the frame, unless OpenXR does: a program then also shows what it draws in a window."""
+        """A present ends the frame, unless OpenXR does: a program then also shows what it draws in
+        a window.
+        """
         if self.frame_end in (None, "present") and not self._is_openxr:
             self.is_marked = True
             self.end()
@@ -183,17 +210,33 @@ class Frames:
             executions = Executions()
             if self._has_pass and any(executions.submission(buffer).begins for buffer in buffers):
                 self.end()
-        elif self.frame_end is None and not self.presents and not self.is_marked and not self.frameless:
+        elif (
+            self.frame_end is None
+            and not self.presents
+            and not self.is_marked
+            and not self.frameless
+        ):
             self._split_frames(buffers)
 
-    def submit(self, buffer: CommandBuffer, at: Place, cache: CommandCache, layouts: ImageLayouts, outer: Path = ()) -> None:
-        """Adds what a command buffer executes. `layouts` follows it; `outer` are the debug labels that are open at its beginning."""
+    def submit(
+        self,
+        buffer: CommandBuffer,
+        at: Place,
+        cache: CommandCache,
+        layouts: ImageLayouts,
+        outer: Path = (),
+    ) -> None:
+        """Adds what a command buffer executes. `layouts` follows it; `outer` are the debug labels
+        that are open at its beginning.
+        """
         submission = self._executions.submission(buffer)
         if buffer.omitted:
             self.limits.setdefault(TOO_MANY_RECORDED, at)
         if not self._executions.is_complete:
             self.limits.setdefault(REPEATED, at)
-        if (buffer.reads or submission is not buffer.submission) and not self.spend(len(submission.commands)):
+        if (buffer.reads or submission is not buffer.submission) and not self.spend(
+            len(submission.commands)
+        ):
             return self._skip(at)
         if buffer.reads:
             commands = self._reads.resolve(submission.commands, cache, layouts)
@@ -208,7 +251,13 @@ class Frames:
             layouts.apply(submission.layout_changes)
         self.add(submission, at, buffer.labels, outer)
 
-    def add(self, submission: Submission, at: Place, labels: BufferLabels | None = None, outer: Path = ()) -> None:
+    def add(
+        self,
+        submission: Submission,
+        at: Place,
+        labels: BufferLabels | None = None,
+        outer: Path = (),
+    ) -> None:
         """Adds commands to the current frame."""
         self._length += len(submission.commands)
         if self._length > MAX_FRAME_COMMANDS:
@@ -216,9 +265,15 @@ class Frames:
             return
         count = len(submission.begins)
         is_labeled = labels is not None and labels.is_complete and len(labels.passes) == count
-        paths = labels.paths(outer) if labels is not None and is_labeled else [()] * min(count, MAX_PASSES)
+        paths = (
+            labels.paths(outer)
+            if labels is not None and is_labeled
+            else [()] * min(count, MAX_PASSES)
+        )
         first = 0
-        for part, mark in parts_of(submission) if self.frame_label is not None else ((submission, ""),):
+        for part, mark in (
+            parts_of(submission) if self.frame_label is not None else ((submission, ""),)
+        ):
             self._current.append(part)
             self._labels += paths[first : first + len(part.begins)]
             first += len(part.begins)
@@ -241,7 +296,9 @@ class Frames:
             self.repetitions.add(passes)
 
     def end_of_capture(self) -> None:
-        """Ends the capture. The remaining commands are a frame if they begin a pass, unless what ends frames is missing."""
+        """Ends the capture. The remaining commands are a frame if they begin a pass, unless what
+        ends frames is missing.
+        """
         if self._has_pass and not (self.is_marked and self.total):
             self.end()
         elif self.is_marked and not self._is_skipped:
@@ -266,7 +323,9 @@ class Frames:
             return
         frame = self._recent.get(submissions)
         if frame is None:
-            frame = self._frame_of([command for submission in submissions for command in submission.commands])
+            frame = self._frame_of(
+                [command for submission in submissions for command in submission.commands]
+            )
             if frame is None:
                 return
             if frame.kind is None:
@@ -274,12 +333,19 @@ class Frames:
                 add_counts(frame)
                 return
             self._recent_commands += frame.weight
-            if len(self._recent) >= MAX_RECENT_FRAMES or self._recent_commands > MAX_STORED_COMMANDS:
+            if (
+                len(self._recent) >= MAX_RECENT_FRAMES
+                or self._recent_commands > MAX_STORED_COMMANDS
+            ):
                 self._recent.clear()
                 self._recent_commands = frame.weight
             self._recent[submissions] = frame
         elif frame.kind is not None and self._repetitions < 2:
-            self._track_contents(frame.kind, frame.commands, {image: Role(number) for number, image in enumerate(frame.images)})
+            self._track_contents(
+                frame.kind,
+                frame.commands,
+                {image: Role(number) for number, image in enumerate(frame.images)},
+            )
         if frame.kind is not None:
             self.labels.observe(labels, frame.kind.labels)
             frame.kind.labels = frame.kind.labels or labels
@@ -295,13 +361,20 @@ class Frames:
         frame = self._distinct.get(key)
         if frame is not None:
             if frame.kind is not None and self._repetitions < 2:
-                self._track_contents(frame.kind, commands, {image: Role(number) for number, image in enumerate(frame.images)})
+                self._track_contents(
+                    frame.kind,
+                    commands,
+                    {image: Role(number) for number, image in enumerate(frame.images)},
+                )
             return frame
         frame = self._classify(commands)
         if frame is not None and frame.kind is not None:
             frame.weight = len(commands) + PASS_WEIGHT * len(frame.kind.passes)
             self._stored_commands += frame.weight
-            if len(self._distinct) >= MAX_DISTINCT_FRAMES or self._stored_commands > MAX_STORED_COMMANDS:
+            if (
+                len(self._distinct) >= MAX_DISTINCT_FRAMES
+                or self._stored_commands > MAX_STORED_COMMANDS
+            ):
                 self._add_counts()
                 self._distinct.clear()
                 self._recent.clear()
@@ -325,25 +398,34 @@ class Frames:
         kind = self.kinds.get(shape)
         if kind is None and self._has_room(shape, len(commands)):
             self._described += len(commands)
-            kind = self.kinds[shape] = FrameKind(next(self._kind_numbers), list(roles), passes, len(commands))
+            kind = self.kinds[shape] = FrameKind(
+                next(self._kind_numbers), list(roles), passes, len(commands)
+            )
             kind.count = self._candidates.pop(hash(shape), 0)
             self.dropped -= kind.count
         gaps: list[list[RecordedCommand]] = []
         if kind is not None:
             gaps = merge(kind, parts, roles, self._merged)
             if not kind.is_complete:
-                self.limits.setdefault(TOO_MANY_MERGED if self._merged.count >= MAX_MERGED else TOO_MANY_IN_PASS, commands[0].at)
+                self.limits.setdefault(
+                    TOO_MANY_MERGED if self._merged.count >= MAX_MERGED else TOO_MANY_IN_PASS,
+                    commands[0].at,
+                )
             self._track_contents(kind, commands, roles)
         else:
             self.dropped += 1
             if len(self._candidates) >= MAX_CANDIDATES:
-                self._candidates = {key: count for key, count in self._candidates.items() if count > 1}
+                self._candidates = {
+                    key: count for key, count in self._candidates.items() if count > 1
+                }
             if len(self._candidates) < MAX_CANDIDATES:
                 self._candidates[hash(shape)] = self._candidates.get(hash(shape), 0) + 1
         return DistinctFrame(kind, commands, roles, gaps)
 
     def _has_room(self, shape: Hashable, length: int) -> bool:
-        """Whether another kind of frame is kept, whose first frame has so many commands. It may replace the least frequent one."""
+        """Whether another kind of frame is kept, whose first frame has so many commands. It may
+        replace the least frequent one.
+        """
         limit = min(MAX_DESCRIBED + self._recorded, MAX_DESCRIBED_TOTAL)
         if len(self.kinds) < MAX_KINDS and self._described + length <= limit:
             return True
@@ -358,13 +440,19 @@ class Frames:
         del self.kinds[rarest_shape]
         self._described -= rarest.length
         self.dropped += rarest.count
-        self._distinct = {key: frame for key, frame in self._distinct.items() if frame.kind is not rarest}
+        self._distinct = {
+            key: frame for key, frame in self._distinct.items() if frame.kind is not rarest
+        }
         self._stored_commands = sum(frame.weight for frame in self._distinct.values())
         self._recent.clear()
         return True
 
-    def _track_contents(self, kind: FrameKind, commands: list[RecordedCommand], roles: dict[Image, Role]) -> None:
-        """Updates what frames read from earlier ones, and the state in which this one leaves its images."""
+    def _track_contents(
+        self, kind: FrameKind, commands: list[RecordedCommand], roles: dict[Image, Role]
+    ) -> None:
+        """Updates what frames read from earlier ones, and the state in which this one leaves its
+        images.
+        """
         for image, uses in aspect_uses(commands).items():
             role = roles.get(image, image)
             for aspect, use in uses.items():
@@ -373,8 +461,14 @@ class Frames:
                     if state is not None and state.state == "unread":
                         read = (state.role, aspect)
                         if isinstance(state.role, Role) or len(state.kind.later) < MAX_FOREIGN:
-                            state.kind.later[read] = state.kind.later.get(read, False) or use.is_fetched
-                    reads = kind.undefined if state is not None and state.state == "discarded" else kind.defined
+                            state.kind.later[read] = (
+                                state.kind.later.get(read, False) or use.is_fetched
+                            )
+                    reads = (
+                        kind.undefined
+                        if state is not None and state.state == "discarded"
+                        else kind.defined
+                    )
                     if isinstance(role, Role) or len(reads) < MAX_FOREIGN:
                         reads.add((role, aspect))
                 if use.last is not None:

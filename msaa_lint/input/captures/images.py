@@ -19,15 +19,23 @@ from .structures import to_tree
 from .submissions import Submission
 
 MAX_HANDLES = 2_000_000
-"""Maximum number of objects of a kind that exist at a time. One call can allocate many, at a few bytes of text for each."""
+"""Maximum number of objects of a kind that exist at a time. One call can allocate many, at a few
+bytes of text for each.
+"""
 
-TOO_MANY_OBJECTS = f"more than {MAX_HANDLES:,} objects of a kind exist at a time; further ones are not followed"
+TOO_MANY_OBJECTS = (
+    f"more than {MAX_HANDLES:,} objects of a kind exist at a time; further ones are not followed"
+)
 
 MAX_DISTINCT = 4096
 """Maximum number of distinct images that are described even if no frame uses them."""
 
 
-EXTERNAL_MEMORY = ("EXTERNAL_MEMORY_IMAGE_CREATE_INFO", "EXTERNAL_MEMORY_IMAGE_CREATE_INFO_NV", "NATIVE_BUFFER_ANDROID")
+EXTERNAL_MEMORY = (
+    "EXTERNAL_MEMORY_IMAGE_CREATE_INFO",
+    "EXTERNAL_MEMORY_IMAGE_CREATE_INFO_NV",
+    "NATIVE_BUFFER_ANDROID",
+)
 """Structures chained to the VkImageCreateInfo of an image whose memory may be external."""
 
 
@@ -92,7 +100,10 @@ class Images(Devices):
             handle = values.handle(call.args.get("pView"))
             self.views[handle] = image
             part = values.record(info.get("subresourceRange"))
-            start = (values.integer(part.get("baseMipLevel")) or 0, values.integer(part.get("baseArrayLayer")) or 0)
+            start = (
+                values.integer(part.get("baseMipLevel")) or 0,
+                values.integer(part.get("baseArrayLayer")) or 0,
+            )
             if any(start):
                 self.parts[handle] = start
             else:
@@ -105,7 +116,11 @@ class Images(Devices):
 
     def parts_of(self, views: Iterable[object]) -> Parts:
         """The first mip level and layer of each view; empty if all are 0."""
-        parts = tuple(self.parts.get(values.handle(view), (0, 0)) for view in views) if self.parts else ()
+        parts = (
+            tuple(self.parts.get(values.handle(view), (0, 0)) for view in views)
+            if self.parts
+            else ()
+        )
         return parts if any(map(any, parts)) else ()
 
     def view(self, value: object) -> Image | None:
@@ -147,21 +162,29 @@ class Images(Devices):
         }
         tree = to_tree(ImageRecord, structure)
         handle = values.handle(call.args.get("pSwapchain"))
-        self.swapchains[handle] = Swapchain(call, next(self.numbers[Swapchain]), {**tree, "presentable": True})
+        self.swapchains[handle] = Swapchain(
+            call, next(self.numbers[Swapchain]), {**tree, "presentable": True}
+        )
         self.frames.presents = True
 
     def on_DestroySwapchain(self, call: Call) -> None:
         swapchain = self.swapchains.pop(values.handle(call.args.get("swapchain")), None)
-        for handle, image in zip(swapchain.handles, swapchain.images, strict=True) if swapchain is not None else ():
+        for handle, image in (
+            zip(swapchain.handles, swapchain.images, strict=True) if swapchain is not None else ()
+        ):
             if self.images.get(handle) is image:
                 self._forget(handle)
 
     def on_GetSwapchainImages(self, call: Call) -> None:
         swapchain = self.swapchains.get(values.handle(call.args.get("swapchain")))
         if swapchain is not None:
-            self.add_swapchain_images(swapchain, values.items(call.args.get("pSwapchainImages")), call)
+            self.add_swapchain_images(
+                swapchain, values.items(call.args.get("pSwapchainImages")), call
+            )
 
-    def add_swapchain_images(self, swapchain: Swapchain, handles: list[object], call: Call, shared: bool = False) -> None:
+    def add_swapchain_images(
+        self, swapchain: Swapchain, handles: list[object], call: Call, shared: bool = False
+    ) -> None:
         """Adds the images of a swapchain that are not known yet."""
         for item in handles[:64]:
             handle = values.handle(item)
@@ -179,7 +202,9 @@ class Images(Devices):
     def on_QueuePresent(self, call: Call) -> None:
         info = values.record(call.args.get("pPresentInfo"))
         indices = values.items(info.get("pImageIndices"))
-        for swapchain_handle, index in zip(values.items(info.get("pSwapchains")), indices, strict=False):
+        for swapchain_handle, index in zip(
+            values.items(info.get("pSwapchains")), indices, strict=False
+        ):
             swapchain = self.swapchains.get(values.handle(swapchain_handle))
             number = values.integer(index)
             if swapchain is not None and number is not None and 0 <= number < len(swapchain.images):

@@ -1,6 +1,8 @@
-"""Streaming JSON: finds the text of each value and its place, so that memory does not grow with the file.
+"""Streaming JSON: finds the text of each value and its place, so that memory does not grow with the
+file.
 
-The end of a value is found from its indentation, or from its brackets if the indentation is unusual.
+The end of a value is found from its indentation, or from its brackets if the indentation is
+unusual.
 """
 
 from __future__ import annotations
@@ -20,7 +22,9 @@ MAX_VALUE = 64 << 20
 """Maximum size of a line or an array element, in bytes."""
 
 MAX_PARSED = 12 << 20
-"""Maximum size of a value that is parsed, in bytes; parsed small values take up to 70 times as much memory."""
+"""Maximum size of a value that is parsed, in bytes; parsed small values take up to 70 times as much
+memory.
+"""
 
 MAX_DEPTH = 100
 
@@ -32,7 +36,9 @@ TOO_LONG_TO_PARSE = f"a call that is read exceeds {MAX_PARSED >> 20} MiB"
 
 _SPACES = re.compile(rb"[ \t\r\n]*")
 _TOKEN = re.compile(rb'"(?:[^"\\]|\\.)*+"|["{}\[\]]', re.DOTALL)
-_UNUSUAL = re.compile(r'"(?:[^"\\]|\\.)*+"|[-+]?\b(?:nan|inf|infinity)\b(?:\(\w*\))?', re.DOTALL | re.IGNORECASE)
+_UNUSUAL = re.compile(
+    r'"(?:[^"\\]|\\.)*+"|[-+]?\b(?:nan|inf|infinity)\b(?:\(\w*\))?', re.DOTALL | re.IGNORECASE
+)
 _STRAY = re.compile(r'[\0-\x1f]|\\(?:["\\/bfnrt]|u[0-9a-fA-F]{4})|\\')
 _SCALAR = re.compile(rb'"(?:[^"\\]|\\.)*+"|[^\s"{}\[\],:]++', re.DOTALL)
 
@@ -42,7 +48,9 @@ loads_plain = orjson.loads
 
 
 def loads(text: bytes, line: int, column: int = 1, call: int | None = None) -> Any:
-    """Parses a value whose text starts at a line and column. Raises CaptureError at the place of a syntax error, and for a limit."""
+    """Parses a value whose text starts at a line and column. Raises CaptureError at the place of a
+    syntax error, and for a limit.
+    """
     if len(text) > MAX_PARSED:
         raise CaptureError(TOO_LONG_TO_PARSE, Place(line, column, call))
     try:
@@ -66,11 +74,17 @@ def _mistake(text: bytes, error: orjson.JSONDecodeError) -> str:
     from msaa_lint.core.text.json_errors import json_problem
 
     # Places in the message would count from the beginning of the value.
-    return re.sub(r" at line \d+, column \d+", "", json_problem(text.decode("utf-8", "replace"), error.pos).message)
+    return re.sub(
+        r" at line \d+, column \d+",
+        "",
+        json_problem(text.decode("utf-8", "replace"), error.pos).message,
+    )
 
 
 def is_plain(text: bytes) -> bool:
-    """Whether the text of a value is certainly neither too large nor too deep, without parsing it."""
+    """Whether the text of a value is certainly neither too large nor too deep, without parsing
+    it.
+    """
     # An object takes five characters at least, `{"":` and `}`. To count all brackets takes longer.
     if len(text) // 5 + text.count(b"[") <= MAX_DEPTH:
         return True
@@ -78,8 +92,10 @@ def is_plain(text: bytes) -> bool:
 
 
 def _repair(text: bytes) -> str:
-    """Valid JSON for the invalid JSON that the tools write: gfxrecon-convert 0.9 writes `-nan` and `inf` for floats, and all tools copy
-    names verbatim, in any encoding and with control characters."""
+    """Valid JSON for the invalid JSON that the tools write: gfxrecon-convert 0.9 writes `-nan` and
+    `inf` for floats, and all tools copy names verbatim, in any encoding and with control
+    characters.
+    """
     return _UNUSUAL.sub(_repair_token, text.decode("utf-8", "replace"))
 
 
@@ -88,7 +104,9 @@ def _repair_token(found: re.Match[str]) -> str:
 
 
 def _repair_character(found: re.Match[str]) -> str:
-    """Replaces a control character by a space and doubles a stray backslash; a valid escape is kept."""
+    """Replaces a control character by a space and doubles a stray backslash; a valid escape is
+    kept.
+    """
     return " " if found[0] < " " else "\\\\" if found[0] == "\\" else found[0]
 
 
@@ -97,7 +115,10 @@ def is_too_deep(value: Any) -> bool:
     level = [value] if isinstance(value, (dict, list)) else []
     for _ in range(MAX_DEPTH):
         level = [
-            child for item in level for child in (item.values() if isinstance(item, dict) else item) if isinstance(child, (dict, list))
+            child
+            for item in level
+            for child in (item.values() if isinstance(item, dict) else item)
+            if isinstance(child, (dict, list))
         ]
     return bool(level)
 
@@ -119,7 +140,9 @@ class PeekedStream:
 
 
 def _read_size(pending: int) -> int:
-    """How many bytes to read while `pending` bytes wait for their end: as many again, which keeps joining linear, up to the limit."""
+    """How many bytes to read while `pending` bytes wait for their end: as many again, which keeps
+    joining linear, up to the limit.
+    """
     return min(max(BLOCK, pending), MAX_VALUE + 1 - pending)
 
 
@@ -152,10 +175,14 @@ class Blocks:
 
 
 def _indented(text: bytes) -> bool:
-    """Whether the text is an object whose closing brackets all start a line, apart from those of empty objects."""
+    """Whether the text is an object whose closing brackets all start a line, apart from those of
+    empty objects.
+    """
     brackets = text.translate(None, b" \t\r")
     closed = brackets.count(b"}")
-    return brackets.endswith(b"\n}") and brackets.count(b"{") == closed == brackets.count(b"\n}") + brackets.count(b"{}")
+    return brackets.endswith(b"\n}") and brackets.count(b"{") == closed == brackets.count(
+        b"\n}"
+    ) + brackets.count(b"{}")
 
 
 class Cursor:
@@ -202,7 +229,9 @@ class Cursor:
         return found
 
     def elements(self, allow_empty: bool = True) -> Iterator[None]:
-        """Takes an array, whose elements the caller takes: the position is at the beginning of each."""
+        """Takes an array, whose elements the caller takes: the position is at the beginning of
+        each.
+        """
         self.take(b"[")
         if self.next() == b"]" and allow_empty:
             self.at += 1
@@ -216,7 +245,9 @@ class Cursor:
     def expect_end(self) -> None:
         """Raises CaptureError if anything follows."""
         if self.next():
-            raise CaptureError("invalid JSON: unexpected text after the end of the document", self.place())
+            raise CaptureError(
+                "invalid JSON: unexpected text after the end of the document", self.place()
+            )
 
     def truncation(self) -> CaptureError:
         """The error for a file that ends here."""
@@ -240,9 +271,11 @@ class Cursor:
         return text
 
     def _end_by_layout(self) -> int:
-        """The end of an object whose opening bracket is alone on its line: the closing bracket at the same indentation. 0 if that fails.
+        """The end of an object whose opening bracket is alone on its line: the closing bracket at
+        the same indentation. 0 if that fails.
 
-        All tools that write captures as one array indent them this way, and finding one bracket is ten times faster than finding all.
+        All tools that write captures as one array indent them this way, and finding one bracket is
+        ten times faster than finding all.
         """
         if self._layout_debt < 0 or not self.text.startswith((b"\n", b"\r\n"), self.at + 1):
             return 0

@@ -1,4 +1,6 @@
-"""Debug labels: the regions that command buffers and queues open, which name the passes that begin within them."""
+"""Debug labels: the regions that command buffers and queues open, which name the passes that begin
+within them.
+"""
 
 from __future__ import annotations
 
@@ -16,7 +18,9 @@ MAX_DEPTH = 16
 """Maximum number of labels that are open at a time; inner ones are not followed."""
 
 MAX_PASSES = 1024
-"""Maximum number of passes of a command buffer whose labels are followed: a command buffer may be submitted again and again."""
+"""Maximum number of passes of a command buffer whose labels are followed: a command buffer may be
+submitted again and again.
+"""
 
 MAX_VARYING = 1024
 """Maximum number of labels that are known to change from frame to frame."""
@@ -30,8 +34,13 @@ _NUMBER = re.compile(r"0[xX][0-9a-fA-F]+|\d+")
 
 
 def printable(text: str) -> str:
-    """A name or label without what a terminal or an editor would not show, on one line, and no longer than MAX_TEXT."""
-    words = "".join(char if char.isprintable() else " " if char.isspace() else "\ufffd" for char in text[: 4 * MAX_TEXT]).split()
+    """A name or label without what a terminal or an editor would not show, on one line, and no
+    longer than MAX_TEXT.
+    """
+    words = "".join(
+        char if char.isprintable() else " " if char.isspace() else "\ufffd"
+        for char in text[: 4 * MAX_TEXT]
+    ).split()
     joined = " ".join(words)
     return joined if len(joined) <= MAX_TEXT else f"{joined[: MAX_TEXT - 3].rstrip()}..."
 
@@ -42,12 +51,24 @@ NO_LABELS: tuple[int, Path] = (0, ())
 class BufferLabels:
     """The labels of a command buffer.
 
-    `passes` has one entry for each pass that the buffer begins: how many labels of earlier command buffers have ended by then, and the
-    labels that are open. An inserted label counts for the pass that follows it, and a label that begins before the first draw of a pass
-    for that pass, unless another one follows beside it.
+    `passes` has one entry for each pass that the buffer begins: how many labels of earlier command
+    buffers have ended by then, and the labels that are open. An inserted label counts for the pass
+    that follows it, and a label that begins before the first draw of a pass for that pass, unless
+    another one follows beside it.
     """
 
-    __slots__ = ("_deeper", "_depth", "_in_pass", "_inserted", "_lead", "_outer", "ended", "is_complete", "open", "passes")
+    __slots__ = (
+        "_deeper",
+        "_depth",
+        "_in_pass",
+        "_inserted",
+        "_lead",
+        "_outer",
+        "ended",
+        "is_complete",
+        "open",
+        "passes",
+    )
 
     def __init__(self) -> None:
         self.ended = 0
@@ -60,9 +81,13 @@ class BufferLabels:
         self._inserted = ""
         self._in_pass = False
         self._lead: str | None = None
-        """The label that the command buffer begins with; empty if it has none, None before the first label."""
+        """The label that the command buffer begins with; empty if it has none, None before the
+        first label.
+        """
         self._depth = -1
-        """The number of open labels when a label that counts for the current pass began; -1 before the first label in the pass."""
+        """The number of open labels when a label that counts for the current pass began; -1 before
+        the first label in the pass.
+        """
         self._outer = NO_LABELS
         """The entry of the current pass without that label."""
 
@@ -87,7 +112,9 @@ class BufferLabels:
             self._deeper += 1
 
     def _begin_in_pass(self, text: str, depth: int, pass_is_empty: bool) -> None:
-        """Counts a label for the current pass if it is the first or, beside that, the same again."""
+        """Counts a label for the current pass if it is the first or, beside that, the same
+        again.
+        """
         if not self.passes:
             return
         if self._depth < 0:
@@ -127,18 +154,25 @@ class BufferLabels:
         self._add((path,))
 
     def execute(self, executed: BufferLabels, pass_is_empty: bool) -> None:
-        """Adds the passes of a secondary command buffer, or the label that it begins with, if it continues the current pass."""
+        """Adds the passes of a secondary command buffer, or the label that it begins with, if it
+        continues the current pass.
+        """
         if self._in_pass:
             self._begin_in_pass(executed._lead or "", len(self.open) + self._deeper, pass_is_empty)
         self.is_complete = self.is_complete and executed.is_complete
         self._add(
-            [(self.ended + max(ended - len(self.open), 0), inner_path(self.open, ended, path)) for ended, path in executed.passes]
+            [
+                (self.ended + max(ended - len(self.open), 0), inner_path(self.open, ended, path))
+                for ended, path in executed.passes
+            ]
             if self.is_complete
             else ()
         )
 
     def paths(self, outer: Path) -> list[Path]:
-        """The labels of the passes if these `outer` labels are open at the beginning of the command buffer."""
+        """The labels of the passes if these `outer` labels are open at the beginning of the command
+        buffer.
+        """
         return [inner_path(outer, *entry) for entry in self.passes]
 
     def _add(self, passes: Sequence[tuple[int, Path]]) -> None:
@@ -156,14 +190,18 @@ def inner_path(outer: Sequence[str], ended: int, path: Iterable[str]) -> Path:
 
 
 class FrameLabels:
-    """Which labels change from frame to frame, such as `Frame 123`: those that differ only in numbers. They name no pass."""
+    """Which labels change from frame to frame, such as `Frame 123`: those that differ only in
+    numbers. They name no pass.
+    """
 
     def __init__(self) -> None:
         self._varying: set[tuple[int, str]] = set()
         self._last: list[Path] = []
 
     def observe(self, labels: list[Path], before: list[Path]) -> None:
-        """Compares the labels of a frame's passes with those of an earlier frame of its kind, and the first one with the last frame's."""
+        """Compares the labels of a frame's passes with those of an earlier frame of its kind, and
+        the first one with the last frame's.
+        """
         if labels != before:
             # Many passes share their outer labels.
             different = {
@@ -174,7 +212,9 @@ class FrameLabels:
             }
             self._compare(different)
         if self._last and labels and self._last[0][:1] != labels[0][:1]:
-            self._compare((0, *texts) for texts in zip(labels[0][:1], self._last[0][:1], strict=False))
+            self._compare(
+                (0, *texts) for texts in zip(labels[0][:1], self._last[0][:1], strict=False)
+            )
         self._last = labels
 
     def _compare(self, different: Iterable[tuple[int, str, str]]) -> None:
@@ -186,8 +226,14 @@ class FrameLabels:
                     self._varying.add((depth, pattern))
 
     def name(self, path: Path) -> str:
-        """The name of a pass with these labels: those that do not change, joined; the innermost ones if that is too long."""
-        texts = [text for depth, text in enumerate(path) if text and (depth, _NUMBER.sub("#", text)) not in self._varying]
+        """The name of a pass with these labels: those that do not change, joined; the innermost
+        ones if that is too long.
+        """
+        texts = [
+            text
+            for depth, text in enumerate(path)
+            if text and (depth, _NUMBER.sub("#", text)) not in self._varying
+        ]
         name = SEPARATOR.join(texts)
         while len(name) > MAX_PATH and len(texts) > 1:
             del texts[0]

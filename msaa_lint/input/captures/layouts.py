@@ -1,6 +1,8 @@
-"""Image layouts as submitted commands leave them: which images a shader may read through descriptors whose contents a capture omits.
+"""Image layouts as submitted commands leave them: which images a shader may read through
+descriptors whose contents a capture omits.
 
-Only images that such a shader has not been able to read yet are followed: the answer for the others does not change.
+Only images that such a shader has not been able to read yet are followed: the answer for the others
+does not change.
 """
 
 from collections.abc import Iterable, Iterator, Mapping
@@ -18,9 +20,12 @@ UNSEEN = "-"
 SHADER_READ_ONLY = "SHADER_READ_ONLY_OPTIMAL"
 
 UNREADABLE = frozenset((
-    "UNDEFINED", "PREINITIALIZED", "ZERO_INITIALIZED_EXT", "COLOR_ATTACHMENT_OPTIMAL", "DEPTH_STENCIL_ATTACHMENT_OPTIMAL",
-    "DEPTH_ATTACHMENT_OPTIMAL", "STENCIL_ATTACHMENT_OPTIMAL", "ATTACHMENT_OPTIMAL", "TRANSFER_SRC_OPTIMAL", "TRANSFER_DST_OPTIMAL",
-    "PRESENT_SRC_KHR", "FRAGMENT_DENSITY_MAP_OPTIMAL_EXT", "FRAGMENT_SHADING_RATE_ATTACHMENT_OPTIMAL_KHR",
+    "UNDEFINED", "PREINITIALIZED", "ZERO_INITIALIZED_EXT", "COLOR_ATTACHMENT_OPTIMAL",
+    "DEPTH_STENCIL_ATTACHMENT_OPTIMAL",
+    "DEPTH_ATTACHMENT_OPTIMAL", "STENCIL_ATTACHMENT_OPTIMAL", "ATTACHMENT_OPTIMAL",
+    "TRANSFER_SRC_OPTIMAL", "TRANSFER_DST_OPTIMAL",
+    "PRESENT_SRC_KHR", "FRAGMENT_DENSITY_MAP_OPTIMAL_EXT",
+    "FRAGMENT_SHADING_RATE_ATTACHMENT_OPTIMAL_KHR",
 ))  # fmt: skip
 """The layouts in which no shader can read an image through a descriptor."""
 
@@ -28,31 +33,41 @@ Layouts = frozenset[str]
 NONE: Layouts = frozenset()
 
 Change = tuple[Image, Layouts, bool, Layouts]
-"""The layouts that an image changes to, whether that is all of the image, and those that it is changed from."""
+"""The layouts that an image changes to, whether that is all of the image, and those that it is
+changed from.
+"""
 
 
 def readable(layout: str | None) -> Layouts:
-    """A layout as those are told apart that descriptors state; empty if shaders cannot read in it, and UNKNOWN for None."""
+    """A layout as those are told apart that descriptors state; empty if shaders cannot read in it,
+    and UNKNOWN for None.
+    """
     if layout is None:
         return _ANY
     if layout in UNREADABLE:
         return NONE
     # A descriptor of one aspect may state the layout of this aspect alone.
-    return frozenset((layout if layout == SHADER_READ_ONLY or "READ_ONLY" not in layout else "READ_ONLY",))
+    return frozenset(
+        (layout if layout == SHADER_READ_ONLY or "READ_ONLY" not in layout else "READ_ONLY",)
+    )
 
 
 _ANY: Layouts = frozenset((UNKNOWN,))
 
 
 class ImageLayouts:
-    """The images that unknown descriptors have not been able to hold yet, by the layouts in which they are now."""
+    """The images that unknown descriptors have not been able to hold yet, by the layouts in which
+    they are now.
+    """
 
     def __init__(self) -> None:
         self.initial = NONE
         """The layouts of new images: UNSEEN if the capture may omit what happened to them."""
         self._images: dict[ImageKind, dict[str, dict[Image, None]]] = {}
         self._asked: dict[Image, None] = {}
-        """The images that such a descriptor may have held before the first command that tells their layout."""
+        """The images that such a descriptor may have held before the first command that tells their
+        layout.
+        """
         self._begin: RecordedCommand | None = None
 
     def add(self, image: Image) -> None:
@@ -100,7 +115,9 @@ class ImageLayouts:
         image.layouts = layouts
 
     def mark(self, kinds: Iterable[ImageKind], layout: str | None) -> None:
-        """Marks the images that a descriptor of some kinds may hold now. `layout` is what `readable` makes of its layout."""
+        """Marks the images that a descriptor of some kinds may hold now. `layout` is what
+        `readable` makes of its layout.
+        """
         for kind in kinds:
             images = self._images.get(kind, {})
             for each in list(images) if layout in (None, UNKNOWN) else (layout, UNKNOWN, UNSEEN):
@@ -115,7 +132,9 @@ class ImageLayouts:
     # What commands do.
 
     def changes(self, command: RecordedCommand) -> tuple[Change, ...]:
-        """The changes of layouts that a command makes. The commands of a submission come in order."""
+        """The changes of layouts that a command makes. The commands of a submission come in
+        order.
+        """
         if command.kind == "endRenderPass":
             begin, self._begin = self._begin, None
             return command_layouts(begin).at_end if begin is not None else ()
@@ -130,7 +149,9 @@ class ImageLayouts:
             if command.kind in CHANGING:
                 for image, layouts, is_whole, before in self.changes(command):
                     others, was_whole, first = net.get(image, (NONE, False, before))
-                    net[image] = (layouts, True, first) if is_whole else (others | layouts, was_whole, first)
+                    net[image] = (
+                        (layouts, True, first) if is_whole else (others | layouts, was_whole, first)
+                    )
         return [(image, *change) for image, change in net.items() if image.kinds]
 
 
@@ -147,8 +168,9 @@ class AttachmentLayouts(NamedTuple):
 
 
 class CommandLayouts(NamedTuple):
-    """The changes of layouts that a command makes, those at the end of the pass that it begins, and the attachments of this pass that
-    shaders cannot read during it."""
+    """The changes of layouts that a command makes, those at the end of the pass that it begins, and
+    the attachments of this pass that shaders cannot read during it.
+    """
 
     changes: tuple[Change, ...] = ()
     at_end: tuple[Change, ...] = ()
@@ -172,16 +194,26 @@ def _layouts_of(command: RecordedCommand) -> CommandLayouts:
         return CommandLayouts(((image, readable(layout), is_whole, readable(before)),))
     attachments = _attached(command)
     unreadable = frozenset(image for image, (layouts, _) in attachments.items() if not layouts)
-    changes = tuple((image, layouts, image.is_single_level, before) for image, (layouts, before) in attachments.items() if image.kinds)
+    changes = tuple(
+        (image, layouts, image.is_single_level, before)
+        for image, (layouts, before) in attachments.items()
+        if image.kinds
+    )
     if not changes or not isinstance(key, RenderPassBegin):
         return CommandLayouts(changes, (), unreadable)
     ends = zip(key.images, _pass_layouts(key.render_pass), strict=False)
-    at_end = tuple((image, each.after, image.is_single_level, NONE) for image, each in ends if image is not None and image.kinds)
+    at_end = tuple(
+        (image, each.after, image.is_single_level, NONE)
+        for image, each in ends
+        if image is not None and image.kinds
+    )
     return CommandLayouts(changes, at_end, unreadable)
 
 
 def _attached(command: RecordedCommand) -> dict[Image, tuple[Layouts, Layouts]]:
-    """The attachments of a pass with the layouts in which shaders can read them during it (feedback loops, read-only depth) and before."""
+    """The attachments of a pass with the layouts in which shaders can read them during it (feedback
+    loops, read-only depth) and before.
+    """
     key: Any = command.key
     found: dict[Image, tuple[Layouts, Layouts]] = {}
     uses = _pass_uses(key) if isinstance(key, RenderPassBegin) else _rendering_uses(dict(key))
@@ -199,7 +231,12 @@ def _pass_uses(begin: RenderPassBegin) -> Iterator[tuple[Image | None, Layouts, 
 
 def _rendering_uses(tree: dict[str, Any]) -> Iterator[tuple[Image | None, Layouts, Layouts]]:
     rates = (tree.get("fragmentDensityMapAttachment"), tree.get("fragmentShadingRateAttachment"))
-    for info in (*tree.get("colorAttachments", ()), tree.get("depthAttachment"), tree.get("stencilAttachment"), *rates):
+    for info in (
+        *tree.get("colorAttachments", ()),
+        tree.get("depthAttachment"),
+        tree.get("stencilAttachment"),
+        *rates,
+    ):
         attachment = dict(info or ())
         for image, layout in (("image", "imageLayout"), ("resolveImage", "resolveImageLayout")):
             layouts = readable(attachment.get(layout))
@@ -213,7 +250,10 @@ def _pass_layouts(render_pass: RenderPass) -> list[AttachmentLayouts]:
         within: dict[int, Layouts] = {}
         for subpass in tree.get("subpasses", ()):
             references = [subpass.get("depthStencilAttachment"), subpass.get("depthStencilResolve")]
-            references += [subpass.get("fragmentShadingRateAttachment"), tree.get("fragmentDensityMapAttachment")]
+            references += [
+                subpass.get("fragmentShadingRateAttachment"),
+                tree.get("fragmentDensityMapAttachment"),
+            ]
             for member in ("colorAttachments", "resolveAttachments", "inputAttachments"):
                 references += subpass.get(member, ())
             for reference in references:
@@ -223,9 +263,14 @@ def _pass_layouts(render_pass: RenderPass) -> list[AttachmentLayouts]:
         render_pass.layouts = []
         for index, attachment in enumerate(tree.get("attachments", ())):
             ends = []
-            for member, stencil in (("initialLayout", "stencilInitialLayout"), ("finalLayout", "stencilFinalLayout")):
+            for member, stencil in (
+                ("initialLayout", "stencilInitialLayout"),
+                ("finalLayout", "stencilFinalLayout"),
+            ):
                 layouts = readable(attachment.get(member))
-                ends.append(layouts | readable(attachment[stencil]) if stencil in attachment else layouts)
+                ends.append(
+                    layouts | readable(attachment[stencil]) if stencil in attachment else layouts
+                )
             render_pass.layouts.append(AttachmentLayouts(within.get(index, ends[1]), *ends))
     found: list[AttachmentLayouts] = render_pass.layouts
     return found

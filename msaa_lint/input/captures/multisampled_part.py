@@ -1,6 +1,8 @@
-"""What of a capture concerns multisampling: the multisampled images, what feeds them, what they feed, and the passes of these.
+"""What of a capture concerns multisampling: the multisampled images, what feeds them, what they
+feed, and the passes of these.
 
-A program may draw thousands of images that have nothing to do with them, such as a user interface. Those are counted, not described.
+A program may draw thousands of images that have nothing to do with them, such as a user interface.
+Those are counted, not described.
 """
 
 from collections.abc import Collection, Hashable, Iterable, Iterator
@@ -15,7 +17,8 @@ COPIES = ("resolveImage", "copyImage", "blitImage")
 
 
 class Step(NamedTuple):
-    """A pass, or the commands between two passes that belong together: the images that it has as attachments, reads, and writes.
+    """A pass, or the commands between two passes that belong together: the images that it has as
+    attachments, reads, and writes.
 
     `multisampled` is whether it concerns multisampling by itself.
     """
@@ -27,12 +30,16 @@ class Step(NamedTuple):
 
 
 class MultisampledPart:
-    """The images of the kinds of frame that concern multisampling, and by kind the numbers of its passes that use them."""
+    """The images of the kinds of frame that concern multisampling, and by kind the numbers of its
+    passes that use them.
+    """
 
     def __init__(self, kinds: Iterable[FrameKind]) -> None:
         self._passes = {kind: list(_passes(kind)) for kind in kinds}
         between = [step for kind in self._passes for step in _between(kind)]
-        self.images = _closure([*(step for steps in self._passes.values() for step in steps), *between])
+        self.images = _closure(
+            [*(step for steps in self._passes.values() for step in steps), *between]
+        )
 
     def add_pass(self, kind: FrameKind, number: int) -> None:
         """Adds a pass of a kind."""
@@ -43,11 +50,17 @@ class MultisampledPart:
     def passes(self, kind: FrameKind) -> set[int]:
         """The numbers of the passes of a kind that are described."""
         steps = enumerate(self._passes[kind])
-        return {number for number, step in steps if step.multisampled or not self.images.isdisjoint(step.attachments)}
+        return {
+            number
+            for number, step in steps
+            if step.multisampled or not self.images.isdisjoint(step.attachments)
+        }
 
 
 def _closure(steps: list[Step]) -> set[Image]:
-    """The multisampled images, what feeds them and what they feed, and the other attachments of the passes of these."""
+    """The multisampled images, what feeds them and what they feed, and the other attachments of the
+    passes of these.
+    """
     by_image: dict[Image, list[Step]] = {}
     found: dict[str, set[Image]] = {"feeds": set(), "fed": set(), "beside": set()}
     pending: list[tuple[str, Image]] = []
@@ -72,7 +85,11 @@ def _closure(steps: list[Step]) -> set[Image]:
         how, image = pending.pop()
         for step in by_image.get(image, ()):
             writes = image in step.attachments or image in step.writes
-            if (how == "feeds" and not writes) or (how == "beside" and image not in step.attachments) or (how, id(step)) in done:
+            if (
+                (how == "feeds" and not writes)
+                or (how == "beside" and image not in step.attachments)
+                or (how, id(step)) in done
+            ):
                 continue
             done.add((how, id(step)))
             if how == "fed":
@@ -89,14 +106,20 @@ def _passes(kind: FrameKind) -> Iterator[Step]:
         commands = kind.pass_commands[number].values()
         attachments = dict.fromkeys(images_in(begin.key))
         for alternate in kind.alternates[number].values():
-            attachments.update(dict.fromkeys(image for image in alternate.images if image is not None))
+            attachments.update(
+                dict.fromkeys(image for image in alternate.images if image is not None)
+            )
         reads, writes = _uses(kind, commands)
-        multisampled = is_multisampled_pass(begin) or any(command.kind == "draw" and _is_multisampled_draw(command) for command in commands)
+        multisampled = is_multisampled_pass(begin) or any(
+            command.kind == "draw" and _is_multisampled_draw(command) for command in commands
+        )
         yield Step(attachments.keys(), reads, writes, multisampled)
 
 
 def _between(kind: FrameKind) -> Iterator[Step]:
-    """The commands between passes: each transfer, and the reads and writes of shaders that follow each other."""
+    """The commands between passes: each transfer, and the reads and writes of shaders that follow
+    each other.
+    """
     shaders: list[RecordedCommand] = []
     is_in_pass = False
     for command, _ in commands_of(kind):
@@ -126,7 +149,9 @@ def image_of(kind: FrameKind, part: object) -> Image | None:
     return part if isinstance(part, Image) else None
 
 
-def _uses(kind: FrameKind, commands: Iterable[RecordedCommand]) -> tuple[Collection[Image], Collection[Image]]:
+def _uses(
+    kind: FrameKind, commands: Iterable[RecordedCommand]
+) -> tuple[Collection[Image], Collection[Image]]:
     """The images that commands read and write."""
     uses: dict[str, dict[Image, None]] = {"readImage": {}, "writeImage": {}}
     for command in commands:
@@ -141,8 +166,12 @@ def _uses(kind: FrameKind, commands: Iterable[RecordedCommand]) -> tuple[Collect
 def is_multisampled_pass(begin: RecordedCommand) -> bool:
     """Whether a pass has multisampled attachments, or resolves."""
     if isinstance(begin.key, RenderPassBegin):
-        return is_multisampled(begin.key.render_pass) or any(image is not None and image.samples > 1 for image in begin.key.images)
-    return "resolveImage" in _names(begin.key) or any(image.samples > 1 for image in images_in(begin.key))
+        return is_multisampled(begin.key.render_pass) or any(
+            image is not None and image.samples > 1 for image in begin.key.images
+        )
+    return "resolveImage" in _names(begin.key) or any(
+        image.samples > 1 for image in images_in(begin.key)
+    )
 
 
 def _names(key: Hashable) -> Iterator[str]:
@@ -155,12 +184,18 @@ def _names(key: Hashable) -> Iterator[str]:
 
 
 def is_multisampled(created: RenderPass | Pipeline) -> bool:
-    """Whether a render pass has multisampled attachments or resolves, or a pipeline concerns samples."""
+    """Whether a render pass has multisampled attachments or resolves, or a pipeline concerns
+    samples.
+    """
     tree = created.tree
     if isinstance(created, Pipeline):
         state = tree.get("multisampleState", {})
         concerns = ("sampleShadingEnable", "alphaToCoverageEnable", "alphaToOneEnable")
-        return created.dynamic_samples or (state.get("rasterizationSamples") or 1) != 1 or any(state.get(name) for name in concerns)
+        return (
+            created.dynamic_samples
+            or (state.get("rasterizationSamples") or 1) != 1
+            or any(state.get(name) for name in concerns)
+        )
     if any((attachment.get("samples") or 1) != 1 for attachment in tree.get("attachments", ())):
         return True
     resolving = ("resolveAttachments", "depthStencilResolve", "multisampledRenderToSingleSampled")
@@ -170,4 +205,6 @@ def is_multisampled(created: RenderPass | Pipeline) -> bool:
 def _is_multisampled_draw(command: RecordedCommand) -> bool:
     key: Any = command.key
     pipeline, _, _, samples = key
-    return (samples or 1) > 1 or (pipeline is not None and not pipeline.dynamic_samples and is_multisampled(pipeline))
+    return (samples or 1) > 1 or (
+        pipeline is not None and not pipeline.dynamic_samples and is_multisampled(pipeline)
+    )

@@ -9,15 +9,19 @@ from .call import Call, Place
 from .structures import Tree
 
 MAX_ROTATION = 16
-"""Maximum number of multisampled images that take turns from frame to frame: more than any swapchain has."""
+"""Maximum number of multisampled images that take turns from frame to frame: more than any
+swapchain has.
+"""
 
 ATTACHMENT_USAGES = frozenset(("COLOR_ATTACHMENT", "DEPTH_STENCIL_ATTACHMENT", "INPUT_ATTACHMENT"))
 
 
 class CapturedObject:
-    """An object: the call that created it, its number within its kind (from 0), and its debug name (`label`), empty if it has none.
+    """An object: the call that created it, its number within its kind (from 0), and its debug name
+    (`label`), empty if it has none.
 
-    `namer` is the type and the handle by which it was named. `tree` describes it. `frames` counts the frames that use it.
+    `namer` is the type and the handle by which it was named. `tree` describes it. `frames` counts
+    the frames that use it.
     """
 
     __slots__ = ("at", "by", "frames", "label", "namer", "number", "tree")
@@ -37,10 +41,21 @@ ImageKind = tuple[bool, bool]
 
 
 class Image(CapturedObject):
-    """An image, possibly of a swapchain. `aspect_states` holds the state of each aspect after its last use, `present` the submission that
-    presents it."""
+    """An image, possibly of a swapchain. `aspect_states` holds the state of each aspect after its
+    last use, `present` the submission that presents it.
+    """
 
-    __slots__ = ("alike", "aspect_states", "aspects", "attachable", "kinds", "layouts", "may_be_read", "present", "swapchain")
+    __slots__ = (
+        "alike",
+        "aspect_states",
+        "aspects",
+        "attachable",
+        "kinds",
+        "layouts",
+        "may_be_read",
+        "present",
+        "swapchain",
+    )
 
     def __init__(self, call: Call, number: int, tree: Tree) -> None:
         super().__init__(call, number, tree)
@@ -48,17 +63,27 @@ class Image(CapturedObject):
         self.aspects = format.aspects if format is not None else ()
         self.swapchain: Swapchain | None = None
         usage = tree.get("usage")
-        self.attachable = usage is None or self.samples > 1 or not ATTACHMENT_USAGES.isdisjoint(usage)
-        """Whether a pass may draw to it. Other textures, which are most images of a program, are not tracked."""
+        self.attachable = (
+            usage is None or self.samples > 1 or not ATTACHMENT_USAGES.isdisjoint(usage)
+        )
+        """Whether a pass may draw to it. Other textures, which are most images of a program, are
+        not tracked.
+        """
         self.aspect_states: dict[str, Any] = {}
         self.present: Any = None
         self.may_be_read = False
-        """Whether a shader may read it through a descriptor whose contents the capture omits, or another process or API its memory."""
+        """Whether a shader may read it through a descriptor whose contents the capture omits, or
+        another process or API its memory.
+        """
         by_usage = (("SAMPLED", False), ("STORAGE", True)) if self.attachable else ()
         self.kinds: tuple[ImageKind, ...] = tuple(
-            (written, self.samples > 1) for name, written in by_usage if usage is None or name in usage
+            (written, self.samples > 1)
+            for name, written in by_usage
+            if usage is None or name in usage
         )
-        """What it can be in such a descriptor, and `layouts`: those in which it is now. Empty if that is no longer followed."""
+        """What it can be in such a descriptor, and `layouts`: those in which it is now. Empty if
+        that is no longer followed.
+        """
         self.layouts: frozenset[str] = frozenset()
         self.alike: AlikeImages | None = None
         """The images that are created alike, if it is multisampled."""
@@ -77,11 +102,15 @@ class Image(CapturedObject):
     def is_single_level(self) -> bool:
         """Whether it has one mip level and one layer, so that one pass can write all of it."""
         depth = self.tree.get("extent", {}).get("depth", 1)
-        return all(count == 1 for count in (self.tree.get("mipLevels", 1), self.tree.get("arrayLayers", 1), depth))
+        return all(
+            count == 1
+            for count in (self.tree.get("mipLevels", 1), self.tree.get("arrayLayers", 1), depth)
+        )
 
 
 class AlikeImages:
-    """Multisampled images that are created with the same parameters: the first of them, and `together` the most that exist at a time.
+    """Multisampled images that are created with the same parameters: the first of them, and
+    `together` the most that exist at a time.
 
     That is empty if more exist than can take turns.
     """
@@ -121,7 +150,9 @@ class Swapchain(CapturedObject):
 
 
 class RenderPass(CapturedObject):
-    """A render pass. Render passes created with the same parameters are one object. `layouts` are those of its attachments."""
+    """A render pass. Render passes created with the same parameters are one object. `layouts` are
+    those of its attachments.
+    """
 
     __slots__ = ("layouts",)
 
@@ -131,7 +162,8 @@ class RenderPass(CapturedObject):
 
 
 class Framebuffer(CapturedObject):
-    """A framebuffer: its size, and its images, None for an unknown one; `images` is None for an imageless framebuffer.
+    """A framebuffer: its size, and its images, None for an unknown one; `images` is None for an
+    imageless framebuffer.
 
     `parts` are the first mip level and layer of each image, empty if all are 0.
     """
@@ -139,7 +171,12 @@ class Framebuffer(CapturedObject):
     __slots__ = ("images", "parts")
 
     def __init__(
-        self, call: Call, number: int, tree: Tree, images: tuple[Image | None, ...] | None, parts: tuple[tuple[int, int], ...] = ()
+        self,
+        call: Call,
+        number: int,
+        tree: Tree,
+        images: tuple[Image | None, ...] | None,
+        parts: tuple[tuple[int, int], ...] = (),
     ) -> None:
         super().__init__(call, number, tree)
         self.images = images
@@ -155,7 +192,9 @@ class Pipeline(CapturedObject):
         super().__init__(call, number, tree)
         self.render_pass = render_pass
         self.modules: dict[str, bytes] = {}
-        self.dynamic_samples = any(state.startswith("RASTERIZATION_SAMPLES") for state in tree.get("dynamicState", ()))
+        self.dynamic_samples = any(
+            state.startswith("RASTERIZATION_SAMPLES") for state in tree.get("dynamicState", ())
+        )
 
 
 Use = tuple[Image, bool]
@@ -183,8 +222,10 @@ SetBindings = tuple[ReadableBindings | None, ...]
 
 
 class UnknownDescriptors(NamedTuple):
-    """Descriptors of a binding whose images the capture omits: how many, whether shaders may write them, and their layouts as far as they
-    are stated (as `layouts.readable` tells them apart; None for any)."""
+    """Descriptors of a binding whose images the capture omits: how many, whether shaders may write
+    them, and their layouts as far as they are stated (as `layouts.readable` tells them apart; None
+    for any).
+    """
 
     size: int
     storage: tuple[bool, ...]
@@ -194,8 +235,9 @@ class UnknownDescriptors(NamedTuple):
 class DescriptorSet:
     """The attachable images of a descriptor set, by binding and element, and what is unknown of it.
 
-    The contents of an `opaque` set are unknown. `uses` counts the slots of an image by binding. `log` has what was put into the set in
-    order, so that a reader finds what is new since it last read the set; when the log is shortened, `epoch` grows.
+    The contents of an `opaque` set are unknown. `uses` counts the slots of an image by binding.
+    `log` has what was put into the set in order, so that a reader finds what is new since it last
+    read the set; when the log is shortened, `epoch` grows.
     """
 
     __slots__ = ("epoch", "images", "layout", "log", "opaque", "unknown", "updates", "uses")

@@ -1,7 +1,9 @@
-"""Command buffers that are recorded again with the same calls: frames usually resemble earlier ones.
+"""Command buffers that are recorded again with the same calls: frames usually resemble earlier
+ones.
 
-What such a command buffer contains is only determined once, as long as no object is created or destroyed. Readers share the arguments of
-identical calls, so calls are compared by the identity of these.
+What such a command buffer contains is only determined once, as long as no object is created or
+destroyed. Readers share the arguments of identical calls, so calls are compared by the identity of
+these.
 """
 
 from __future__ import annotations
@@ -20,13 +22,20 @@ CALL_WEIGHT = 256
 """A call, or a command that it records, counts as so many bytes at least."""
 
 MAX_ALTERNATIVES = 16
-"""Maximum number of recordings that begin with the same call: those for each swapchain image, for example."""
+"""Maximum number of recordings that begin with the same call: those for each swapchain image, for
+example.
+"""
 
-UPDATES = ("vkUpdateDescriptorSets", "vkUpdateDescriptorSetWithTemplate", "vkUpdateDescriptorSetWithTemplateKHR")
+UPDATES = (
+    "vkUpdateDescriptorSets",
+    "vkUpdateDescriptorSetWithTemplate",
+    "vkUpdateDescriptorSetWithTemplateKHR",
+)
 """Calls that command buffers do not depend on until they are submitted."""
 
 UNCHANGING = (
-    "vkCmd", "vkQueue", "vkWait", "vkUpdateDescriptorSet", "vkBeginCommandBuffer", "vkEndCommandBuffer", "vkDeviceWaitIdle", "xrEndFrame",
+    "vkCmd", "vkQueue", "vkWait", "vkUpdateDescriptorSet", "vkBeginCommandBuffer",
+    "vkEndCommandBuffer", "vkDeviceWaitIdle", "xrEndFrame",
 )  # fmt: skip
 """The beginnings of the names of calls after which commands still refer to the same objects."""
 
@@ -39,8 +48,9 @@ State = tuple[int, int]
 
 
 class Recording(NamedTuple):
-    """The calls from vkBeginCommandBuffer to the one before vkEndCommandBuffer, their arguments and then END, and a copy of what they
-    recorded."""
+    """The calls from vkBeginCommandBuffer to the one before vkEndCommandBuffer, their arguments and
+    then END, and a copy of what they recorded.
+    """
 
     calls: list[Call]
     args: list[Any]
@@ -52,17 +62,22 @@ class Recording(NamedTuple):
 class Recordings:
     """The recordings of a capture, and the one that the current calls repeat, or are.
 
-    While the arguments of each call are those that are `expected` at a `position`, it need not be processed: the caller only increments the
-    position. Any other call is passed to `follow`, if a recording `is_active` or the call begins one.
+    While the arguments of each call are those that are `expected` at a `position`, it need not be
+    processed: the caller only increments the position. Any other call is passed to `follow`, if a
+    recording `is_active` or the call begins one.
     """
 
-    def __init__(self, process: Callable[[Call | Mark], None], buffers: dict[int, CommandBuffer | None]) -> None:
+    def __init__(
+        self, process: Callable[[Call | Mark], None], buffers: dict[int, CommandBuffer | None]
+    ) -> None:
         self._process = process
         self._buffers = buffers
         self._by_begin: dict[int, list[Recording]] = {}
         """By the identity of the arguments of vkBeginCommandBuffer, the most recent first."""
         self._latest: dict[int, CommandBuffer] = {}
-        """By the identity of a recording's calls: the last copy of its command buffer. What is known of its submission holds for all."""
+        """By the identity of a recording's calls: the last copy of its command buffer. What is
+        known of its submission holds for all.
+        """
         self._size = 0
         self.is_active = False
         self.expected: Sequence[Any] = NOTHING
@@ -117,7 +132,12 @@ class Recordings:
         self._calls_size += _size_of(call)
         # What a secondary command buffer records may change in between.
         is_command = call.name.startswith("vkCmd") and not call.name.startswith("vkCmdExecute")
-        if call.recurring and is_command and self._calls_size <= MAX_TEXT // 4 and self._is_same_buffer(call, self._calls[0]):
+        if (
+            call.recurring
+            and is_command
+            and self._calls_size <= MAX_TEXT // 4
+            and self._is_same_buffer(call, self._calls[0])
+        ):
             self._calls.append(call)
         else:
             self.is_active, self._calls = False, []
@@ -140,18 +160,26 @@ class Recordings:
             self._size = 0
         if size <= MAX_TEXT:
             self._size += size
-            recording = Recording(calls, [*(call.args for call in calls), END], buffer.copy(), state, size)
+            recording = Recording(
+                calls, [*(call.args for call in calls), END], buffer.copy(), state, size
+            )
             self._by_begin.setdefault(begin, []).insert(0, recording)
             self._latest[id(calls)] = buffer
 
     def _find(self, args: object) -> bool:
-        """Follows another recording that has the same calls so far and then a call with some arguments; False if there is none."""
+        """Follows another recording that has the same calls so far and then a call with some
+        arguments; False if there is none.
+        """
         assert self._followed is not None
         followed, position = self._followed.args, self.position
         before = list(map(id, followed[:position]))
         for recording in self._by_begin[id(followed[0])]:
             others = recording.args
-            if position < len(others) and others[position] is args and list(map(id, others[:position])) == before:
+            if (
+                position < len(others)
+                and others[position] is args
+                and list(map(id, others[:position])) == before
+            ):
                 self._followed, self.expected = recording, others
                 return True
         return False

@@ -1,4 +1,6 @@
-"""Converts Vulkan structures from calls to the form of a description, each member by its shape in the description format."""
+"""Converts Vulkan structures from calls to the form of a description, each member by its shape in
+the description format.
+"""
 
 from __future__ import annotations
 
@@ -13,10 +15,14 @@ from msaa_lint.frame.description.shapes import Shape
 from . import values
 
 Tree = dict[str, Any]
-"""A structure of a description as plain data: mappings, lists, strings, numbers, booleans and None."""
+"""A structure of a description as plain data: mappings, lists, strings, numbers, booleans and
+None.
+"""
 
 Members = list[tuple[str, Shape, tuple[str, ...]]]
-"""Members by their description names, each with its shape and the names that it may have in a call."""
+"""Members by their description names, each with its shape and the names that it may have in a
+call.
+"""
 
 MAX_ITEMS = 4096
 """Maximum number of array elements; real arrays in these structures have a few dozen."""
@@ -25,7 +31,9 @@ MAX_DEPTH = 8
 
 
 def to_tree(kind: type[Record], structure: object, depth: int = 0) -> Tree:
-    """A structure in the form of a description, including its pNext chain. Unknown and empty members are omitted."""
+    """A structure in the form of a description, including its pNext chain. Unknown and empty
+    members are omitted.
+    """
     tree: Tree = {}
     members = values.record(structure)
     for member, shape, names in _members(kind):
@@ -33,7 +41,9 @@ def to_tree(kind: type[Record], structure: object, depth: int = 0) -> Tree:
             if name in members:
                 given_value = members[name]
                 value = _value(shape, given_value, depth) if given_value is not None else None
-                if value is not None and not (value in ([], ()) and getattr(kind, member) is not None):
+                if value is not None and not (
+                    value in ([], ()) and getattr(kind, member) is not None
+                ):
                     tree[member] = value
                 break
     if members.get("pNext") and depth <= MAX_DEPTH:
@@ -50,7 +60,10 @@ def _members(kind: type[Record]) -> Members:
     known = _MEMBERS.get(kind)
     if known is not None:
         return known
-    others = {member: [other for other, name in OTHER_NAMES.items() if name == member] for member in kind.SHAPE}
+    others = {
+        member: [other for other, name in OTHER_NAMES.items() if name == member]
+        for member in kind.SHAPE
+    }
     _MEMBERS[kind] = [
         (member, shape, (member, f"p{member[0].upper()}{member[1:]}", *others[member]))
         for member, shape in kind.SHAPE.items()
@@ -63,7 +76,11 @@ def _add_chained(kind: type[Record], tree: Tree, structure: dict[str, Any], dept
     name = values.structure_type(structure)
     member = PNEXT.get(name)
     if WITHIN.get(name) is kind:
-        tree.update(to_tree(kind, {key: value for key, value in structure.items() if key != "pNext"}, depth + 1))
+        tree.update(
+            to_tree(
+                kind, {key: value for key, value in structure.items() if key != "pNext"}, depth + 1
+            )
+        )
     elif member is not None and member in kind.SHAPE and kind.SHAPE[member][0] == "record":
         tree[member] = to_tree(kind.SHAPE[member][1], {**structure, "pNext": None}, depth + 1)
     elif is_unread(name, kind):
@@ -80,14 +97,22 @@ def _value(shape: Shape, value: object, depth: int) -> Any:
     if kind == "flags":
         return _flags(shape[1], value)
     if kind == "record":
-        return to_tree(shape[1], value, depth + 1) if isinstance(value, dict) and depth < MAX_DEPTH else None
+        return (
+            to_tree(shape[1], value, depth + 1)
+            if isinstance(value, dict) and depth < MAX_DEPTH
+            else None
+        )
     if kind in ("list", "counted"):
         return _items(shape[1], value, depth)
     if kind in PARSERS:
         return PARSERS[kind](value)
     if kind == "int":
         number = values.integer(value)
-        in_range = number is not None and (shape[1] is None or number >= shape[1]) and (shape[2] is None or number <= shape[2])
+        in_range = (
+            number is not None
+            and (shape[1] is None or number >= shape[1])
+            and (shape[2] is None or number <= shape[2])
+        )
         return number if in_range else None
     if kind == "subpass":
         number = values.integer(value)
@@ -101,7 +126,8 @@ def _items(shape: Shape, value: object, depth: int) -> list[Any] | None:
     if not isinstance(value, list):
         return None
     items = [_value(shape, item, depth) for item in value[:MAX_ITEMS]]
-    # An unused attachment is null. In other lists, leaving out an unknown item would shift those after it.
+    # An unused attachment is null. In other lists, leaving out an unknown item would shift those
+    # after it.
     nullable = shape[0] in ("slot", "null")
     return items if nullable or None not in items else None
 
@@ -119,12 +145,16 @@ def _flags(enums: str, value: object) -> list[str] | None:
 
 
 def slot(value: object) -> Any:
-    """An attachment reference: its index, with the layout if it is known; None for VK_ATTACHMENT_UNUSED."""
+    """An attachment reference: its index, with the layout if it is known; None for
+    VK_ATTACHMENT_UNUSED.
+    """
     reference = value if isinstance(value, dict) else {"attachment": value}
     index = values.integer(reference.get("attachment"))
     if index is None or index == ATTACHMENT_UNUSED or index < 0:
         return None
-    layout = values.enum("VkImageLayout", reference.get("layout")) if "layout" in reference else None
+    layout = (
+        values.enum("VkImageLayout", reference.get("layout")) if "layout" in reference else None
+    )
     return {"attachment": index, "layout": layout} if layout is not None else index
 
 

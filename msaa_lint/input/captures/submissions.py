@@ -8,7 +8,9 @@ from typing import Any
 from .command_buffers import PASS_BEGINS, PASS_ENDS, CommandBuffer, Execution, RecordedCommand
 
 MAX_REPEATED = 20_000
-"""Maximum number of commands that a frame executes again: those of command buffers that it has executed before."""
+"""Maximum number of commands that a frame executes again: those of command buffers that it has
+executed before.
+"""
 
 Item = RecordedCommand | Execution
 
@@ -24,13 +26,16 @@ class Submission:
         self.passes: tuple[Any, ...] | None = None
         """The identities of the passes; None until they are asked."""
         self.parts: list[tuple[Submission, str]] | None = None
-        """The commands up to each mark of a frame's end, with the mark; None until that is asked."""
+        """The commands up to each mark of a frame's end, with the mark; None until that is
+        asked.
+        """
         self.layout_changes: Any = None
         """The changes of layouts that the commands make together; None until that is asked."""
 
 
 def parts_of(submission: Submission) -> list[tuple[Submission, str]]:
-    """The commands of a submission up to each mark of a frame's end, with the mark, and those after the last one, with an empty mark.
+    """The commands of a submission up to each mark of a frame's end, with the mark, and those after
+    the last one, with an empty mark.
 
     A pass is not divided.
     """
@@ -50,12 +55,16 @@ def parts_of(submission: Submission) -> list[tuple[Submission, str]]:
                     submission.parts.append((Submission(commands), mark))
                     commands = []
                 pending.clear()
-        submission.parts.append((Submission(commands) if submission.parts or pending else submission, ""))
+        submission.parts.append(
+            (Submission(commands) if submission.parts or pending else submission, "")
+        )
     return submission.parts
 
 
 class Executions:
-    """The command buffers that a frame executes. `is_complete` is False once a repetition was left out."""
+    """The command buffers that a frame executes. `is_complete` is False once a repetition was left
+    out.
+    """
 
     def __init__(self) -> None:
         self.executed: dict[int, list[Item]] = {}
@@ -64,7 +73,9 @@ class Executions:
         self.is_complete = True
 
     def submission(self, buffer: CommandBuffer) -> Submission:
-        """What a command buffer executes: the same object in every frame, unless it records more."""
+        """What a command buffer executes: the same object in every frame, unless it records
+        more.
+        """
         length = len(buffer.commands)
         cached: Submission | None = buffer.submission if buffer.submitted_length == length else None
         if cached is not None and self._may_execute(buffer.commands, len(cached.commands)):
@@ -82,7 +93,9 @@ class Executions:
         return submission
 
     def _expand(self, execution: Execution) -> Iterator[RecordedCommand]:
-        """The commands of an execution and those within it. There are no cycles: an execution is of what was recorded before it."""
+        """The commands of an execution and those within it. There are no cycles: an execution is of
+        what was recorded before it.
+        """
         opened: list[Iterator[Item]] = []
         items = self._items(execution)
         while True:
@@ -102,7 +115,9 @@ class Executions:
         return iter(commands[:length] if self._may_execute(commands, length) else ())
 
     def _may_execute(self, commands: list[Item], length: int) -> bool:
-        """Whether a list of commands is executed; not if the frame would repeat too many. `length` is the number of commands that count."""
+        """Whether a list of commands is executed; not if the frame would repeat too many. `length`
+        is the number of commands that count.
+        """
         if id(commands) in self.executed:
             if self.repeated + length > MAX_REPEATED:
                 self.is_complete = False

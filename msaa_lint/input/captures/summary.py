@@ -16,7 +16,9 @@ from .tracker import Tracker
 
 
 def capture_summary(tracker: Tracker, left_out: str) -> CaptureSummary:
-    """The program, the device, the frames, and the passes that these begin; without frames, the render passes that are created."""
+    """The program, the device, the frames, and the passes that these begin; without frames, the
+    render passes that are created.
+    """
     frames = tracker.frames
     samples: dict[Hashable, int] = {}
     for kind in frames.kinds.values():
@@ -35,7 +37,10 @@ def capture_summary(tracker: Tracker, left_out: str) -> CaptureSummary:
         len(tracker.multisampled),
         frames.dropped,
         left_out,
-        sum(isinstance(each, Pipeline) and pipeline_samples(each) > 1 for each in tracker.distinct.values()),
+        sum(
+            isinstance(each, Pipeline) and pipeline_samples(each) > 1
+            for each in tracker.distinct.values()
+        ),
     )
 
 
@@ -44,14 +49,19 @@ def _passes(kind: FrameKind) -> Iterator[tuple[Hashable, int]]:
     for command in kind.passes:
         begin: Any = command.key
         if isinstance(begin, RenderPassBegin):
-            yield begin.render_pass, max([_attachment_samples(begin.render_pass), *_counts(begin.images)])
+            yield (
+                begin.render_pass,
+                max([_attachment_samples(begin.render_pass), *_counts(begin.images)]),
+            )
         else:
             yield begin, max(_counts(images_in(begin)), default=1)
 
 
 def _attachment_samples(render_pass: RenderPass) -> int:
     """The most samples that an attachment of a render pass states."""
-    return max((each.get("samples") or 1 for each in render_pass.tree.get("attachments", ())), default=1)
+    return max(
+        (each.get("samples") or 1 for each in render_pass.tree.get("attachments", ())), default=1
+    )
 
 
 def _counts(images: Any) -> list[int]:

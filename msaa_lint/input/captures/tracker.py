@@ -1,7 +1,8 @@
-"""Tracks the calls of a capture: its objects, the contents of command buffers, and the submitted frames.
+"""Tracks the calls of a capture: its objects, the contents of command buffers, and the submitted
+frames.
 
-Each call has a method named after it, without the vendor suffix; other calls are ignored. Captures are untrusted: an invalid argument makes
-a value unknown and never stops the tracker.
+Each call has a method named after it, without the vendor suffix; other calls are ignored. Captures
+are untrusted: an invalid argument makes a value unknown and never stops the tracker.
 """
 
 from __future__ import annotations
@@ -32,11 +33,14 @@ from .transfers import Transfers
 BOUNDARY = frozenset(
     f"vkCmd{name}"
     for name in (
-        "BeginRenderPass", "BeginRenderPass2", "NextSubpass", "NextSubpass2", "EndRenderPass", "EndRenderPass2", "BeginRendering",
+        "BeginRenderPass", "BeginRenderPass2", "NextSubpass", "NextSubpass2", "EndRenderPass",
+        "EndRenderPass2", "BeginRendering",
         "EndRendering", "EndRendering2",
     )
 )  # fmt: skip
-RECURRING = BOUNDARY | {name.replace("on_", "vk", 1) for name in vars(Transfers) if name.startswith("on_")}
+RECURRING = BOUNDARY | {
+    name.replace("on_", "vk", 1) for name in vars(Transfers) if name.startswith("on_")
+}
 """Commands whose effect depends only on their arguments."""
 
 DESTROYERS = {
@@ -44,11 +48,14 @@ DESTROYERS = {
     "DestroyRenderPass": ("renderPass", "render_passes"),
     "DestroyFramebuffer": ("framebuffer", "framebuffers"),
 }
-"""The calls that only destroy objects: the parameter with their handles, and the tracker's mapping that holds them."""
+"""The calls that only destroy objects: the parameter with their handles, and the tracker's mapping
+that holds them.
+"""
 
 MAX_CONTAINERS = 500_000
-"""Maximum number of structures and arrays in all different render passes and pipelines that exist at a time. 256 bytes of shader code count
-as one."""
+"""Maximum number of structures and arrays in all different render passes and pipelines that exist
+at a time. 256 bytes of shader code count as one.
+"""
 
 MAX_DESTROYED = 50_000
 """Maximum number of them in those that were destroyed, which a program may create again."""
@@ -56,13 +63,20 @@ MAX_DESTROYED = 50_000
 MIN_DESTROYED = 4096
 """Minimum number of objects that are destroyed between two searches for them."""
 
-TOO_MANY_STRUCTURES = f"render passes and pipelines have more than {MAX_CONTAINERS:,} structures; further ones are not followed"
+TOO_MANY_STRUCTURES = (
+    f"render passes and pipelines have more than {MAX_CONTAINERS:,} structures; "
+    f"further ones are not followed"
+)
 
 MAX_STAGES = 16
-"""Maximum number of stages of a pipeline whose shaders are read; with more, it is unknown what they read."""
+"""Maximum number of stages of a pipeline whose shaders are read; with more, it is unknown what they
+read.
+"""
 
 MAX_SHADER_IMAGES = 256
-"""Maximum number of images that a shader declares; of a shader with more it is unknown what it reads."""
+"""Maximum number of images that a shader declares; of a shader with more it is unknown what it
+reads.
+"""
 
 MAX_WORDS = 4_000_000
 """Maximum number of words of declarations in shaders; what further shaders read is unknown."""
@@ -74,16 +88,19 @@ MAX_ROUTES = 4096
 """Maximum number of names of calls that are remembered."""
 
 RECURS, BEGINS_OR_ENDS, DESTROYS, CHANGES = 1, 2, 3, 4
-"""How a call is processed: commands whose effect is cached, those of them in BOUNDARY, calls that destroy objects, and others that may
-change what commands refer to."""
+"""How a call is processed: commands whose effect is cached, those of them in BOUNDARY, calls that
+destroy objects, and others that may change what commands refer to.
+"""
 
 Route = tuple[Callable[[Call], None], int]
 
 
 class CachedCommand(NamedTuple):
-    """The effect of a command, cached by the identity of its arguments, because readers reuse the arguments of identical calls.
+    """The effect of a command, cached by the identity of its arguments, because readers reuse the
+    arguments of identical calls.
 
-    `generation` is the tracker's when the command was recorded; `boundary` says whether it begins or ends a pass or subpass.
+    `generation` is the tracker's when the command was recorded; `boundary` says whether it begins
+    or ends a pass or subpass.
     """
 
     args: dict[str, Any]
@@ -93,7 +110,9 @@ class CachedCommand(NamedTuple):
 
 
 class Tracker(FrameMarks):
-    """The state of one capture. Call `feed` for each call in order, then `finish`. `frame_end` is the option `--frame-end`."""
+    """The state of one capture. Call `feed` for each call in order, then `finish`. `frame_end` is
+    the option `--frame-end`.
+    """
 
     def __init__(self, frame_end: str | None = None) -> None:
         super().__init__()
@@ -102,10 +121,14 @@ class Tracker(FrameMarks):
             self.frames.frame_label = FrameLabel(text) if text else None
         self.modules: dict[int, bytes] = {}
         self.shader_images: dict[int, dict[str, ShaderImages | None]] = {}
-        """The images that the entry points of modules declare, as far as pipelines have used them."""
+        """The images that the entry points of modules declare, as far as pipelines have used
+        them.
+        """
         self._words_left = MAX_WORDS
         self.generation = 0
-        """The number of destroyed objects. After a destruction, a handle may refer to another object."""
+        """The number of destroyed objects. After a destruction, a handle may refer to another
+        object.
+        """
         self._changes = 0
         """The number of calls after which commands may refer to other objects."""
         self._recordings = Recordings(self._process, self.buffers)
@@ -115,11 +138,17 @@ class Tracker(FrameMarks):
         self._containers = 0
         self._next_count = MAX_DESTROYED
         self._next_generation = 0
-        """The number of structures above which destroyed objects are forgotten, and the generation from which on."""
+        """The number of structures above which destroyed objects are forgotten, and the generation
+        from which on.
+        """
         self.distinct: dict[Hashable, RenderPass | Pipeline] = {}
-        """Render passes and pipelines by their creation parameters, those created last at the end."""
+        """Render passes and pipelines by their creation parameters, those created last at the
+        end.
+        """
         self.handlers: dict[str, Callable[[Call], None]] = {
-            "vk" + name[len("on_") :]: getattr(self, name) for name in dir(self) if name.startswith("on_")
+            "vk" + name[len("on_") :]: getattr(self, name)
+            for name in dir(self)
+            if name.startswith("on_")
         }
         for name, (parameter, objects) in DESTROYERS.items():
             self.handlers[f"vk{name}"] = partial(_remove, getattr(self, objects), parameter)
@@ -150,7 +179,11 @@ class Tracker(FrameMarks):
                 self.layouts.initial = frozenset((UNSEEN,))
         elif way in (RECURS, BEGINS_OR_ENDS):
             cached = self._cache.get(id(call.args))
-            if cached is not None and cached.args is call.args and cached.generation == self.generation:
+            if (
+                cached is not None
+                and cached.args is call.args
+                and cached.generation == self.generation
+            ):
                 self._replay(cached, call)
             else:
                 self._record(handler, call, way == BEGINS_OR_ENDS)
@@ -184,7 +217,9 @@ class Tracker(FrameMarks):
         if commands or boundary:
             if len(self._cache) >= MAX_CACHED_COMMANDS:
                 self._cache.clear()
-            self._cache[id(call.args)] = CachedCommand(call.args, self.generation, boundary, commands)
+            self._cache[id(call.args)] = CachedCommand(
+                call.args, self.generation, boundary, commands
+            )
 
     def _replay(self, cached: CachedCommand, call: Call) -> None:
         buffer = self.buffer(call)
@@ -214,16 +249,29 @@ class Tracker(FrameMarks):
 
     on_CreateRenderPass2 = on_CreateRenderPass
 
-    def _deduplicate(self, kind: Callable[..., Any], call: Call, tree: Tree, related: RenderPass | None = None, code: int = 0) -> Any:
-        """The object of a kind created earlier from the same parameters, or a new one; None if there are too many different ones. `code` is
-        the number of bytes of its shaders."""
-        digest = hashlib.blake2b(repr(tree).encode("utf-8", "surrogatepass"), digest_size=16).digest()
+    def _deduplicate(
+        self,
+        kind: Callable[..., Any],
+        call: Call,
+        tree: Tree,
+        related: RenderPass | None = None,
+        code: int = 0,
+    ) -> Any:
+        """The object of a kind created earlier from the same parameters, or a new one; None if
+        there are too many different ones. `code` is the number of bytes of its shaders.
+        """
+        digest = hashlib.blake2b(
+            repr(tree).encode("utf-8", "surrogatepass"), digest_size=16
+        ).digest()
         key = (kind, related.number if related is not None else None, digest)
         existing = self.distinct.pop(key, None)
         if existing is None:
             weight = containers(tree) + code // 256
             self._containers += weight
-            if self._containers > min(self._next_count, MAX_CONTAINERS) and self.generation >= self._next_generation:
+            if (
+                self._containers > min(self._next_count, MAX_CONTAINERS)
+                and self.generation >= self._next_generation
+            ):
                 self._forget_destroyed()
                 self._containers += weight
             if self._containers > MAX_CONTAINERS:
@@ -237,7 +285,11 @@ class Tracker(FrameMarks):
     def _forget_destroyed(self) -> None:
         """Forgets the objects that were destroyed, except those created last."""
         pipelines = self.pipelines.values()
-        existing: set[object] = {*self.render_passes.values(), *pipelines, *(pipeline.render_pass for pipeline in pipelines)}
+        existing: set[object] = {
+            *self.render_passes.values(),
+            *pipelines,
+            *(pipeline.render_pass for pipeline in pipelines),
+        }
         kept = []
         self._containers = destroyed = 0
         for key, each in reversed(self.distinct.items()):
@@ -256,13 +308,20 @@ class Tracker(FrameMarks):
 
     def on_CreateFramebuffer(self, call: Call) -> None:
         info = values.record(call.args.get("pCreateInfo"))
-        tree = to_tree(FramebufferRecord, {key: item for key, item in info.items() if key not in ("pAttachments", "attachments")})
+        tree = to_tree(
+            FramebufferRecord,
+            {key: item for key, item in info.items() if key not in ("pAttachments", "attachments")},
+        )
         imageless = "IMAGELESS" in tree.get("flags", ())
         views = values.items(info.get("pAttachments"))[:64]
         images = None if imageless else tuple(map(self.view, views))
         handle = values.handle(call.args.get("pFramebuffer"))
-        size: Tree = {member: tree[member] for member in ("width", "height", "layers") if member in tree}
-        self.framebuffers[handle] = Framebuffer(call, next(self.numbers[Framebuffer]), size, images, self.parts_of(views))
+        size: Tree = {
+            member: tree[member] for member in ("width", "height", "layers") if member in tree
+        }
+        self.framebuffers[handle] = Framebuffer(
+            call, next(self.numbers[Framebuffer]), size, images, self.parts_of(views)
+        )
 
     # Shaders and pipelines.
 
@@ -287,8 +346,12 @@ class Tracker(FrameMarks):
         infos = values.items(call.args.get("pCreateInfos"))
         for info, handle in zip(infos, values.items(call.args.get("pPipelines")), strict=False):
             tree, modules = pipeline_of(values.record(info), self.modules)
-            render_pass = self.render_passes.get(values.handle(values.record(info).get("renderPass")))
-            if render_pass is not None and tree.get("subpass", 0) >= max(len(render_pass.tree.get("subpasses", ())), 1):
+            render_pass = self.render_passes.get(
+                values.handle(values.record(info).get("renderPass"))
+            )
+            if render_pass is not None and tree.get("subpass", 0) >= max(
+                len(render_pass.tree.get("subpasses", ())), 1
+            ):
                 del tree["subpass"]
             code = sum(map(len, modules.values()))
             pipeline: Pipeline | None = self._deduplicate(Pipeline, call, tree, render_pass, code)
@@ -307,15 +370,23 @@ class Tracker(FrameMarks):
 
     def _bindings(self, call: Call, stages: int) -> None:
         """Keeps what new pipelines can read of descriptor sets."""
-        for item, handle in zip(values.items(call.args.get("pCreateInfos")), values.items(call.args.get("pPipelines")), strict=False):
+        for item, handle in zip(
+            values.items(call.args.get("pCreateInfos")),
+            values.items(call.args.get("pPipelines")),
+            strict=False,
+        ):
             info = values.record(item)
             self.pipeline_bindings.pop(values.handle(handle), None)
             if self.has_room(self.pipeline_bindings, call):
-                bindings = self.bindings_of(info.get("layout"), stages, self._images_of_shaders(info))
+                bindings = self.bindings_of(
+                    info.get("layout"), stages, self._images_of_shaders(info)
+                )
                 self.pipeline_bindings[values.handle(handle)] = bindings
 
     def _images_of_shaders(self, info: dict[str, Any]) -> ShaderImages | None:
-        """The images that the shaders of a pipeline declare; None if the code of one of them is unknown."""
+        """The images that the shaders of a pipeline declare; None if the code of one of them is
+        unknown.
+        """
         stages = values.items(info.get("pStages")) or [info.get("stage")]
         found: dict[tuple[int, int], frozenset[bool]] = {}
         if values.chained(info, "PIPELINE_LIBRARY_CREATE_INFO") is not None:
@@ -336,7 +407,9 @@ class Tracker(FrameMarks):
         return found if len(stages) <= MAX_STAGES else None
 
     def _images_of(self, code: bytes, name: str) -> ShaderImages | None:
-        """The images that an entry point declares; None if the module is invalid, or many large ones came before it."""
+        """The images that an entry point declares; None if the module is invalid, or many large
+        ones came before it.
+        """
         if len(code) > 4 * self._words_left:
             return None
         try:
@@ -350,14 +423,22 @@ class Tracker(FrameMarks):
 
     def on_SetDebugUtilsObjectName(self, call: Call) -> None:
         info = values.record(call.args.get("pNameInfo"))
-        namer = _object_type(info.get("objectType")), values.handle(info.get("objectHandle", info.get("object")))
+        namer = (
+            _object_type(info.get("objectType")),
+            values.handle(info.get("objectHandle", info.get("object"))),
+        )
         kind, handle = namer
         objects: dict[int, CapturedObject] = getattr(self, LABELED.get(kind, ""), {})
         created = self.view(handle) if kind == "IMAGE_VIEW" else objects.get(handle)
         if created is None:
             return
-        # An object may stand for several that were created alike. An image's own name counts more than its view's.
-        if created.namer is None or created.namer == namer or (kind == "IMAGE" and created.namer[0] == "IMAGE_VIEW"):
+        # An object may stand for several that were created alike. An image's own name counts more
+        # than its view's.
+        if (
+            created.namer is None
+            or created.namer == namer
+            or (kind == "IMAGE" and created.namer[0] == "IMAGE_VIEW")
+        ):
             created.label = printable(values.text(info.get("pObjectName")) or "")
             created.namer = namer if created.label else None
 
@@ -376,7 +457,8 @@ def _remove(objects: dict[int, Any], parameter: str, call: Call) -> None:
 
 
 _TYPES = {
-    10: "IMAGE", 14: "IMAGE_VIEW", 18: "RENDER_PASS", 19: "PIPELINE", 24: "FRAMEBUFFER", 27: "SWAPCHAIN_KHR", 1000001000: "SWAPCHAIN_KHR"
+    10: "IMAGE", 14: "IMAGE_VIEW", 18: "RENDER_PASS", 19: "PIPELINE", 24: "FRAMEBUFFER",
+    27: "SWAPCHAIN_KHR", 1000001000: "SWAPCHAIN_KHR"
 }  # fmt: skip
 """VkObjectType and VkDebugReportObjectTypeEXT."""
 LABELED = {
@@ -393,5 +475,9 @@ def _object_type(kind: object) -> str:
     number = values.integer(kind)
     if number is not None:
         return _TYPES.get(number, "")
-    name = values.enumerant_name(kind).removeprefix("VK_OBJECT_TYPE_").removeprefix("VK_DEBUG_REPORT_OBJECT_TYPE_")
+    name = (
+        values.enumerant_name(kind)
+        .removeprefix("VK_OBJECT_TYPE_")
+        .removeprefix("VK_DEBUG_REPORT_OBJECT_TYPE_")
+    )
     return name.removesuffix("_EXT")

@@ -1,7 +1,8 @@
 """Parses the values of all capture formats.
 
-A number may be a number or a string (`256`, `"256"`, `"0x11"`); a boolean `true`, `1`, `"1"` or `"VK_TRUE"`; an enumerant its name, its
-number or `4 (VK_SAMPLE_COUNT_4_BIT)`; flags a number, `0x00000011`, `VK_A|VK_B` or `17 (VK_A | VK_B)`. Anything else is None: unknown.
+A number may be a number or a string (`256`, `"256"`, `"0x11"`); a boolean `true`, `1`, `"1"` or
+`"VK_TRUE"`; an enumerant its name, its number or `4 (VK_SAMPLE_COUNT_4_BIT)`; flags a number,
+`0x00000011`, `VK_A|VK_B` or `17 (VK_A | VK_B)`. Anything else is None: unknown.
 """
 
 from __future__ import annotations
@@ -77,7 +78,9 @@ def text(value: object) -> str | None:
 
 
 def enum(enums: str, value: object) -> str | None:
-    """The canonical short name of an enumerant. `enums` is one enum name, or several joined by `|`."""
+    """The canonical short name of an enumerant. `enums` is one enum name, or several joined by
+    `|`.
+    """
     if isinstance(value, str) and len(value) <= MAX_TEXT:
         name = enumerant(enums, value) or enumerant(enums, enumerant_name(value))
         if name is not None:
@@ -87,14 +90,20 @@ def enum(enums: str, value: object) -> str | None:
 
 
 def enumerant_name(value: object) -> str:
-    """The name of an enumerant as written, or in parentheses as in `4 (VK_SAMPLE_COUNT_4_BIT)`; empty if it is not a string."""
+    """The name of an enumerant as written, or in parentheses as in `4 (VK_SAMPLE_COUNT_4_BIT)`;
+    empty if it is not a string.
+    """
     if not isinstance(value, str):
         return ""
-    return value[value.find("(") + 1 : -1].strip() if value.endswith(")") and "(" in value else value
+    return (
+        value[value.find("(") + 1 : -1].strip() if value.endswith(")") and "(" in value else value
+    )
 
 
 def flags(enums: str, value: object) -> tuple[list[str], bool] | None:
-    """The canonical short names of the known bits, and whether all bits are known; None if the value is not a mask."""
+    """The canonical short names of the known bits, and whether all bits are known; None if the
+    value is not a mask.
+    """
     bits_ = value if type(value) is int else mask(value)
     if bits_ is None:
         return _names(enums, value) if isinstance(value, str) and len(value) <= MAX_TEXT else None
@@ -103,7 +112,9 @@ def flags(enums: str, value: object) -> tuple[list[str], bool] | None:
     names = flag_names(enums, bits_)
     if names is not None:
         return names, True
-    return [name for name, bit in VALUES[enums].items() if bit and bit & (bit - 1) == 0 and bits_ & bit], False
+    return [
+        name for name, bit in VALUES[enums].items() if bit and bit & (bit - 1) == 0 and bits_ & bit
+    ], False
 
 
 def bits(enums: str, value: object) -> int | None:
@@ -146,12 +157,24 @@ def chain(structure: object) -> Iterator[dict[str, Any]]:
 
 def chained(structure: dict[str, Any], kind: str) -> dict[str, Any] | None:
     """The structure in a pNext chain whose sType, without prefix and vendor suffix, is `kind`."""
-    return next((following for following in chain(structure.get("pNext")) if structure_type(following) == kind), None)
+    return next(
+        (
+            following
+            for following in chain(structure.get("pNext"))
+            if structure_type(following) == kind
+        ),
+        None,
+    )
 
 
 def structure_type(structure: dict[str, Any]) -> str:
     """The sType of a structure without its prefix and vendor suffix."""
-    return enumerant_name(structure.get("sType")).removeprefix("VK_STRUCTURE_TYPE_").removesuffix("_KHR").removesuffix("_EXT")
+    return (
+        enumerant_name(structure.get("sType"))
+        .removeprefix("VK_STRUCTURE_TYPE_")
+        .removesuffix("_KHR")
+        .removesuffix("_EXT")
+    )
 
 
 def _number_in(value: str) -> int | None:

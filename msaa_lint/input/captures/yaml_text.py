@@ -1,4 +1,6 @@
-"""Writes plain data as the YAML of a description, short structures on one line, and records the call behind each line."""
+"""Writes plain data as the YAML of a description, short structures on one line, and records the
+call behind each line.
+"""
 
 from __future__ import annotations
 
@@ -64,12 +66,16 @@ class Lines:
         self.line("---")
         self._anchors.clear()
 
-    def member(self, indent: int, key: str, value: Any, origin: Origin | None, comment: str = "") -> None:
+    def member(
+        self, indent: int, key: str, value: Any, origin: Origin | None, comment: str = ""
+    ) -> None:
         """Writes `key: value`, on one line if it fits."""
         self._put(" " * indent + f"{scalar(key)}:", indent, value, origin, comment)
 
     def item(self, indent: int, value: Any, origin: Origin | None, comment: str = "") -> None:
-        """Writes `- value`. A mapping that is too long for one line has its first member on the line of the dash."""
+        """Writes `- value`. A mapping that is too long for one line has its first member on the
+        line of the dash.
+        """
         head = " " * indent + "-"
         if isinstance(value, dict) and value and (len(value) == 1 or not self._fits(head, value)):
             (key, first), *rest = value.items()

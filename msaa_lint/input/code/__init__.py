@@ -1,7 +1,8 @@
 """Source code as input: detects the language of a file and builds documents from its code.
 
-Each language has a module with `trees(code)`, which returns the code's images, passes, and pipelines as a description. Language modules are
-imported only when code in that language is read. The grammars are in the extra `source`.
+Each language has a module with `trees(code)`, which returns the code's images, passes, and
+pipelines as a description. Language modules are imported only when code in that language is read.
+The grammars are in the extra `source`.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -28,8 +29,10 @@ _DATA = (".yaml", ".yml", ".json", ".jsonl", ".xml", ".foz", ".rdc", ".toml")
 
 
 class Program(NamedTuple):
-    """The documents of a source file, the assumptions made for each of them as lines for the user, the code that they were read from,
-    what of it exceeds a limit, and what is wrong with the assumptions that its comments state."""
+    """The documents of a source file, the assumptions made for each of them as lines for the user,
+    the code that they were read from, what of it exceeds a limit, and what is wrong with the
+    assumptions that its comments state.
+    """
 
     documents: "tuple[Document, ...]"
     assumed: tuple[tuple[str, ...], ...]
@@ -43,7 +46,8 @@ NOTHING = Program((), (), (), ())
 
 
 def language_of(name: str, head: str) -> str | None:
-    """Returns the language of a file by its extension and the start of its text, or None for other files.
+    """Returns the language of a file by its extension and the start of its text, or None for other
+    files.
 
     Any other text with fenced code blocks that mention Vulkan or Metal is read as Markdown.
     """
@@ -68,11 +72,13 @@ def installed() -> bool:
     return all(find_spec(name) is not None for name in ("tree_sitter", *GRAMMARS.values()))
 
 
-def read(source: "Source", language: str, assumed: "Mapping[str, bool | int | str] | None" = None) -> Program:
+def read(
+    source: "Source", language: str, assumed: "Mapping[str, bool | int | str] | None" = None
+) -> Program:
     """Returns the documents of source code in source order.
 
-    Code that is not understood is left out; `assumed` are values that the configuration states, by name.
-    Raises `Missing` if the extra is not installed, and `Unreadable` if the code is too long.
+    Code that is not understood is left out; `assumed` are values that the configuration states, by
+    name. Raises `Missing` if the extra is not installed, and `Unreadable` if the code is too long.
     """
     from .parsing import Code, Missing, ascii_only
 
@@ -93,11 +99,17 @@ def read(source: "Source", language: str, assumed: "Mapping[str, bool | int | st
 
         by_code = with_page_counts(by_code)
     every = [entry for _, item in by_code for entry in item]
-    return program_of(source, codes_found, every, lambda at: f"line {source.position(at.start).line}", assumptions)
+    return program_of(
+        source, codes_found, every, lambda at: f"line {source.position(at.start).line}", assumptions
+    )
 
 
-def assumptions_of(codes: "Sequence[tuple[Code, int]]", assumed: "Mapping[str, bool | int | str]") -> "Assumptions | None":
-    """Returns what the comments of code, given with its offset in the program's text, and the configuration state; None if nothing."""
+def assumptions_of(
+    codes: "Sequence[tuple[Code, int]]", assumed: "Mapping[str, bool | int | str]"
+) -> "Assumptions | None":
+    """Returns what the comments of code, given with its offset in the program's text, and the
+    configuration state; None if nothing.
+    """
     if not assumed and not any("assume" in code.text for code, _ in codes):
         return None
     from .assumptions import stated
@@ -110,7 +122,10 @@ def check_length(source: "Source") -> None:
     from .core.limits import MAX_CHARACTERS
 
     if len(source.text) > MAX_CHARACTERS:
-        raise Unreadable(f"source code is read up to {MAX_CHARACTERS} characters, and this file has {len(source.text)}")
+        raise Unreadable(
+            f"source code is read up to {MAX_CHARACTERS} characters, and this file has "
+            f"{len(source.text)}"
+        )
 
 
 def program_of(
@@ -120,16 +135,24 @@ def program_of(
     line: "Callable[[Span], str]",
     assumptions: "Assumptions | None" = None,
 ) -> Program:
-    """Returns the documents of what was read, whose places are in `source`; `line` names the line of a place to the user. `assumptions` are
-    those that it was read with."""
+    """Returns the documents of what was read, whose places are in `source`; `line` names the line
+    of a place to the user. `assumptions` are those that it was read with.
+    """
     from .documents import bound
 
     reads = [entry for entry in every if entry.tree.value or not entry.unread]
     unread = tuple(part for entry in every for part in entry.unread)
     pieces = any(code.fragments for code in codes)
-    documents = tuple(bound(source, read.tree, pieces)._replace(modules=read.modules, basis=read.basis) for read in reads)
+    documents = tuple(
+        bound(source, read.tree, pieces)._replace(modules=read.modules, basis=read.basis)
+        for read in reads
+    )
     return Program(
-        documents, tuple(_assumption_lines(read.assumed, line) for read in reads), tuple(codes), unread, _remarks(assumptions, bool(unread))
+        documents,
+        tuple(_assumption_lines(read.assumed, line) for read in reads),
+        tuple(codes),
+        unread,
+        _remarks(assumptions, bool(unread)),
     )
 
 
@@ -158,15 +181,26 @@ def _readings(code: "Code") -> "Iterator[Read]":
             yield tree if isinstance(tree, Read) else Read(tree)
     except RecursionError:
         start = Span(0, 0)
-        yield Read(mapping([], start), unread=(Unread("the code nests too deeply to be read; it is not checked", start),))
+        yield Read(
+            mapping([], start),
+            unread=(Unread("the code nests too deeply to be read; it is not checked", start),),
+        )
 
 
 MAX_ASSUMED = 3
 """The number of assumptions shown for each document."""
 
 
-def _assumption_lines(assumed: "tuple[tuple[str, Span, str], ...]", line: "Callable[[Span], str]") -> tuple[str, ...]:
+def _assumption_lines(
+    assumed: "tuple[tuple[str, Span, str], ...]", line: "Callable[[Span], str]"
+) -> tuple[str, ...]:
     """Returns the first assumptions as lines for the user."""
-    lines = [f"{what} ({line(at)}) is unknown; assumed to be {value}" for what, at, value in assumed]
+    lines = [
+        f"{what} ({line(at)}) is unknown; assumed to be {value}" for what, at, value in assumed
+    ]
     more = len(lines) - MAX_ASSUMED
-    return (*lines[:MAX_ASSUMED], f"{more} more assumption{'' if more == 1 else 's'}") if more > 0 else tuple(lines)
+    return (
+        (*lines[:MAX_ASSUMED], f"{more} more assumption{'' if more == 1 else 's'}")
+        if more > 0
+        else tuple(lines)
+    )

@@ -1,4 +1,6 @@
-"""Comments in source code that can contain suppressions, in the form of comments in a description: `#` followed by text."""
+"""Comments in source code that can contain suppressions, in the form of comments in a description:
+`#` followed by text.
+"""
 
 from __future__ import annotations
 
@@ -13,13 +15,16 @@ from .parsing import Code
 
 
 class Comments(NamedTuple):
-    """The comments of a source file, one for each line, and the numbers of lines that contain only a comment."""
+    """The comments of a source file, one for each line, and the numbers of lines that contain only
+    a comment.
+    """
 
     comments: tuple[Comment, ...]
     alone: frozenset[int]
 
 
-# Tokens that may contain comment marks: strings, raw strings (C++ [lex.string]), Swift's multi-line and `#` strings, Rust's raw strings.
+# Tokens that may contain comment marks: strings, raw strings (C++ [lex.string]), Swift's multi-line
+# and `#` strings, Rust's raw strings.
 _C = re.compile(
     r"""
     (?P<line>//(?:[^\n\\]|\\(?:\r\n|[^\n])|\\\n)*)
@@ -60,8 +65,8 @@ _BEFORE = re.compile(r"[ \t]*\**[ \t]*")
 def comments(codes: Sequence[Code]) -> Comments:
     """Returns the comments of code in order.
 
-    A comment that spans several lines yields one for each line. The `//` or `/*` becomes `# `, and the closing mark is removed, so that
-    offsets are preserved.
+    A comment that spans several lines yields one for each line. The `//` or `/*` becomes `# `, and
+    the closing mark is removed, so that offsets are preserved.
     """
     lines: list[Comment] = []
     alone: set[int] = set()
@@ -121,7 +126,11 @@ def _block_end(text: str, at: int, nested: bool) -> int:
 
 def _lines(text: str, start: int, end: int) -> Iterator[Comment]:
     """Yields the lines of a comment."""
-    stop = end - 2 if text.startswith("/*", start) and end - start >= 4 and text.startswith("*/", end - 2) else end
+    stop = (
+        end - 2
+        if text.startswith("/*", start) and end - start >= 4 and text.startswith("*/", end - 2)
+        else end
+    )
     for match in re.finditer(r"[^\r\n]+", text[start:stop]):
         at, line = start + match.start(), match[0].rstrip()
         if at == start:

@@ -1,4 +1,6 @@
-"""Finds where source code creates multisampled images and pipelines, by its words, if nothing of them could be read."""
+"""Finds where source code creates multisampled images and pipelines, by its words, if nothing of
+them could be read.
+"""
 
 import re
 from collections.abc import Iterable, Iterator
@@ -13,11 +15,14 @@ IMAGES = "images"
 PIPELINES = "pipelines"
 READS = "reads"
 
-_BLANKED = re.compile(r"//[^\n]*|/\*.*?(?:\*/|\Z)|\"(?:[^\"\\\n]|\\.)*\"|'(?:[^'\\\n]|\\.)*'", re.DOTALL)
+_BLANKED = re.compile(
+    r"//[^\n]*|/\*.*?(?:\*/|\Z)|\"(?:[^\"\\\n]|\\.)*\"|'(?:[^'\\\n]|\\.)*'", re.DOTALL
+)
 """Comments and literals."""
 
 _ONE = re.compile(
-    r"(?:\(\s*\w+\s*\)\s*)?(?:0|1|1u|\{\s*\}|VK_SAMPLE_COUNT_1_BIT|(?:\w+::)*SampleCountFlagBits(?:KHR)?::e1|\.e1)?\s*", re.IGNORECASE
+    r"(?:\(\s*\w+\s*\)\s*)?(?:0|1|1u|\{\s*\}|VK_SAMPLE_COUNT_1_BIT|(?:\w+::)*SampleCountFlagBits(?:KHR)?::e1|\.e1)?\s*",
+    re.IGNORECASE,
 )
 """A sample count of one, or no value."""
 
@@ -27,7 +32,7 @@ _ASSIGNED = re.compile(
 )
 """A name that gets a value. The value may contain another one."""
 
-_COUNT = r"(?:VK_SAMPLE_COUNT_(?:2|4|8|16|32|64)_BIT|(?:\w+::){0,9}SampleCountFlagBits::e(?:2|4|8|16|32|64)\b)"
+_COUNT = r"(?:VK_SAMPLE_COUNT_(?:2|4|8|16|32|64)_BIT|(?:\w+::){0,9}SampleCountFlagBits::e(?:2|4|8|16|32|64)\b)"  # noqa: E501
 _NAMED = r"\b(?:\w{1,80}(?:\.|->|::)){0,2}\w{0,80}(?i:sample|msaa)\w{0,80}"
 _VALUE = r"(?P<value>[^,;{}\n]{1,200}|\{\s*\})"
 
@@ -43,7 +48,9 @@ _VULKAN_ANCHOR = re.compile(
     r"(?:\.|->)\s*(?:samples|rasterizationSamples|setSamples|setRasterizationSamples)\b|VK_SAMPLE_COUNT_(?!1_)|SampleCountFlagBits::e(?!1\b)"
     r"|VK_ATTACHMENT_LOAD_OP_|VK_IMAGE_TILING_|AttachmentLoadOp::|ImageTiling::"
 )
-"""What each match of `_VULKAN` contains. It is searched for only in the statements with one of these."""
+"""What each match of `_VULKAN` contains. It is searched for only in the statements with one of
+these.
+"""
 
 MAX_BEFORE = 1000
 MAX_AFTER = 400
@@ -60,12 +67,16 @@ _METAL = re.compile(
 )
 _METAL_IMAGES = re.compile(r"MTLTextureDescriptor|MTKView|texture2DDescriptor|extureDescriptor")
 
-_GLSL = re.compile(r"\b(?P<initializer>[iu]?(?:sampler|texture|image)2DMS(?:Array)?|[iu]?subpassInputMS)\b")
+_GLSL = re.compile(
+    r"\b(?P<initializer>[iu]?(?:sampler|texture|image)2DMS(?:Array)?|[iu]?subpassInputMS)\b"
+)
 _GLSL_READS = re.compile(r"\b(?:texelFetch|subpassLoad|imageLoad)\b")
 
 
 class Creation(NamedTuple):
-    """Code that creates something multisampled: what (IMAGES, PIPELINES; READS: a shader that reads samples), its place, and its text."""
+    """Code that creates something multisampled: what (IMAGES, PIPELINES; READS: a shader that reads
+    samples), its place, and its text.
+    """
 
     kind: str
     start: int
@@ -79,13 +90,18 @@ def creations(codes: Iterable[Code]) -> Iterator[Creation]:
     Declarations of members, tables of enumerants, and comparisons create nothing.
     """
     for code in codes:
-        if code.language not in ("swift", "glsl", "objc", "objcpp") and _VULKAN_ANCHOR.search(code.text) is None:
+        if (
+            code.language not in ("swift", "glsl", "objc", "objcpp")
+            and _VULKAN_ANCHOR.search(code.text) is None
+        ):
             continue
         yield from _of_language(code.language, blanked(code))
 
 
 def blanked(code: Code) -> str:
-    """Returns the text of code with comments, literals, and dead code blanked, at the same offsets."""
+    """Returns the text of code with comments, literals, and dead code blanked, at the same
+    offsets.
+    """
     return _BLANKED.sub(lambda match: blank(match[0]), without_dead_code(code).text)
 
 
@@ -110,7 +126,10 @@ class _Ones:
             self.names = {}
             for match in _ASSIGNED.finditer(self.text):
                 name = match["name"] or match["macro"]
-                one = _ONE.fullmatch((match["assigned"] or match["defined"] or "").strip()) is not None
+                one = (
+                    _ONE.fullmatch((match["assigned"] or match["defined"] or "").strip())
+                    is not None
+                )
                 self.names[name] = one and self.names.get(name, True)
         return self.names.get(value, False)
 
@@ -144,12 +163,21 @@ def _of_language(language: str, text: str) -> Iterator[Creation]:
         yield from _of_api(text, _VULKAN, _VULKAN_IMAGES, _VULKAN_PIPELINES)
 
 
-def _of_api(text: str, pattern: re.Pattern[str], images: re.Pattern[str], pipelines: re.Pattern[str] | None) -> Iterator[Creation]:
-    has_images, has_pipelines = images.search(text) is not None, pipelines is None or pipelines.search(text) is not None
+def _of_api(
+    text: str, pattern: re.Pattern[str], images: re.Pattern[str], pipelines: re.Pattern[str] | None
+) -> Iterator[Creation]:
+    has_images, has_pipelines = (
+        images.search(text) is not None,
+        pipelines is None or pipelines.search(text) is not None,
+    )
     ones = _Ones(text)
     for match in _matches(pattern, text):
         groups = match.groupdict()
-        value = next(groups[name] for name in ("value", "argument", "initializer", "passed") if groups.get(name) is not None).strip()
+        value = next(
+            groups[name]
+            for name in ("value", "argument", "initializer", "passed")
+            if groups.get(name) is not None
+        ).strip()
         if ones.holds(value):
             continue
         setter = groups.get("setter") or "samples"

@@ -1,5 +1,6 @@
-"""Builds documents from trees read from source code; members that cannot be bound and names that cannot be resolved are removed, not
-reported."""
+"""Builds documents from trees read from source code; members that cannot be bound and names that
+cannot be resolved are removed, not reported.
+"""
 
 from __future__ import annotations
 

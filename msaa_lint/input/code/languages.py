@@ -37,11 +37,16 @@ UNREAD = {
 }
 """Extensions of languages that are used for graphics but are not supported."""
 
-_CPP = re.compile(r"::|\b(?:class|namespace|template|constexpr|nullptr|public|private)\b|^[ \t]*using[ \t]", re.MULTILINE)
+_CPP = re.compile(
+    r"::|\b(?:class|namespace|template|constexpr|nullptr|public|private)\b|^[ \t]*using[ \t]",
+    re.MULTILINE,
+)
 """Matches C++ that a C header does not contain."""
 
 _OBJC = re.compile(
-    r"^[ \t]*(?:#[ \t]*import\b|@(?:interface|implementation|protocol|class|import|end|property|autoreleasepool)\b)", re.MULTILINE
+    r"^[ \t]*(?:#[ "
+    r"\t]*import\b|@(?:interface|implementation|protocol|class|import|end|property|autoreleasepool)\b)",
+    re.MULTILINE,
 )
 
 _OBJC_WORD = re.compile(r"@(?:class|public|private)\b")
@@ -53,7 +58,9 @@ _NOT_OBJC = (
     (
         "MATLAB",
         re.compile(
-            r"\A\s*%|^[ \t]*(?:function\b|classdef\b|end(?:function|if|for)?[ \t]*;?[ \t]*(?:%.*)?$|clc\b|close all\b)", re.MULTILINE
+            r"\A\s*%|^[ \t]*(?:function\b|classdef\b|end(?:function|if|for)?[ \t]*;?[ "
+            r"\t]*(?:%.*)?$|clc\b|close all\b)",
+            re.MULTILINE,
         ),
     ),
 )
@@ -68,10 +75,16 @@ def language_of_header(head: str) -> str:
 
 
 def unread(name: str, head: str) -> str | None:
-    """Returns the unsupported language of a file by its extension and, where several share it, the start of its text, or None."""
+    """Returns the unsupported language of a file by its extension and, where several share it, the
+    start of its text, or None.
+    """
     base, dot, ending = name.rpartition("/")[2].rpartition(".")
     if not (base and dot):
         return None
     if ending.lower() != "m":
         return UNREAD.get(f".{ending.lower()}")
-    return None if _OBJC.search(head) else next((language for language, pattern in _NOT_OBJC if pattern.search(head)), None)
+    return (
+        None
+        if _OBJC.search(head)
+        else next((language for language, pattern in _NOT_OBJC if pattern.search(head)), None)
+    )

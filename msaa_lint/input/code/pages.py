@@ -1,4 +1,6 @@
-"""The code of pages: AsciiDoc's and reStructuredText's code blocks, line by line; those of Markdown are in `fences`."""
+"""The code of pages: AsciiDoc's and reStructuredText's code blocks, line by line; those of Markdown
+are in `fences`.
+"""
 
 from __future__ import annotations
 
@@ -13,7 +15,8 @@ NAMES = {
     "c": "c", "h": "c",
     "cpp": "cpp", "c++": "cpp", "cc": "cpp", "cxx": "cpp", "hpp": "cpp", "h++": "cpp", "hxx": "cpp",
     "objc": "objc", "objective-c": "objc", "objectivec": "objc", "obj-c": "objc", "m": "objc",
-    "objcpp": "objcpp", "objc++": "objcpp", "objective-c++": "objcpp", "obj-c++": "objcpp", "mm": "objcpp",
+    "objcpp": "objcpp", "objc++": "objcpp", "objective-c++": "objcpp", "obj-c++": "objcpp",
+    "mm": "objcpp",
     "swift": "swift",
     "rust": "rust", "rs": "rust",
     "glsl": "glsl", "vert": "glsl", "frag": "glsl", "comp": "glsl",
@@ -23,7 +26,9 @@ NAMES = {
 _LINE = re.compile(r"([^\r\n]*)(?:\r\n|\r|\n|\Z)")
 _FENCE = re.compile(r"(`{3,})[ \t]*([\w+-]+)[ \t]*")
 _CALLOUTS = re.compile(r"(?:[ \t]*<(?:\d+|\.)>)+[ \t]*\Z")
-_SOURCE = re.compile(r"\[(?:source)?(?:%\w+)*,\s*(?:language=)?\"?([\w+-]+)\"?(?:%\w+)*\s*(?:,[^\]]*)?\][ \t]*")
+_SOURCE = re.compile(
+    r"\[(?:source)?(?:%\w+)*,\s*(?:language=)?\"?([\w+-]+)\"?(?:%\w+)*\s*(?:,[^\]]*)?\][ \t]*"
+)
 _TITLE = re.compile(r"\.[^\s.].*|\[\[.*\]\][ \t]*|\[[#.%][^\]]*\][ \t]*")
 """A block title, an anchor, or attributes, which may stand between the language and its block."""
 
@@ -33,7 +38,9 @@ _OPTION = re.compile(r"[ \t]+:[\w-]+:.*")
 
 
 class Block(NamedTuple):
-    """A block of code: its language, and the ranges of its lines without quote marks and indentation."""
+    """A block of code: its language, and the ranges of its lines without quote marks and
+    indentation.
+    """
 
     language: str
     lines: tuple[Line, ...]
@@ -45,8 +52,9 @@ def lines_of(text: str) -> list[Line]:
 
 
 def asciidoc(text: str) -> Iterator[Block]:
-    """Yields the blocks of AsciiDoc with a style of `source` and a language, and its fenced blocks. Without a delimiter, the paragraph is
-    the block. Callouts at the ends of lines are left out."""
+    """Yields the blocks of AsciiDoc with a style of `source` and a language, and its fenced blocks.
+    Without a delimiter, the paragraph is the block. Callouts at the ends of lines are left out.
+    """
     lines = lines_of(text)
     at = 0
     while at < len(lines):
@@ -54,7 +62,11 @@ def asciidoc(text: str) -> Iterator[Block]:
         at += 1
         if fence is None and style is None:
             continue
-        mark, name = (fence[1], fence[2]) if fence is not None else ("", style[1] if style is not None else "")
+        mark, name = (
+            (fence[1], fence[2])
+            if fence is not None
+            else ("", style[1] if style is not None else "")
+        )
         while not mark and at < len(lines) and _TITLE.fullmatch(text, *lines[at]):
             at += 1
         delimiter = _DELIMITER.fullmatch(text, *lines[at]) if not mark and at < len(lines) else None
@@ -62,7 +74,9 @@ def asciidoc(text: str) -> Iterator[Block]:
             mark = delimiter[1]
             at += 1
         first = at
-        while at < len(lines) and (text[slice(*lines[at])].rstrip() != mark if mark else text[slice(*lines[at])].strip()):
+        while at < len(lines) and (
+            text[slice(*lines[at])].rstrip() != mark if mark else text[slice(*lines[at])].strip()
+        ):
             at += 1
         language = NAMES.get(name.lower())
         if language is not None:
@@ -71,12 +85,16 @@ def asciidoc(text: str) -> Iterator[Block]:
 
 
 def _without_callouts(text: str, line: Line) -> Line:
-    callouts = _CALLOUTS.search(text[slice(*line)]) if text.endswith((">", " ", "\t"), *line) else None
+    callouts = (
+        _CALLOUTS.search(text[slice(*line)]) if text.endswith((">", " ", "\t"), *line) else None
+    )
     return line if callouts is None else (line[0], line[0] + callouts.start())
 
 
 def restructured(text: str) -> Iterator[Block]:
-    """Yields the blocks of the directives `code-block`, `code`, and `sourcecode`: the lines after it that are indented more."""
+    """Yields the blocks of the directives `code-block`, `code`, and `sourcecode`: the lines after
+    it that are indented more.
+    """
     lines = lines_of(text)
     at = 0
     while at < len(lines):
@@ -87,7 +105,9 @@ def restructured(text: str) -> Iterator[Block]:
         while at < len(lines) and _OPTION.fullmatch(text, *lines[at]):
             at += 1
         margin, first = len(directive[1]), at
-        while at < len(lines) and (not text[slice(*lines[at])].strip() or _indentation(text, lines[at]) > margin):
+        while at < len(lines) and (
+            not text[slice(*lines[at])].strip() or _indentation(text, lines[at]) > margin
+        ):
             at += 1
         language = NAMES.get(directive[2].lower())
         if language is not None:

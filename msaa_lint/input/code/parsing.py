@@ -26,11 +26,15 @@ else:
 _NOT_ASCII = re.compile(r"[^\x00-\x7f]")
 
 MAX_CALLBACKS = 30_000
-"""The maximum number of progress callbacks of the parser, enough for 4 MB of ordinary code. Each takes up to half a millisecond."""
+"""The maximum number of progress callbacks of the parser, enough for 4 MB of ordinary code. Each
+takes up to half a millisecond.
+"""
 
 BASE_CALLBACKS = 1000
 CALLBACKS_PER_KILOBYTE = 25
-"""The number of callbacks that a text of any length, and each 1000 bytes of it, may take. Ordinary code takes 7, broken code 15."""
+"""The number of callbacks that a text of any length, and each 1000 bytes of it, may take. Ordinary
+code takes 7, broken code 15.
+"""
 
 MAX_DECLARATORS = 120
 """The maximum nesting of declarators."""
@@ -43,8 +47,9 @@ class Missing(Unreadable):
 
 
 class Assumed(NamedTuple):
-    """The value that the user states for a name, or for the sample count on the line `about`. `at` is its place in a comment; None if the
-    configuration states it."""
+    """The value that the user states for a name, or for the sample count on the line `about`. `at`
+    is its place in a comment; None if the configuration states it.
+    """
 
     name: str
     value: bool | int | str
@@ -61,7 +66,9 @@ class Remark(NamedTuple):
 
 
 class Assumptions(NamedTuple):
-    """What the user states about a program, the problems of the comments that state it, and what of it was of use."""
+    """What the user states about a program, the problems of the comments that state it, and what of
+    it was of use.
+    """
 
     entries: tuple[Assumed, ...]
     remarks: tuple[Remark, ...]
@@ -71,8 +78,9 @@ class Assumptions(NamedTuple):
 class Code(NamedTuple):
     """Code in one language.
 
-    Irrelevant text is blanked, and every non-ASCII character is replaced by `_`, so that the parser's byte offsets are code point offsets
-    in the input. `fragments` is set for pieces of a page rather than a whole program, `assumptions` once they are read.
+    Irrelevant text is blanked, and every non-ASCII character is replaced by `_`, so that the
+    parser's byte offsets are code point offsets in the input. `fragments` is set for pieces of a
+    page rather than a whole program, `assumptions` once they are read.
     """
 
     text: str
@@ -82,17 +90,20 @@ class Code(NamedTuple):
 
 
 class Unread(NamedTuple):
-    """Code that is not read because it exceeds a limit: a message that says which, and where it starts."""
+    """Code that is not read because it exceeds a limit: a message that says which, and where it
+    starts.
+    """
 
     message: str
     at: Span
 
 
 class Read(NamedTuple):
-    """A description tree read from code, whose nodes have locations in the input; empty if nothing is known but what is not read.
+    """A description tree read from code, whose nodes have locations in the input; empty if nothing
+    is known but what is not read.
 
-    `assumed` lists unknown values, their locations, and the values assumed for them. `modules` are shaders by the names in the tree,
-    `basis` says what the values in the tree rest on.
+    `assumed` lists unknown values, their locations, and the values assumed for them. `modules` are
+    shaders by the names in the tree, `basis` says what the values in the tree rest on.
     """
 
     tree: Node
@@ -115,20 +126,31 @@ def fields(node: SyntaxNode, *names: str) -> "tuple[SyntaxNode | None, ...]":
 
 def without_comments(node: "SyntaxNode | None") -> list[SyntaxNode]:
     """Returns the named children that are not comments."""
-    return [child for child in node.named_children if child.type != "comment"] if node is not None else []
+    return (
+        [child for child in node.named_children if child.type != "comment"]
+        if node is not None
+        else []
+    )
 
 
 def function_declarator(node: SyntaxNode) -> "tuple[SyntaxNode | None, SyntaxNode | None]":
-    """Returns the function declarator of a declaration and the name in it; None if there is none."""
+    """Returns the function declarator of a declaration and the name in it; None if there is
+    none.
+    """
     declarator = node.child_by_field_name("declarator")
     for _ in range(MAX_DECLARATORS):
         if declarator is None or declarator.type == "function_declarator":
             break
         inner = declarator.child_by_field_name("declarator")
-        declarator = inner or next((child for child in declarator.named_children if child.type.endswith("declarator")), None)
+        declarator = inner or next(
+            (child for child in declarator.named_children if child.type.endswith("declarator")),
+            None,
+        )
     else:
         declarator = None
-    return declarator, declarator.child_by_field_name("declarator") if declarator is not None else None
+    return declarator, declarator.child_by_field_name(
+        "declarator"
+    ) if declarator is not None else None
 
 
 class SyntaxReader:
@@ -179,6 +201,8 @@ def tree(code: Code) -> "Tree":
         return calls > limit
 
     try:
-        return parser.parse(lambda offset, _point: data[offset : offset + _CHUNK], progress_callback=stop)
+        return parser.parse(
+            lambda offset, _point: data[offset : offset + _CHUNK], progress_callback=stop
+        )
     except ValueError:
         raise Unreadable("the code is too long or too complex to parse") from None

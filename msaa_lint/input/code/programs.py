@@ -1,4 +1,6 @@
-"""What is known of the files of a program before it is executed, in any language, and what it creates."""
+"""What is known of the files of a program before it is executed, in any language, and what it
+creates.
+"""
 
 from __future__ import annotations
 
@@ -28,10 +30,12 @@ CPP = ("cpp", "objcpp")
 class FileSyntax(NamedTuple):
     """What is known of a file, or of the files of a program, before it is executed.
 
-    `choices` are sample count choices: name, place, and entry. `fills_structures` says that the code fills in Vulkan structures, `waits`
-    that it synchronizes frames, `begins_frames` that it starts them. `length` is the number of characters after preprocessing, in which all
-    places are; `pieces` say where they come from. `unread` exceeds a limit; its places are those in the file. `calls_metal` says that
-    the code calls Metal, `platform` where it states that it runs on Apple GPUs alone. `language` is one of `file_types.LANGUAGES`.
+    `choices` are sample count choices: name, place, and entry. `fills_structures` says that the
+    code fills in Vulkan structures, `waits` that it synchronizes frames, `begins_frames` that it
+    starts them. `length` is the number of characters after preprocessing, in which all places are;
+    `pieces` say where they come from. `unread` exceeds a limit; its places are those in the file.
+    `calls_metal` says that the code calls Metal, `platform` where it states that it runs on Apple
+    GPUs alone. `language` is one of `file_types.LANGUAGES`.
     """
 
     unit: Unit
@@ -48,7 +52,9 @@ class FileSyntax(NamedTuple):
 
 
 def located(reads: Sequence[Read], places: Places, unread: Sequence[Unread] = ()) -> list[Read]:
-    """Returns what was read from preprocessed text with its places in the files, and what else exceeds a limit."""
+    """Returns what was read from preprocessed text with its places in the files, and what else
+    exceeds a limit.
+    """
     moved = [
         read._replace(
             tree=places.moved(read.tree),
@@ -69,11 +75,16 @@ def _moved(basis: Basis, places: Places) -> Basis:
 
 
 def executed(syntax: FileSyntax, fragments: bool, assume: Assume = nothing) -> list[Read]:
-    """Returns the trees of a file, of the files of a program, or of a page's fragments: at most one for each API. `assume` states what the
-    user assumes about it."""
+    """Returns the trees of a file, of the files of a program, or of a page's fragments: at most one
+    for each API. `assume` states what the user assumes about it.
+    """
     length = Span(0, syntax.length)
     is_cpp = syntax.language in CPP
-    metal = metal_reads(syntax.unit, fragments, is_cpp, length, syntax.platform, assume) if syntax.calls_metal else []
+    metal = (
+        metal_reads(syntax.unit, fragments, is_cpp, length, syntax.platform, assume)
+        if syntax.calls_metal
+        else []
+    )
     # Swift calls Vulkan only through code in other languages.
     vulkan = _vulkan_reads(syntax, fragments, is_cpp, assume) if syntax.language != "swift" else []
     return [*vulkan, *metal]
@@ -85,15 +96,23 @@ def _vulkan_reads(syntax: FileSyntax, fragments: bool, is_cpp: bool, assume: Ass
     assume(interpreter)
     if fragments or syntax.fills_structures:
         interpreter.run()
-    read = DescriptionWriter(interpreter, fragments, syntax.waits or not syntax.begins_frames).read()
+    read = DescriptionWriter(
+        interpreter, fragments, syntax.waits or not syntax.begins_frames
+    ).read()
     unread = (interpreter.unread,) if interpreter.unread is not None else ()
     if not syntax.choices:
-        return [(read or Read(mapping([], Span(0, 0))))._replace(unread=unread)] if read is not None or unread else []
+        return (
+            [(read or Read(mapping([], Span(0, 0))))._replace(unread=unread)]
+            if read is not None or unread
+            else []
+        )
     at = syntax.choices[0][1].start
     start = Span(at, at)
     node = read.tree if read is not None else mapping([], Span(0, 0))
     items = [(key, node.keys[key].span, value) for key, value in node.value.items()]
-    items.append(("sampleCountChoices", start, mapping(with_formats(syntax.choices, syntax.unit), start)))
+    items.append(
+        ("sampleCountChoices", start, mapping(with_formats(syntax.choices, syntax.unit), start))
+    )
     return [
         Read(
             mapping(items, Span(0, 0)),

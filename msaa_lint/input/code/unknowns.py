@@ -1,4 +1,6 @@
-"""Says why a sample count in source code is unknown: the first name on the way to its value that nothing gives one."""
+"""Says why a sample count in source code is unknown: the first name on the way to its value that
+nothing gives one.
+"""
 
 from __future__ import annotations
 
@@ -20,15 +22,21 @@ MAX_CHARACTERS = 1 << 23
 MAX_OCCURRENCES = 2000
 """The number of uses of a name that are looked at."""
 
-_CAST = re.compile(r"\(\s*(?:const\s+)?(?:Vk\w+|vk::[\w:]+|u?int\w*|unsigned)\s*\)\s*|static_cast<[^<>]*>\s*|^[&*(\s]+")
-_PATH = re.compile(r"(?<!\w)(?P<path>(?:this->)?[A-Za-z_]\w*(?:(?:\.|->|::)[A-Za-z_]\w*|\[[^\[\]]{0,40}\])*)\s*(?P<call>\()?")
+_CAST = re.compile(
+    r"\(\s*(?:const\s+)?(?:Vk\w+|vk::[\w:]+|u?int\w*|unsigned)\s*\)\s*|static_cast<[^<>]*>\s*|^[&*(\s]+"
+)
+_PATH = re.compile(
+    r"(?<!\w)(?P<path>(?:this->)?[A-Za-z_]\w*(?:(?:\.|->|::)[A-Za-z_]\w*|\[[^\[\]]{0,40}\])*)\s*(?P<call>\()?"
+)
 _KNOWN = re.compile(r"(?:VK_|vk::|MTL|\.)\w|(?:true|false|nullptr|NULL|nil)\b")
 _LAST = re.compile(r"[A-Za-z_]\w*(?=(?:\[[^\]]*\])*\Z)")
 _MACRO = re.compile(r"[A-Z][A-Z0-9_]{2,}\Z")
 _DEFINE = re.compile(r"#[ \t]*define[ \t]+\Z")
 _ASSIGNED = re.compile(r"[ \t]*=(?!=)\s*([^;\n]{1,200})")
 _OBJECT = re.compile(r"([A-Za-z_]\w*)(?:\(\)|\[[^\[\]]{0,40}\])?\s*(\.|->|::)\s*\Z")
-_DECLARED = re.compile(r"([A-Za-z_][\w:]*(?:<[^<>]{0,80}>)?)(?:[ \t]+|[ \t]*[*&]+[ \t]*)(?:\w+::)*\Z")
+_DECLARED = re.compile(
+    r"([A-Za-z_][\w:]*(?:<[^<>]{0,80}>)?)(?:[ \t]+|[ \t]*[*&]+[ \t]*)(?:\w+::)*\Z"
+)
 _BODY = re.compile(r"[ \t]*\([^;{}]{0,200}\)[\w \t\n]{0,40}\{([^{}]{0,300})")
 _KEYWORD = re.compile(r"(?:return|else|case|goto|new|delete|typedef|using|throw|sizeof)\b")
 
@@ -48,7 +56,9 @@ class Unknown(NamedTuple):
 
 
 class _Definition(NamedTuple):
-    """Where a name is declared, what it is set to (empty if nothing sets it), and whether it is a variable, a parameter, or a function."""
+    """Where a name is declared, what it is set to (empty if nothing sets it), and whether it is a
+    variable, a parameter, or a function.
+    """
 
     place: str
     values: tuple[str, ...]
@@ -65,7 +75,9 @@ class Unknowns:
         self._definitions: dict[tuple[str, str], _Definition | None] = {}
 
     def first(self, value: str) -> Unknown | None:
-        """Returns the first unknown on the way to a value; None if there is none, or none is found."""
+        """Returns the first unknown on the way to a value; None if there is none, or none is
+        found.
+        """
         seen: set[str] = set()
         for _ in range(MAX_STEPS):
             path, is_call = _name_in(value)
@@ -104,7 +116,10 @@ class Unknowns:
                 if occurrences > MAX_OCCURRENCES:
                     return None
                 start = text.rfind("\n", 0, match.start()) + 1
-                before, after = text[max(start, match.start() - 200) : match.start()], text[match.end() : match.end() + 400]
+                before, after = (
+                    text[max(start, match.start() - 200) : match.start()],
+                    text[match.end() : match.end() + 400],
+                )
                 found = _use(before, after, owner)
                 if found is None:
                     continue
@@ -118,26 +133,41 @@ class Unknowns:
         if number not in self._texts:
             self._left -= sum(len(code.text) for code in self._files[number].codes)
             # Of a page, the code in its first language.
-            self._texts[number] = "".join(blanked(code) for code in self._files[number].codes[:1]) if self._left >= 0 else ""
+            self._texts[number] = (
+                "".join(blanked(code) for code in self._files[number].codes[:1])
+                if self._left >= 0
+                else ""
+            )
         return self._texts[number]
 
 
 def _reason(definition: _Definition | None, name: str, is_call: bool) -> str:
     if definition is None:
-        return f"is {'defined' if is_call or _MACRO.match(name) else 'declared'} nowhere in what was read"
+        return (
+            f"is {'defined' if is_call or _MACRO.match(name) else 'declared'} nowhere in what "
+            f"was read"
+        )
     verb = "defined" if definition.kind == "function" else "declared"
     declared = f"{verb} in {definition.place}" if definition.place else f"{verb} elsewhere"
     if definition.values:
         return f"is {declared}, and has several values"
     if definition.kind == "function":
         return f"is {declared}, and returns what is not known"
-    return f"is {declared}, as a parameter" if definition.kind == "parameter" else f"is {declared}, and set nowhere in what was read"
+    return (
+        f"is {declared}, as a parameter"
+        if definition.kind == "parameter"
+        else f"is {declared}, and set nowhere in what was read"
+    )
 
 
 def _use(before: str, after: str, owner: str) -> tuple[str, list[str]] | None:
-    """What a use of a name states: the kind of its declaration (empty: none), and values that it is set to. None for another use."""
+    """What a use of a name states: the kind of its declaration (empty: none), and values that it is
+    set to. None for another use.
+    """
     if _DEFINE.search(before):
-        return "variable", [after.partition("\n")[0].strip()] if after.partition("\n")[0].strip() else []
+        return "variable", [after.partition("\n")[0].strip()] if after.partition("\n")[
+            0
+        ].strip() else []
     assigned = _ASSIGNED.match(after)
     object_of = _OBJECT.search(before)
     if object_of is not None and object_of[2] != "::":
@@ -161,7 +191,9 @@ def _use(before: str, after: str, owner: str) -> tuple[str, list[str]] | None:
 
 
 def _name_in(value: str) -> tuple[str, bool]:
-    """Returns the name that decides an expression, and whether it is called; for `a ? b : c`, that is the condition."""
+    """Returns the name that decides an expression, and whether it is called; for `a ? b : c`, that
+    is the condition.
+    """
     if value.lstrip().startswith("."):
         # An enumerant of Swift.
         return "", False

@@ -1,1 +1,3 @@
-"""Impeller's render targets: a few words of Flutter's engine, and the frame that it builds of them."""
+"""Impeller's render targets: a few words of Flutter's engine, and the frame that it builds of
+them.
+"""

@@ -13,14 +13,21 @@ from msaa_lint.frame.description.record import Record
 
 from . import words
 
-COLOR = {"storageMode": "kDevicePrivate", "resolveStorageMode": "kDevicePrivate", "loadAction": "kClear", "storeAction": "kStore"}
+COLOR = {
+    "storageMode": "kDevicePrivate",
+    "resolveStorageMode": "kDevicePrivate",
+    "loadAction": "kClear",
+    "storeAction": "kStore",
+}
 """`RenderTarget::kDefaultColorAttachmentConfig`."""
 
 COLOR_MSAA = {**COLOR, "storageMode": "kDeviceTransient", "storeAction": "kMultisampleResolve"}
 """`RenderTarget::kDefaultColorAttachmentConfigMSAA`."""
 
 STENCIL = {"storageMode": "kDeviceTransient", "loadAction": "kClear", "storeAction": "kDontCare"}
-"""`RenderTarget::kDefaultStencilAttachmentConfig`, for both depth and stencil, which share one texture."""
+"""`RenderTarget::kDefaultStencilAttachmentConfig`, for both depth and stencil, which share one
+texture.
+"""
 
 
 class Value(NamedTuple):
@@ -35,7 +42,9 @@ class Value(NamedTuple):
 
 
 class Config:
-    """The storage modes of an attachment and its resolve texture, and its load and store actions."""
+    """The storage modes of an attachment and its resolve texture, and its load and store
+    actions.
+    """
 
     def __init__(self, owner: RenderTarget, member: str, defaults: dict[str, str]) -> None:
         record: Record | None = getattr(owner, member)
@@ -57,10 +66,16 @@ class Target:
         count = member_or_default(record, "sampleCount", 1, self.at)
         self.samples = Value(words.sample_count(count.value), count.at)
         self.multisampled = self.samples.value > 1
-        self.color = Config(record, "colorAttachmentConfig", COLOR_MSAA if self.multisampled else COLOR)
+        self.color = Config(
+            record, "colorAttachmentConfig", COLOR_MSAA if self.multisampled else COLOR
+        )
         self.depth_stencil = Config(record, "stencilAttachmentConfig", STENCIL)
-        self.color_format = member_or_default(record, "colorFormat", words.DEFAULT_COLOR[api], self.at)
-        self.depth_format = member_or_default(record, "depthFormat", words.DEFAULT_DEPTH_STENCIL[api], self.at)
+        self.color_format = member_or_default(
+            record, "colorFormat", words.DEFAULT_COLOR[api], self.at
+        )
+        self.depth_format = member_or_default(
+            record, "depthFormat", words.DEFAULT_DEPTH_STENCIL[api], self.at
+        )
         self.has_depth_stencil = record.depthFormat is not None or record.enableStencil is not False
         self.has_depth = self.depth_format.value != "kS8UInt"
         self.has_stencil = record.enableStencil is not False
@@ -88,11 +103,14 @@ def _size(record: RenderTarget, side: str, frame: FrameSize | None) -> Value | N
 
 def sections(node: Node, names: tuple[str, ...]) -> dict[str, Value]:
     """The given sections of a description, unchanged."""
-    return {name: Value(node.value[name], node.keys[name].span) for name in names if name in node.value}
+    return {
+        name: Value(node.value[name], node.keys[name].span) for name in names if name in node.value
+    }
 
 
 def tree(value: Any, at: Span) -> Node:
-    """The node for a dict, list or scalar at a place; a `Value` has its own place, and a node is kept.
+    """The node for a dict, list or scalar at a place; a `Value` has its own place, and a node is
+    kept.
 
     Members whose value is None are unknown and omitted.
     """
@@ -101,7 +119,11 @@ def tree(value: Any, at: Span) -> Node:
     if isinstance(value, Value):
         return tree(value.value, value.at)
     if isinstance(value, dict):
-        members = ((key, _place(each, at), tree(each, at)) for key, each in value.items() if not _unknown(each))
+        members = (
+            (key, _place(each, at), tree(each, at))
+            for key, each in value.items()
+            if not _unknown(each)
+        )
         return mapping(members, at)
     if isinstance(value, (list, tuple)):
         return sequence([tree(each, at) for each in value], at)

@@ -1,7 +1,8 @@
 """The images, render passes and commands that the engine creates for render targets on Vulkan.
 
-From its `allocator_vk.cc` (usages and memory), `render_target.cc` (the textures), `render_pass_builder_vk.cc` (operations, layouts and
-dependencies), `surface_vk.cc`, `swapchain_transients_vk.cc` and `khr_swapchain_impl_vk.cc` (the swapchain), `pipeline_vk.cc`.
+From its `allocator_vk.cc` (usages and memory), `render_target.cc` (the textures),
+`render_pass_builder_vk.cc` (operations, layouts and dependencies), `surface_vk.cc`,
+`swapchain_transients_vk.cc` and `khr_swapchain_impl_vk.cc` (the swapchain), `pipeline_vk.cc`.
 """
 
 from __future__ import annotations
@@ -21,8 +22,16 @@ TRANSFERS = ("TRANSFER_SRC", "TRANSFER_DST")
 
 
 def description(targets: list[Target], lazy: bool | None) -> Members:
-    """The sections of a description. `lazy` says whether the device has lazily allocated memory; None if unknown."""
-    sections: Members = {"images": {}, "renderPasses": {}, "framebuffers": {}, "pipelines": {}, "commands": []}
+    """The sections of a description. `lazy` says whether the device has lazily allocated memory;
+    None if unknown.
+    """
+    sections: Members = {
+        "images": {},
+        "renderPasses": {},
+        "framebuffers": {},
+        "pipelines": {},
+        "commands": [],
+    }
     for target in targets:
         sections["images"] |= _images(target, lazy)
         sections["renderPasses"][target.name] = Value(_render_pass(target), target.at)
@@ -40,22 +49,41 @@ def _images(target: Target, lazy: bool | None) -> Members:
     single = color.resolve_storage if target.multisampled else color.storage
     if target.multisampled:
         usage = _usage(COLOR_USAGE, color.storage, lazy)
-        images[f"{target.name}_color_ms"] = _image(target, target.color_format, target.samples, usage, _memory(color.storage, lazy), None)
+        images[f"{target.name}_color_ms"] = _image(
+            target, target.color_format, target.samples, usage, _memory(color.storage, lazy), None
+        )
     if target.onscreen:
         swapchain = Value(COLOR_USAGE, at)
-        images[f"{target.name}_color"] = _image(target, target.color_format, Value(1, at), swapchain, None, True)
+        images[f"{target.name}_color"] = _image(
+            target, target.color_format, Value(1, at), swapchain, None, True
+        )
     else:
         usage = _usage((*COLOR_USAGE, "SAMPLED"), single, lazy)
-        images[f"{target.name}_color"] = _image(target, target.color_format, Value(1, at), usage, _memory(single, lazy), False)
+        images[f"{target.name}_color"] = _image(
+            target, target.color_format, Value(1, at), usage, _memory(single, lazy), False
+        )
     if target.has_depth_stencil:
         mode = target.depth_stencil.storage
         usage = _usage(("DEPTH_STENCIL_ATTACHMENT",), mode, lazy)
-        images[f"{target.name}_depth_stencil"] = _image(target, target.depth_format, target.samples, usage, _memory(mode, lazy), None)
+        images[f"{target.name}_depth_stencil"] = _image(
+            target, target.depth_format, target.samples, usage, _memory(mode, lazy), None
+        )
     return images
 
 
-def _image(target: Target, format: Value, samples: Value, usage: Value, memory: Value | None, presentable: bool | None) -> Value:
-    extent = {"width": target.width, "height": target.height, "depth": 1} if target.width and target.height else None
+def _image(
+    target: Target,
+    format: Value,
+    samples: Value,
+    usage: Value,
+    memory: Value | None,
+    presentable: bool | None,
+) -> Value:
+    extent = (
+        {"width": target.width, "height": target.height, "depth": 1}
+        if target.width and target.height
+        else None
+    )
     members = {
         "format": format.mapped(words.VULKAN_FORMATS),
         "samples": samples,
@@ -73,7 +101,9 @@ def _image(target: Target, format: Value, samples: Value, usage: Value, memory: 
 
 
 def _usage(usage: tuple[str, ...], mode: Value, lazy: bool | None) -> Value:
-    """`ToVKImageUsageFlags`: TRANSIENT_ATTACHMENT only if the device has lazily allocated memory."""
+    """`ToVKImageUsageFlags`: TRANSIENT_ATTACHMENT only if the device has lazily allocated
+    memory.
+    """
     if mode.value != "kDeviceTransient":
         return Value((*usage, *TRANSFERS), mode.at)
     if lazy is None:
@@ -82,7 +112,9 @@ def _usage(usage: tuple[str, ...], mode: Value, lazy: bool | None) -> Value:
 
 
 def _memory(mode: Value, lazy: bool | None) -> Value | None:
-    """`ToVKTextureMemoryPropertyFlags`. They are preferred flags, so the memory of a host-visible image is unknown."""
+    """`ToVKTextureMemoryPropertyFlags`. They are preferred flags, so the memory of a host-visible
+    image is unknown.
+    """
     if mode.value == "kHostVisible" or (mode.value == "kDeviceTransient" and lazy is None):
         return None
     transient = mode.value == "kDeviceTransient" and lazy
@@ -92,7 +124,8 @@ def _memory(mode: Value, lazy: bool | None) -> Value | None:
 def _render_pass(target: Target) -> Members:
     color = "color_ms" if target.multisampled else "color"
     attachments = {color: _color_attachment(target)}
-    # The engine also lists color as an input attachment for framebuffer fetch, but it is unknown which pipelines use it.
+    # The engine also lists color as an input attachment for framebuffer fetch, but it is unknown
+    # which pipelines use it.
     subpass: Members = {"colorAttachments": [_slot(color)]}
     if target.resolves:
         resolve = "color" if target.multisampled else "resolve"
@@ -101,7 +134,11 @@ def _render_pass(target: Target) -> Members:
     if target.has_depth_stencil:
         attachments["depth_stencil"] = _depth_stencil_attachment(target)
         subpass["depthStencilAttachment"] = "depth_stencil"
-    return {"attachments": attachments, "subpasses": [subpass], "dependencies": _dependencies(target.has_depth_stencil)}
+    return {
+        "attachments": attachments,
+        "subpasses": [subpass],
+        "dependencies": _dependencies(target.has_depth_stencil),
+    }
 
 
 def _slot(name: str) -> Members:
@@ -130,7 +167,9 @@ def _color_attachment(target: Target) -> Value:
 
 
 def _resolve_attachment(target: Target) -> Value:
-    """The colour's own with one sample, stored: the engine begins it with the colour's load operation."""
+    """The colour's own with one sample, stored: the engine begins it with the colour's load
+    operation.
+    """
     config = target.color
     members: Members = {"image": f"{target.name}_color"} if target.multisampled else {}
     if not target.multisampled:
@@ -138,7 +177,9 @@ def _resolve_attachment(target: Target) -> Value:
     members |= {
         "loadOp": config.load.mapped(words.VULKAN_LOADS),
         "storeOp": Value("STORE", config.store.at),
-        "initialLayout": _final_layout(target.onscreen, target.samples.value) if config.load.value == "kLoad" else "UNDEFINED",
+        "initialLayout": _final_layout(target.onscreen, target.samples.value)
+        if config.load.value == "kLoad"
+        else "UNDEFINED",
         "finalLayout": _final_layout(target.onscreen, 1),
     }
     return Value(members, target.at)
@@ -172,7 +213,11 @@ def _dependencies(depth: bool) -> list[Members]:
             "srcStageMask": ["COLOR_ATTACHMENT_OUTPUT", "FRAGMENT_SHADER", *tests],
             "srcAccessMask": ["SHADER_READ", "COLOR_ATTACHMENT_WRITE", *write],
             "dstStageMask": ["COLOR_ATTACHMENT_OUTPUT", *tests[:1]],
-            "dstAccessMask": ["COLOR_ATTACHMENT_WRITE", *write, *(["DEPTH_STENCIL_ATTACHMENT_READ"] if depth else [])],
+            "dstAccessMask": [
+                "COLOR_ATTACHMENT_WRITE",
+                *write,
+                *(["DEPTH_STENCIL_ATTACHMENT_READ"] if depth else []),
+            ],
         },
         {
             "srcSubpass": 0,
@@ -212,10 +257,17 @@ def _pipeline(target: Target) -> Members:
 
 
 def _commands(target: Target, framebuffer: bool) -> list[Value]:
-    begin: Members = {"renderPass": target.name, "framebuffer": target.name if framebuffer else None}
+    begin: Members = {
+        "renderPass": target.name,
+        "framebuffer": target.name if framebuffer else None,
+    }
     if target.width and target.height:
         begin["renderArea"] = {"x": 0, "y": 0, "width": target.width, "height": target.height}
-    commands: list[Any] = [{"beginRenderPass": begin}, {"draw": {"pipeline": target.name}}, "endRenderPass"]
+    commands: list[Any] = [
+        {"beginRenderPass": begin},
+        {"draw": {"pipeline": target.name}},
+        "endRenderPass",
+    ]
     image = f"{target.name}_color"
     if target.onscreen:
         barrier = {

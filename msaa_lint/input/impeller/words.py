@@ -1,6 +1,7 @@
 """Maps Impeller's enumerants to Vulkan's and Metal's.
 
-From the engine's `formats_vk.h`, `formats_mtl.h` and `formats_mtl.mm` (impeller/renderer/backend, flutter/flutter).
+From the engine's `formats_vk.h`, `formats_mtl.h` and `formats_mtl.mm` (impeller/renderer/backend,
+flutter/flutter).
 """
 
 from __future__ import annotations
@@ -18,7 +19,9 @@ VULKAN_FORMATS = {
     "kD24UnormS8Uint": "D24_UNORM_S8_UINT",
     "kD32FloatS8UInt": "D32_SFLOAT_S8_UINT",
 }
-"""`ToVKImageFormat`. Extended-range formats exist only on Metal, and `kA8UNormInt` has mapped to different formats over time."""
+"""`ToVKImageFormat`. Extended-range formats exist only on Metal, and `kA8UNormInt` has mapped to
+different formats over time.
+"""
 
 METAL_FORMATS = {
     "kA8UNormInt": "a8Unorm",
@@ -43,12 +46,21 @@ DEFAULT_COLOR = {"vulkan": "kR8G8B8A8UNormInt", "metal": "kB8G8R8A8UNormInt"}
 """`Capabilities::GetDefaultColorFormat`; on Vulkan a surface may request another."""
 
 DEFAULT_DEPTH_STENCIL = {"vulkan": None, "metal": "kD32FloatS8UInt"}
-"""`Capabilities::GetDefaultDepthStencilFormat`: on Vulkan the device's choice of `kD24UnormS8Uint` and `kD32FloatS8UInt`."""
+"""`Capabilities::GetDefaultDepthStencilFormat`: on Vulkan the device's choice of `kD24UnormS8Uint`
+and `kD32FloatS8UInt`.
+"""
 
 VULKAN_LOADS = {"kDontCare": "DONT_CARE", "kLoad": "LOAD", "kClear": "CLEAR"}
 
-VULKAN_STORES = {"kDontCare": "DONT_CARE", "kStore": "STORE", "kMultisampleResolve": "DONT_CARE", "kStoreAndMultisampleResolve": "STORE"}
-"""`ToVKAttachmentStoreOp` for the multisampled texture. Both resolving actions store the resolve texture."""
+VULKAN_STORES = {
+    "kDontCare": "DONT_CARE",
+    "kStore": "STORE",
+    "kMultisampleResolve": "DONT_CARE",
+    "kStoreAndMultisampleResolve": "STORE",
+}
+"""`ToVKAttachmentStoreOp` for the multisampled texture. Both resolving actions store the resolve
+texture.
+"""
 
 METAL_ACTIONS = {
     "kDontCare": "dontCare",

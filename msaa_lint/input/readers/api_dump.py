@@ -1,7 +1,8 @@
 """LunarG api_dump: the output of VK_LAYER_LUNARG_api_dump with `VK_APIDUMP_OUTPUT_FORMAT=json`.
 
-The file is an array of frames, each with its calls. Arguments and members are nodes with a type, a name and a value; a null pointer has no
-value. The closing brackets are missing if the program was killed. Handles come from the driver and are reused after they are freed.
+The file is an array of frames, each with its calls. Arguments and members are nodes with a type, a
+name and a value; a null pointer has no value. The closing brackets are missing if the program was
+killed. Handles come from the driver and are reused after they are freed.
 """
 
 from __future__ import annotations
@@ -20,7 +21,10 @@ MAX_CACHE = 16 << 20
 """Maximum total size of cached calls, in bytes of text; the parsed calls take less memory."""
 MAX_CACHED_CALL = 1 << 18  # bytes
 
-NO_ADDRESSES = "the dump has no addresses, so objects cannot be told apart; run the program again without VK_APIDUMP_NO_ADDR"
+NO_ADDRESSES = (
+    "the dump has no addresses, so objects cannot be told apart; run the program again "
+    "without VK_APIDUMP_NO_ADDR"
+)
 NO_ARGUMENTS = "the dump has no arguments; run the program again without VK_APIDUMP_DETAILED=false"
 
 
@@ -32,7 +36,8 @@ def claims(head: bytes) -> bool:
 def calls(stream: BinaryIO, wanted: frozenset[str], name: str | None) -> Iterator[Call | Mark]:
     """The calls of a dump. Identical calls may share their `args`, which must not be modified.
 
-    Raises CaptureError if the text is truncated, is not JSON, or was written with settings that omit addresses or arguments.
+    Raises CaptureError if the text is truncated, is not JSON, or was written with settings that
+    omit addresses or arguments.
     """
     cursor = Cursor(stream)
     reader = Reader(wanted)
@@ -41,7 +46,9 @@ def calls(stream: BinaryIO, wanted: frozenset[str], name: str | None) -> Iterato
     except CaptureError as error:
         if error.message != TRUNCATED:
             raise
-        raise CaptureError(f"{TRUNCATED}: the captured program did not exit cleanly", error.place) from None
+        raise CaptureError(
+            f"{TRUNCATED}: the captured program did not exit cleanly", error.place
+        ) from None
 
 
 def _frames(cursor: Cursor, reader: Reader) -> Iterator[Call | Mark]:
@@ -116,7 +123,12 @@ class Reader:
         if "args" not in value:
             raise CaptureError(NO_ARGUMENTS, place)
         result = value.get("returnValue")
-        call = Call(name, arguments_of(value["args"], place), place, result if isinstance(result, str) else None)
+        call = Call(
+            name,
+            arguments_of(value["args"], place),
+            place,
+            result if isinstance(result, str) else None,
+        )
         if len(text) <= MAX_CACHED_CALL:
             if self.size > MAX_CACHE:
                 self.cache.clear()
@@ -133,7 +145,9 @@ def arguments_of(nodes: object, place: Place) -> dict[str, Any]:
     while pending:
         level, container = pending.pop()
         if not isinstance(level, list):
-            raise CaptureError("invalid call: expected an array of arguments, members or elements", place)
+            raise CaptureError(
+                "invalid call: expected an array of arguments, members or elements", place
+            )
         for node in level:
             if not isinstance(node, dict):
                 raise CaptureError("invalid call: expected an object with a type and a name", place)
@@ -159,7 +173,9 @@ def arguments_of(nodes: object, place: Place) -> dict[str, Any]:
 
 
 def _scalar(node: dict[str, Any], place: Place) -> Any:
-    """The value of a node: an integer for a handle, None for a null pointer, otherwise the text as written."""
+    """The value of a node: an integer for a handle, None for a null pointer, otherwise the text as
+    written.
+    """
     value = node.get("value")
     if not isinstance(value, str) or "char" in str(node.get("type")):
         return value

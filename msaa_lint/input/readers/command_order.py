@@ -1,4 +1,6 @@
-"""Checks that the commands of a description begin and end render passes in an order that Vulkan allows."""
+"""Checks that the commands of a description begin and end render passes in an order that Vulkan
+allows.
+"""
 
 from __future__ import annotations
 
@@ -22,17 +24,26 @@ def check_order(binder: Binder, description: Description) -> None:
         name = command.kind
         if name in _ENDS:
             if opened is not None:
-                message = f"`{name}` stands in the render pass that {_place(opened)} begins; write `- {_ENDS[opened.kind]}` before it"
+                message = (
+                    f"`{name}` stands in the render pass that {_place(opened)} begins; write "
+                    f"`- {_ENDS[opened.kind]}` before it"
+                )
                 binder.report("MSAA904", message, command.head, command.path)
                 return
             opened = command
         elif name in _BEGINS:
             if opened is None:
-                message = f"`{name}` ends nothing, as no `{_BEGINS[name]}` is open; remove it, or begin the render pass before it"
+                message = (
+                    f"`{name}` ends nothing, as no `{_BEGINS[name]}` is open; remove it, or "
+                    f"begin the render pass before it"
+                )
                 binder.report("MSAA904", message, command.head, command.path)
                 return
             if _ENDS[opened.kind] != name:
-                message = f"`{name}` cannot end what {_place(opened)} begins; write `{_ENDS[opened.kind]}`"
+                message = (
+                    f"`{name}` cannot end what {_place(opened)} begins; write "
+                    f"`{_ENDS[opened.kind]}`"
+                )
                 binder.report("MSAA904", message, command.head, command.path)
                 return
             opened = None

@@ -1,7 +1,9 @@
-"""Fossilize pipeline databases (`.foz`, versions 5 and 6): render passes, shaders and pipelines, without images and commands.
+"""Fossilize pipeline databases (`.foz`, versions 5 and 6): render passes, shaders and pipelines,
+without images and commands.
 
-A file is a sequence of entries in any order. A first pass finds their offsets; later passes read each kind, referenced objects first. Every
-entry states its length, so a damaged entry does not affect the others; the error is raised after all entries are read.
+A file is a sequence of entries in any order. A first pass finds their offsets; later passes read
+each kind, referenced objects first. Every entry states its length, so a damaged entry does not
+affect the others; the error is raised after all entries are read.
 """
 
 from __future__ import annotations
@@ -13,7 +15,14 @@ from typing import BinaryIO
 
 from msaa_lint.input.captures.call import Call, CaptureError, Mark, Place
 
-from .fossilize_objects import APPLICATION, GRAPHICS_PIPELINE, RENDER_PASS, SHADER_MODULE, calls_of, fragment_modules
+from .fossilize_objects import (
+    APPLICATION,
+    GRAPHICS_PIPELINE,
+    RENDER_PASS,
+    SHADER_MODULE,
+    calls_of,
+    fragment_modules,
+)
 
 MAGIC = b"\x81FOSSILIZEDB\x00\x00\x00"
 VERSIONS = (5, 6)
@@ -27,7 +36,9 @@ MAX_PAYLOAD = 64 << 20
 """Maximum size of an entry in bytes, both stored and decompressed."""
 
 MAX_RATIO = 32
-"""A file may decompress to this many times its size, plus one entry of maximum size. Real databases decompress to about three times."""
+"""A file may decompress to this many times its size, plus one entry of maximum size. Real databases
+decompress to about three times.
+"""
 
 MAX_ENTRIES = 4_000_000
 """Maximum number of entries; each takes 12 bytes of memory."""
@@ -55,10 +66,11 @@ def claims(head: bytes) -> bool:
 
 
 def calls(stream: BinaryIO, wanted: frozenset[str], name: str | None) -> Iterator[Call | Mark]:
-    """The wanted objects as the calls that create them: application, render passes, shader modules, pipelines. Handles are their hashes.
+    """The wanted objects as the calls that create them: application, render passes, shader modules,
+    pipelines. Handles are their hashes.
 
-    Only the shader modules of fragment stages are included. A truncated last entry is only marked, as `truncated`. Raises CaptureError at
-    the end, for the first invalid entry.
+    Only the shader modules of fragment stages are included. A truncated last entry is only marked,
+    as `truncated`. Raises CaptureError at the end, for the first invalid entry.
     """
     copy = None if stream.seekable() else _spool(stream)
     try:
@@ -99,16 +111,24 @@ class _Database:
         if self.error is not None:
             raise self.error
 
-    def calls_of_kind(self, tag: int, wanted: frozenset[str], hashes: set[int] | None = None) -> Iterator[Call]:
-        """The calls of the entries of one kind, or of those of its shader modules that have one of the hashes."""
+    def calls_of_kind(
+        self, tag: int, wanted: frozenset[str], hashes: set[int] | None = None
+    ) -> Iterator[Call]:
+        """The calls of the entries of one kind, or of those of its shader modules that have one of
+        the hashes.
+        """
         for offset, number in zip(self.offsets[tag], self.numbers[tag], strict=True):
-            if hashes is not None and (self.hash(offset) not in hashes or self.code_size > MAX_CODE):
+            if hashes is not None and (
+                self.hash(offset) not in hashes or self.code_size > MAX_CODE
+            ):
                 continue
             try:
                 yield from calls_of(tag, self.payload(offset, number), Place(call=number), wanted)
             except CaptureError as error:
                 if self.error is None or number < (self.error.place.call or 0):
-                    self.error = CaptureError(f"entry {number} at byte {offset}: {error.message}", Place(call=number))
+                    self.error = CaptureError(
+                        f"entry {number} at byte {offset}: {error.message}", Place(call=number)
+                    )
 
     def modules(self) -> Iterator[Call]:
         """The modules of fragment stages: rules need no others, and code is most of a database."""
@@ -116,7 +136,9 @@ class _Database:
             return
         hashes: set[int] = set()
         inflated = self.inflated
-        for offset, number in zip(self.offsets[GRAPHICS_PIPELINE], self.numbers[GRAPHICS_PIPELINE], strict=True):
+        for offset, number in zip(
+            self.offsets[GRAPHICS_PIPELINE], self.numbers[GRAPHICS_PIPELINE], strict=True
+        ):
             try:
                 hashes.update(fragment_modules(self.payload(offset, number), Place(call=number)))
             except CaptureError:
@@ -144,7 +166,11 @@ class _Database:
         if len(head) < HEADER:
             raise CaptureError("the Fossilize database ends within its first 16 bytes", Place())
         if head[-1] not in VERSIONS:
-            raise CaptureError(f"Fossilize database version {head[-1]} is not supported; convert it to version 5 or 6", Place())
+            raise CaptureError(
+                f"Fossilize database version {head[-1]} is not supported; convert it to version 5 "
+                f"or 6",
+                Place(),
+            )
         at = HEADER
         number = count = 0
         while at < size:
@@ -152,10 +178,19 @@ class _Database:
             header = stream.read(ENTRY)
             tag = _tag(header[:NAME_LENGTH])
             if tag is None:
-                raise CaptureError(f"entry {number} at byte {at}: its name must be hexadecimal digits", Place(call=number))
+                raise CaptureError(
+                    f"entry {number} at byte {at}: its name must be hexadecimal digits",
+                    Place(call=number),
+                )
             stored = int.from_bytes(header[40:44], "little")
-            if len(header) == ENTRY and max(stored, int.from_bytes(header[52:56], "little")) > MAX_PAYLOAD:
-                raise CaptureError(f"entry {number} at byte {at}: its stated size exceeds {MAX_PAYLOAD >> 20} MiB", Place(call=number))
+            if (
+                len(header) == ENTRY
+                and max(stored, int.from_bytes(header[52:56], "little")) > MAX_PAYLOAD
+            ):
+                raise CaptureError(
+                    f"entry {number} at byte {at}: its stated size exceeds {MAX_PAYLOAD >> 20} MiB",
+                    Place(call=number),
+                )
             if len(header) < ENTRY or at + ENTRY + stored > size:
                 # This is how a killed program leaves its last entry; Fossilize's own tools skip it.
                 self.truncated = number
@@ -173,7 +208,9 @@ class _Database:
         """The contents of an entry, decompressed and verified."""
         self.stream.seek(self.start + offset + NAME_LENGTH)
         header = self.stream.read(ENTRY - NAME_LENGTH)
-        stored, flags, checksum, length = (int.from_bytes(header[at : at + 4], "little") for at in (0, 4, 8, 12))
+        stored, flags, checksum, length = (
+            int.from_bytes(header[at : at + 4], "little") for at in (0, 4, 8, 12)
+        )
         data = self.stream.read(stored)
         if len(data) < stored:
             raise CaptureError("the file shrank while it was being read", Place(call=number))
@@ -184,21 +221,28 @@ class _Database:
         if flags == DEFLATED:
             self.inflated += length
             if self.inflated > MAX_PAYLOAD + MAX_RATIO * self.size:
-                raise CaptureError(f"the file decompresses to more than {MAX_RATIO} times its size", Place(call=number))
+                raise CaptureError(
+                    f"the file decompresses to more than {MAX_RATIO} times its size",
+                    Place(call=number),
+                )
             inflator = zlib.decompressobj()
             try:
                 data = inflator.decompress(data, length + 1)
             except zlib.error:
                 raise CaptureError("its compressed data is invalid", Place(call=number)) from None
             if not inflator.eof or inflator.unused_data:
-                raise CaptureError("its decompressed size differs from its stated size", Place(call=number))
+                raise CaptureError(
+                    "its decompressed size differs from its stated size", Place(call=number)
+                )
         if len(data) != length:
             raise CaptureError("its size differs from its stated size", Place(call=number))
         return data
 
 
 def _tag(name: bytes) -> int | None:
-    """The kind in an entry's name, 8 zeros, the kind and the hash in hexadecimal. None if it is invalid, -1 if it is incomplete."""
+    """The kind in an entry's name, 8 zeros, the kind and the hash in hexadecimal. None if it is
+    invalid, -1 if it is incomplete.
+    """
     if not name.isalnum():
         return None
     try:
@@ -219,5 +263,7 @@ def _spool(stream: BinaryIO) -> BinaryIO:
         copy.seek(0)
     except OSError as error:
         copy.close()
-        raise CaptureError(f"cannot copy the piped capture to a temporary file: {error.strerror}", Place()) from None
+        raise CaptureError(
+            f"cannot copy the piped capture to a temporary file: {error.strerror}", Place()
+        ) from None
     return copy

@@ -1,4 +1,6 @@
-"""Fossilize's packed SPIR-V: each word in bytes of seven bits, lowest first, with the eighth bit set on all but the last byte of a word."""
+"""Fossilize's packed SPIR-V: each word in bytes of seven bits, lowest first, with the eighth bit
+set on all but the last byte of a word.
+"""
 
 from __future__ import annotations
 
@@ -34,7 +36,12 @@ _words = _Words()
 
 def unpack_code(packed: bytes, size: int) -> bytes | None:
     """The code in bytes, little-endian; None if it does not unpack to `size` bytes."""
-    if size % 4 or len(packed.translate(None, _CONTINUED)) != size // 4 or packed[-1:] > b"\x7f" or _TOO_LONG.search(packed):
+    if (
+        size % 4
+        or len(packed.translate(None, _CONTINUED)) != size // 4
+        or packed[-1:] > b"\x7f"
+        or _TOO_LONG.search(packed)
+    ):
         return None
     words = array("I")
     value_of = _words.__getitem__

@@ -1,4 +1,6 @@
-"""Converts entries of a Fossilize database, JSON with Fossilize's own member names, to the calls that create the objects."""
+"""Converts entries of a Fossilize database, JSON with Fossilize's own member names, to the calls
+that create the objects.
+"""
 
 from __future__ import annotations
 
@@ -18,7 +20,9 @@ FRAGMENT = 16
 """VkShaderStageFlagBits."""
 
 MAX_JSON = 4 << 20
-"""Maximum size of an entry's JSON in bytes; parsed small values take about 20 times as much memory."""
+"""Maximum size of an entry's JSON in bytes; parsed small values take about 20 times as much
+memory.
+"""
 
 MAX_CODE = 16 << 20
 """Maximum size of a shader module's code in bytes; larger code is left out."""
@@ -39,7 +43,10 @@ PASS = {
     "correlatedViewMasks": "pCorrelatedViewMasks",
 }
 STATES: dict[str, dict[str, str]] = {
-    "vertexInputState": {"attributes": "pVertexAttributeDescriptions", "bindings": "pVertexBindingDescriptions"},
+    "vertexInputState": {
+        "attributes": "pVertexAttributeDescriptions",
+        "bindings": "pVertexBindingDescriptions",
+    },
     "inputAssemblyState": {},
     "tessellationState": {},
     "viewportState": {"viewports": "pViewports", "scissors": "pScissors"},
@@ -52,18 +59,26 @@ STATES: dict[str, dict[str, str]] = {
 """The states of a pipeline, and the C names of members that Fossilize renames."""
 
 CHAINED: dict[int, tuple[str, dict[str, str]]] = {
-    1000044002: ("PIPELINE_RENDERING_CREATE_INFO", {"colorAttachmentFormats": "pColorAttachmentFormats"}),
+    1000044002: (
+        "PIPELINE_RENDERING_CREATE_INFO",
+        {"colorAttachmentFormats": "pColorAttachmentFormats"},
+    ),
     1000199001: (
         "SUBPASS_DESCRIPTION_DEPTH_STENCIL_RESOLVE",
         {"depthStencilResolveAttachment": "pDepthStencilResolveAttachment"},
     ),
     1000241002: ("ATTACHMENT_DESCRIPTION_STENCIL_LAYOUT", {}),
     1000218002: ("RENDER_PASS_FRAGMENT_DENSITY_MAP_CREATE_INFO_EXT", {}),
-    1000226000: ("FRAGMENT_SHADING_RATE_ATTACHMENT_INFO_KHR", {"fragmentShadingRateAttachment": "pFragmentShadingRateAttachment"}),
+    1000226000: (
+        "FRAGMENT_SHADING_RATE_ATTACHMENT_INFO_KHR",
+        {"fragmentShadingRateAttachment": "pFragmentShadingRateAttachment"},
+    ),
     1000314000: ("MEMORY_BARRIER_2", {}),
     1000376002: ("MULTISAMPLED_RENDER_TO_SINGLE_SAMPLED_INFO_EXT", {}),
 }
-"""The chained structures that are kept, by VkStructureType: their names, and the C names of members that Fossilize renames."""
+"""The chained structures that are kept, by VkStructureType: their names, and the C names of members
+that Fossilize renames.
+"""
 
 
 def calls_of(tag: int, payload: bytes, at: Place, wanted: frozenset[str]) -> Iterator[Call]:
@@ -79,18 +94,29 @@ def calls_of(tag: int, payload: bytes, at: Place, wanted: frozenset[str]) -> Ite
         for handle, module in _objects(document, "shaderModules"):
             yield _module(handle, module, payload, end + 1 if end >= 0 else len(payload), at)
     elif tag == RENDER_PASS:
-        for key, name in (("renderPasses", "vkCreateRenderPass"), ("renderPasses2", "vkCreateRenderPass2")):
+        for key, name in (
+            ("renderPasses", "vkCreateRenderPass"),
+            ("renderPasses2", "vkCreateRenderPass2"),
+        ):
             if name in wanted:
                 for handle, create_info in _objects(document, key):
-                    yield Call(name, {"pCreateInfo": _render_pass(create_info), "pRenderPass": handle}, at)
+                    yield Call(
+                        name, {"pCreateInfo": _render_pass(create_info), "pRenderPass": handle}, at
+                    )
     elif tag == GRAPHICS_PIPELINE:
         for handle, create_info in _objects(document, "graphicsPipelines"):
-            arguments = {"createInfoCount": 1, "pCreateInfos": [_pipeline(create_info)], "pPipelines": [handle]}
+            arguments = {
+                "createInfoCount": 1,
+                "pCreateInfos": [_pipeline(create_info)],
+                "pPipelines": [handle],
+            }
             yield Call("vkCreateGraphicsPipelines", arguments, at)
 
 
 def fragment_modules(payload: bytes, at: Place) -> Iterator[int]:
-    """The hashes of the pipelines' fragment shader modules. Raises CaptureError as `calls_of` does."""
+    """The hashes of the pipelines' fragment shader modules. Raises CaptureError as `calls_of`
+    does.
+    """
     for call in calls_of(GRAPHICS_PIPELINE, payload, at, frozenset()):
         for stage in call.args["pCreateInfos"][0]["pStages"] or ():
             if isinstance(stage, dict) and stage.get("stage") == FRAGMENT:
@@ -112,7 +138,9 @@ def _document(text: bytes, at: Place) -> Json:
 
 
 def _lenient(text: bytes, at: Place) -> Json:
-    """Parses JSON that contains NaN and Infinity, which Fossilize writes, or names that are not UTF-8."""
+    """Parses JSON that contains NaN and Infinity, which Fossilize writes, or names that are not
+    UTF-8.
+    """
     from json import loads
 
     try:
@@ -139,21 +167,33 @@ def _handle(value: object) -> int:
 
 
 def _instance(document: Json, at: Place) -> Call:
-    """The application. Fossilize records only the features that affect pipeline hashes; stating these would deny all others."""
+    """The application. Fossilize records only the features that affect pipeline hashes; stating
+    these would deny all others.
+    """
     info = record(document.get("applicationInfo"))
     names = {"applicationName": "pApplicationName", "engineName": "pEngineName"}
-    return Call("vkCreateInstance", {"pCreateInfo": {"pNext": None, "pApplicationInfo": _renamed(info, names)}}, at)
+    return Call(
+        "vkCreateInstance",
+        {"pCreateInfo": {"pNext": None, "pApplicationInfo": _renamed(info, names)}},
+        at,
+    )
 
 
 def _module(handle: int, module: dict[str, Any], payload: bytes, start: int, at: Place) -> Call:
-    info = {"sType": "VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO", "flags": module.get("flags", 0), "codeSize": module.get("codeSize")}
+    info = {
+        "sType": "VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO",
+        "flags": module.get("flags", 0),
+        "codeSize": module.get("codeSize"),
+    }
     offset, length, size = (module.get(key) for key in ("varintOffset", "varintSize", "codeSize"))
     if type(offset) is int and type(length) is int and type(size) is int and 0 <= size <= MAX_CODE:
         first = start + offset
         if offset < 0 or length < 0 or first + length > len(payload):
             raise CaptureError("its shader code lies outside the entry", at)
         # A packed word has at most five bytes.
-        code = unpack_code(payload[first : first + length], size) if length <= size // 4 * 5 else None
+        code = (
+            unpack_code(payload[first : first + length], size) if length <= size // 4 * 5 else None
+        )
         if code is None:
             raise CaptureError("its shader code differs from its stated size", at)
         info["pCode"] = code
@@ -189,7 +229,9 @@ def _stage(source: object) -> Json:
     stage["module"] = _handle(stage.get("module"))
     constants = stage.pop("specializationInfo", None)
     if isinstance(constants, dict):
-        stage["pSpecializationInfo"] = _renamed(constants, {"mapEntries": "pMapEntries", "data": "pData"})
+        stage["pSpecializationInfo"] = _renamed(
+            constants, {"mapEntries": "pMapEntries", "data": "pData"}
+        )
         stage["pSpecializationInfo"]["pData"] = _bytes(constants.get("data"))
     return stage
 

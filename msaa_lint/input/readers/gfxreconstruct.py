@@ -1,7 +1,8 @@
 """gfxreconstruct: the output of `gfxrecon-convert` 0.9 and 1.x, as JSON Lines or as one JSON array.
 
-A call is an object with `index` and, depending on the version, `vkFunc` or `function`. The file also contains `meta` commands, two of which
-describe the device, and markers for the state of a trimmed capture. Lines of unwanted calls are not parsed.
+A call is an object with `index` and, depending on the version, `vkFunc` or `function`. The file
+also contains `meta` commands, two of which describe the device, and markers for the state of a
+trimmed capture. Lines of unwanted calls are not parsed.
 """
 
 from __future__ import annotations
@@ -16,11 +17,22 @@ from msaa_lint.core.text.files import read
 from msaa_lint.core.text.source import Unreadable
 from msaa_lint.core.urls import is_folder, is_url
 from msaa_lint.input.captures.call import Call, CaptureError, Mark, Place, is_wanted
-from msaa_lint.input.captures.json_stream import BYTE_ORDER_MARK, TRUNCATED, Blocks, Cursor, PeekedStream, is_plain, loads, loads_plain
+from msaa_lint.input.captures.json_stream import (
+    BYTE_ORDER_MARK,
+    TRUNCATED,
+    Blocks,
+    Cursor,
+    PeekedStream,
+    is_plain,
+    loads,
+    loads_plain,
+)
 from msaa_lint.input.captures.values import chain, items, record
 
 DEVICE_COMMANDS = frozenset({"SetDevicePropertiesCommand", "SetDeviceMemoryPropertiesCommand"})
-"""The `meta` commands that describe the device. A trimmed capture has them instead of the queries."""
+"""The `meta` commands that describe the device. A trimmed capture has them instead of the
+queries.
+"""
 
 HEAD = re.compile(
     rb'\s*(?:\[\s*)?\{\s*"(?:header"\s*:\s*\{\s*"source-path"|index"\s*:\s*\d+\s*,\s*"(?:vkFunc|function|meta|annotation)"|'
@@ -29,25 +41,37 @@ HEAD = re.compile(
 # The layer puts the frame range into the file name of a trimmed capture.
 TRIMMED = re.compile(r"_frames?_\d+(?:_through_\d+)?\b|_trim_trigger")
 CONVERTED_ENDING = re.compile(r"(?:\.gfxr)?(?:\.jsonl?)?\Z")
-START = re.compile(rb'\{\s*"index"\s*:\s*(\d{1,18})\s*,\s*"(vkFunc|function|meta|method)"\s*:\s*\{\s*"name"\s*:\s*"(\w{1,100})"')
+START = re.compile(
+    rb'\{\s*"index"\s*:\s*(\d{1,18})\s*,\s*"(vkFunc|function|meta|method)"\s*:\s*\{\s*"name"\s*:\s*"(\w{1,100})"'
+)
 PREFIX = b'{"index":'
-LINE_START = re.compile(rb'\{"index":\d{1,18}(,"(vkFunc|function|meta|method)":\{"name":"(\w{2,100}))"')
+LINE_START = re.compile(
+    rb'\{"index":\d{1,18}(,"(vkFunc|function|meta|method)":\{"name":"(\w{2,100}))"'
+)
 NAME_END = len(',"function":{"name":"')
-"""Where to look for the quote that ends the name in a match of LINE_START's first group; a name has two letters or more."""
+"""Where to look for the quote that ends the name in a match of LINE_START's first group; a name has
+two letters or more.
+"""
 MAX_STARTS = 10_000
 
 MAX_CACHE = 8 << 20
-"""Maximum total size of cached lines, in bytes of text; the parsed calls take about five times as much memory."""
+"""Maximum total size of cached lines, in bytes of text; the parsed calls take about five times as
+much memory.
+"""
 MAX_CACHED_CALL = 1 << 16  # bytes
 CREDIT = 1 << 13
-"""How many lines of a call are cached although none of them recurs. After that, none is for 16 times as many lines."""
+"""How many lines of a call are cached although none of them recurs. After that, none is for 16
+times as many lines.
+"""
 CREDIT_PER_HIT = 2
 PAUSE = 16 * CREDIT
 MAX_FILE = 16 << 20
 """Maximum size of a shader file in bytes; larger ones are skipped."""
 
 MAX_CODE = 128 << 20
-"""Maximum total size of the shader files of a capture in bytes; the tracker keeps their contents in memory."""
+"""Maximum total size of the shader files of a capture in bytes; the tracker keeps their contents in
+memory.
+"""
 
 MAX_PATH = 4096
 
@@ -58,10 +82,11 @@ def claims(head: bytes) -> bool:
 
 
 def calls(stream: BinaryIO, wanted: frozenset[str], name: str | None) -> Iterator[Call | Mark]:
-    """The calls and marks of a capture. Identical calls may share their `args`, which must not be modified.
+    """The calls and marks of a capture. Identical calls may share their `args`, which must not be
+    modified.
 
-    Shader files that the capture names are read from the folder of the file `name`. Raises CaptureError if the text is truncated or is not
-    JSON.
+    Shader files that the capture names are read from the folder of the file `name`. Raises
+    CaptureError if the text is truncated or is not JSON.
     """
     peeked = PeekedStream(stream)
     reader = Reader(wanted, name)
@@ -70,8 +95,9 @@ def calls(stream: BinaryIO, wanted: frozenset[str], name: str | None) -> Iterato
 
 
 def _file_beside(capture: str | None, path: str) -> bytes | None:
-    """The contents of a file at a path relative to a capture; None if it is outside the capture's folder, unreadable, or larger than 16
-    MiB."""
+    """The contents of a file at a path relative to a capture; None if it is outside the capture's
+    folder, unreadable, or larger than 16 MiB.
+    """
     if not capture or not 0 < len(path) <= MAX_PATH:
         return None
     folder = os.path.dirname(capture if is_url(capture) else os.path.abspath(capture))
@@ -83,9 +109,15 @@ def _file_beside(capture: str | None, path: str) -> bytes | None:
 
 
 def _extracted_shaders(capture: str | None, source: str) -> str:
-    """The name of the folder beside a capture with the shaders that gfxrecon-extract writes for a file `source`; empty if there is none."""
+    """The name of the folder beside a capture with the shaders that gfxrecon-extract writes for a
+    file `source`; empty if there is none.
+    """
     name = f"{source}.shaders"
-    return name if capture and source and _is_folder(os.path.join(os.path.dirname(capture), name)) else ""
+    return (
+        name
+        if capture and source and _is_folder(os.path.join(os.path.dirname(capture), name))
+        else ""
+    )
 
 
 def _is_folder(path: str) -> bool:
@@ -95,7 +127,9 @@ def _is_folder(path: str) -> bool:
 
 
 class LineStart:
-    """The start of a line, up to the call's name. `plain` says whether the arguments need no conversion and may recur."""
+    """The start of a line, up to the call's name. `plain` says whether the arguments need no
+    conversion and may recur.
+    """
 
     __slots__ = ("credit", "kind", "name", "plain", "wanted")
 
@@ -105,15 +139,21 @@ class LineStart:
         self.wanted = wanted
         self.plain = kind != "meta" and _recurs(name)
         self.credit = CREDIT
-        """How many further lines are cached, or if it is negative, are not. Lines that recur raise it."""
+        """How many further lines are cached, or if it is negative, are not. Lines that recur raise
+        it.
+        """
 
 
 class CachedLine:
-    """A line that may recur: its text after the index, its call, and the cached line that followed it last, at first itself."""
+    """A line that may recur: its text after the index, its call, and the cached line that followed
+    it last, at first itself.
+    """
 
     __slots__ = ("args", "body", "following", "result", "start")
 
-    def __init__(self, body: bytes, start: LineStart, args: dict[str, Any], result: str | None) -> None:
+    def __init__(
+        self, body: bytes, start: LineStart, args: dict[str, Any], result: str | None
+    ) -> None:
         self.body = body
         self.start = start
         self.args = args
@@ -122,7 +162,9 @@ class CachedLine:
 
 
 class LineCache(dict[bytes, CachedLine]):
-    """The cached lines by their text after the index. They refer to each other until `forget` is called."""
+    """The cached lines by their text after the index. They refer to each other until `forget` is
+    called.
+    """
 
     def __init__(self) -> None:
         self.size = 0
@@ -152,8 +194,12 @@ class Reader:
         self.direct3d = False
         self.trimmed = False
         self.code_budget = MAX_CODE
-        self.extracted = _extracted_shaders(name, CONVERTED_ENDING.sub(".gfxr", os.path.basename(name or ""), count=1))
-        """The folder of the shaders that gfxrecon-extract wrote, by its name beside the capture; empty without any."""
+        self.extracted = _extracted_shaders(
+            name, CONVERTED_ENDING.sub(".gfxr", os.path.basename(name or ""), count=1)
+        )
+        """The folder of the shaders that gfxrecon-extract wrote, by its name beside the capture;
+        empty without any.
+        """
         self.starts: dict[bytes, LineStart] = {}
         """By the text from the end of the index to the end of the name."""
 
@@ -190,7 +236,11 @@ class Reader:
     def finish(self) -> None:
         """Ends the capture. Raises CaptureError if it contained no Vulkan call."""
         if not self.vulkan:
-            raise CaptureError("this capture contains no Vulkan calls" + (", only Direct3D calls" if self.direct3d else ""), Place(1, 1))
+            raise CaptureError(
+                "this capture contains no Vulkan calls"
+                + (", only Direct3D calls" if self.direct3d else ""),
+                Place(1, 1),
+            )
 
     def _call(self, kind: str, body: object, place: Place) -> Call | None:
         name = body.get("name") if isinstance(body, dict) else None
@@ -225,12 +275,18 @@ class Reader:
         return Mark("trimmed", place)
 
     def _read_shaders(self, args: dict[str, Any]) -> None:
-        """Replaces the file names in `pCode` by the code from files beside the capture, and removes other placeholders."""
+        """Replaces the file names in `pCode` by the code from files beside the capture, and removes
+        other placeholders.
+        """
         for info in (args.get("pCreateInfo"), *items(args.get("pCreateInfos"))):
             for structure in (info, *items(record(info).get("pStages"))):
                 for holder in (holder for holder in chain(structure) if "pCode" in holder):
                     path = holder.pop("pCode")
-                    code = self._code(path) if isinstance(path, str) and not path.startswith(("[", "0x")) else None
+                    code = (
+                        self._code(path)
+                        if isinstance(path, str) and not path.startswith(("[", "0x"))
+                        else None
+                    )
                     if code is not None:
                         holder["pCode"] = code
 
@@ -252,7 +308,9 @@ class Reader:
 
 
 def _drop_null_sample_masks(args: dict[str, Any]) -> None:
-    """Removes null sample masks: version 0.9 writes null for every mask, so its value is unknown."""
+    """Removes null sample masks: version 0.9 writes null for every mask, so its value is
+    unknown.
+    """
     for info in items(args.get("pCreateInfos")):
         state = record(record(info).get("pMultisampleState"))
         if state.get("pSampleMask", ...) is None:
@@ -260,15 +318,18 @@ def _drop_null_sample_masks(args: dict[str, Any]) -> None:
 
 
 def _recurs(name: str) -> bool:
-    """Whether a call may recur with the same arguments. A call that creates an object has a new handle each time."""
+    """Whether a call may recur with the same arguments. A call that creates an object has a new
+    handle each time.
+    """
     return not name.startswith(("vkCreate", "vkAllocate", "vkGet"))
 
 
 def _lines(blocks: Blocks, reader: Reader) -> Iterator[Call | Mark]:
     """The calls of JSON Lines.
 
-    Lines of unwanted calls are skipped for their first characters. Lines that recur, apart from their index, are not parsed again: a frame
-    usually resembles the one before it, so that most are recognized as the line that followed last time.
+    Lines of unwanted calls are skipped for their first characters. Lines that recur, apart from
+    their index, are not parsed again: a frame usually resembles the one before it, so that most are
+    recognized as the line that followed last time.
     """
     new = tuple.__new__
     parse = loads_plain
@@ -295,7 +356,9 @@ def _lines(blocks: Blocks, reader: Reader) -> Iterator[Call | Mark]:
                 else:
                     match = LINE_START.match(line)
                     if match is None:
-                        call_or_mark = reader.read(line, number, 1) if line and not line.isspace() else None
+                        call_or_mark = (
+                            reader.read(line, number, 1) if line and not line.isspace() else None
+                        )
                         if call_or_mark is not None:
                             yield call_or_mark
                         continue
@@ -371,7 +434,12 @@ def _elements(cursor: Cursor, reader: Reader) -> Iterator[Call | Mark]:
             else:
                 assert place.line is not None and place.column is not None
                 call_or_mark = reader.read(text, place.line, place.column)
-                if isinstance(call_or_mark, Call) and start is not None and len(body) <= MAX_CACHED_CALL and _recurs(call_or_mark.name):
+                if (
+                    isinstance(call_or_mark, Call)
+                    and start is not None
+                    and len(body) <= MAX_CACHED_CALL
+                    and _recurs(call_or_mark.name)
+                ):
                     if size > MAX_CACHE:
                         cache.clear()
                         size = 0

@@ -1,9 +1,12 @@
-"""Converts a Metal frame to the equivalent Vulkan frame. Every value keeps its place in the Metal text.
+"""Converts a Metal frame to the equivalent Vulkan frame. Every value keeps its place in the Metal
+text.
 
-A texture becomes an image. A render pass descriptor becomes a render pass with one subpass, whose attachments include the resolve textures.
-A command that encodes a pass begins and ends it. Unstated values stay unstated. From Apple's documentation: `multisampleResolve` leaves the
-samples undefined; a memoryless texture is a render target without contents before or after a pass; a depth resolve without a filter takes
-sample 0; a drawable, or a texture whose type is not multisampled, has one sample.
+A texture becomes an image. A render pass descriptor becomes a render pass with one subpass, whose
+attachments include the resolve textures. A command that encodes a pass begins and ends it. Unstated
+values stay unstated. From Apple's documentation: `multisampleResolve` leaves the samples undefined;
+a memoryless texture is a render target without contents before or after a pass; a depth resolve
+without a filter takes sample 0; a drawable, or a texture whose type is not multisampled, has one
+sample.
 """
 
 from __future__ import annotations
@@ -35,7 +38,17 @@ from msaa_lint.frame.metal.formats import PIXEL_FORMATS
 from msaa_lint.frame.metal.names import MULTISAMPLE_TYPES
 from msaa_lint.frame.vulkan.formats import format_of
 
-from .metal_pass import Items, PassTree, attachments_of, by_index, first_stated, key_of, placed, renamed, resolves
+from .metal_pass import (
+    Items,
+    PassTree,
+    attachments_of,
+    by_index,
+    first_stated,
+    key_of,
+    placed,
+    renamed,
+    resolves,
+)
 
 BESIDE = ("images", "renderPasses", "framebuffers", "pipelines", "commands")
 """The sections of a Vulkan frame."""
@@ -43,7 +56,10 @@ BESIDE = ("images", "renderPasses", "framebuffers", "pipelines", "commands")
 _USAGE = {"shaderRead": "SAMPLED", "shaderWrite": "STORAGE", "shaderAtomic": "STORAGE"}
 _COMMANDS = {
     "copy": ("copyImage", {"source": "srcImage", "destination": "dstImage"}),
-    "readTexture": ("readImage", {"texture": "image", "samples": "samples", "resolves": "resolves"}),
+    "readTexture": (
+        "readImage",
+        {"texture": "image", "samples": "samples", "resolves": "resolves"},
+    ),
     "writeTexture": ("writeImage", {"texture": "image"}),
 }
 _STAGES = {"vertex": "VERTEX", "fragment": "FRAGMENT", "compute": "COMPUTE", "tile": "FRAGMENT"}
@@ -56,12 +72,23 @@ def check(binder: Binder, description: Description) -> None:
     beside = [section for section in BESIDE if description.states(section)]
     if beside:
         key = description.spelled["metal"][0]
-        help = "describe the frame either in `metal` or in Vulkan's sections; only `frame`, `device` and `scene` are allowed beside `metal`"
-        binder.report("MSAA903", f"`metal` cannot be combined with the Vulkan section `{beside[0]}`", key.span, "metal", help)
+        help = (
+            "describe the frame either in `metal` or in Vulkan's sections; only `frame`, "
+            "`device` and `scene` are allowed beside `metal`"
+        )
+        binder.report(
+            "MSAA903",
+            f"`metal` cannot be combined with the Vulkan section `{beside[0]}`",
+            key.span,
+            "metal",
+            help,
+        )
 
 
 def lower(description: Description) -> Lowered:
-    """Adds the Vulkan records for `metal` to a valid description, and returns the Metal structures behind each attachment."""
+    """Adds the Vulkan records for `metal` to a valid description, and returns the Metal structures
+    behind each attachment.
+    """
     assert description.metal is not None
     return _Lowering(description, description.metal).lowered()
 
@@ -85,14 +112,20 @@ class _Lowering:
                     if name is not None:
                         self.used_as.setdefault(name, set()).add(aspect)
         description.images = {
-            name: bind(Image, self.image(name, texture), texture.path, name, texture.head) for name, texture in metal.textures.items()
+            name: bind(Image, self.image(name, texture), texture.path, name, texture.head)
+            for name, texture in metal.textures.items()
         }
-        description.renderPasses = {name: self.render_pass(name, each) for name, each in metal.renderPasses.items()}
+        description.renderPasses = {
+            name: self.render_pass(name, each) for name, each in metal.renderPasses.items()
+        }
         description.pipelines = {
-            name: bind(Pipeline, self.pipeline(each), each.path, name, each.head) for name, each in metal.renderPipelines.items()
+            name: bind(Pipeline, self.pipeline(each), each.path, name, each.head)
+            for name, each in metal.renderPipelines.items()
         }
         if metal.commands is not None:
-            description.commands = tuple(made for each in metal.commands if each is not None for made in self.commands(each))
+            description.commands = tuple(
+                made for each in metal.commands if each is not None for made in self.commands(each)
+            )
         assert not self.binder.problems, self.binder.problems
         return self.made
 
@@ -108,20 +141,37 @@ class _Lowering:
         usage = self._usage(name, texture, vk_format)
         if usage is not None:
             by = "usage" if texture.states("usage") else "storageMode"
-            items.append(("usage", key_of(texture, by), sequence(usage, texture.spelled[by][1].span)))
+            items.append(
+                ("usage", key_of(texture, by), sequence(usage, texture.spelled[by][1].span))
+            )
         if texture.storageMode is not None:
-            flags = ("DEVICE_LOCAL", "LAZILY_ALLOCATED") if texture.storageMode == "memoryless" else ("DEVICE_LOCAL",)
+            flags = (
+                ("DEVICE_LOCAL", "LAZILY_ALLOCATED")
+                if texture.storageMode == "memoryless"
+                else ("DEVICE_LOCAL",)
+            )
             at = texture.spelled["storageMode"][1].span
-            items.append(("memory", key_of(texture, "storageMode"), sequence([scalar(flag, at) for flag in flags], at)))
+            items.append(
+                (
+                    "memory",
+                    key_of(texture, "storageMode"),
+                    sequence([scalar(flag, at) for flag in flags], at),
+                )
+            )
         sides = renamed(texture, {"width": "width", "height": "height"})
         if sides:
             items.append(("extent", sides[0][1], mapping(sides, sides[0][1])))
-        items += renamed(texture, {"drawable": "presentable", "mipmapLevelCount": "mipLevels", "encoding": "encoding"})
+        items += renamed(
+            texture,
+            {"drawable": "presentable", "mipmapLevelCount": "mipLevels", "encoding": "encoding"},
+        )
         items += _type(texture)
         return mapping(items, texture.node.span)
 
     def _usage(self, name: str, texture: MetalTexture, vk_format: str | None) -> list[Node] | None:
-        """The usage flags of a texture; None if the usage is not stated or is `unknown`, which allows everything."""
+        """The usage flags of a texture; None if the usage is not stated or is `unknown`, which
+        allows everything.
+        """
         words = texture.usage
         if words is not None and ("unknown" in words or not words):
             words = None
@@ -131,7 +181,11 @@ class _Lowering:
         rendered = self._rendered_as(name, vk_format)
         found: dict[str, Span] = {}
         for word in words or ("renderTarget",):
-            at = texture.flag_place("usage", (word,)) if words is not None else texture.place("storageMode")
+            at = (
+                texture.flag_place("usage", (word,))
+                if words is not None
+                else texture.place("storageMode")
+            )
             flag = rendered if word == "renderTarget" else _USAGE.get(word)
             if word == "renderTarget" and flag is None:
                 return None
@@ -142,7 +196,9 @@ class _Lowering:
         return [scalar(flag, at) for flag, at in found.items()]
 
     def _rendered_as(self, name: str, vk_format: str | None) -> str | None:
-        """The attachment usage of a render target, from its format or else from the passes that attach it."""
+        """The attachment usage of a render target, from its format or else from the passes that
+        attach it.
+        """
         known = format_of(vk_format) if vk_format else None
         aspects = set(known.aspects) if known is not None else self.used_as.get(name, set())
         if not aspects or ("color" in aspects and len(aspects) > 1):
@@ -155,7 +211,11 @@ class _Lowering:
         subpass = made.subpasses[0]
         subpass.path = each.path
         if subpass.depthStencilResolve is not None:
-            resolving = next(a for a in (each.depthAttachment, each.stencilAttachment) if a is not None and resolves(a))
+            resolving = next(
+                a
+                for a in (each.depthAttachment, each.stencilAttachment)
+                if a is not None and resolves(a)
+            )
             subpass.depthStencilResolve.path = resolving.path
         for attachment, (path, by_aspect) in zip(made.attachments, own.origins, strict=True):
             attachment.path = path
@@ -180,11 +240,27 @@ class _Lowering:
         raster = first_stated(each, ("isRasterizationEnabled", "rasterizationEnabled"))
         if raster is not None:
             key, value = placed(each, raster, not getattr(each, raster))
-            items.append(("rasterizationState", key, mapping([("rasterizerDiscardEnable", key, value)], each.node.span)))
+            items.append(
+                (
+                    "rasterizationState",
+                    key,
+                    mapping([("rasterizerDiscardEnable", key, value)], each.node.span),
+                )
+            )
         colors = by_index(each.colorAttachments)
-        if any(color is not None and first_stated(color, _BLENDING) is not None for color in colors):
+        if any(
+            color is not None and first_stated(color, _BLENDING) is not None for color in colors
+        ):
             at = key_of(each, "colorAttachments")
-            items.append(("colorBlendState", at, mapping([("attachments", at, sequence([_blend(c, at) for c in colors], at))], at)))
+            items.append(
+                (
+                    "colorBlendState",
+                    at,
+                    mapping(
+                        [("attachments", at, sequence([_blend(c, at) for c in colors], at))], at
+                    ),
+                )
+            )
         if each.renderPass is not None:
             key, value = placed(each, "renderPass", each.renderPass)
             items += [("renderPass", key, value), ("subpass", key, scalar(0, value.span))]
@@ -198,9 +274,14 @@ class _Lowering:
         if not isinstance(body, Record):
             name = scalar(str(body), _inner(each).span)
             if each.kind == "present":
-                return [self._command("present", mapping([("image", each.head, name)], name.span), each)]
+                return [
+                    self._command("present", mapping([("image", each.head, name)], name.span), each)
+                ]
             begin = mapping([("renderPass", each.head, name)], name.span)
-            return [self._command("beginRenderPass", begin, each), self._command("endRenderPass", mapping((), name.span), each)]
+            return [
+                self._command("beginRenderPass", begin, each),
+                self._command("endRenderPass", mapping((), name.span), each),
+            ]
         kind, members = _COMMANDS[each.kind]
         items = renamed(body, members)
         if isinstance(body, (MetalRead, MetalWrite)) and body.stage is not None:
@@ -221,10 +302,17 @@ _BLENDING = ("isBlendingEnabled", "blendingEnabled")
 
 
 def samples_of(texture: MetalTexture) -> int | None:
-    """A texture's sample count; 1 for a drawable or a type that is not multisampled, unless stated."""
+    """A texture's sample count; 1 for a drawable or a type that is not multisampled, unless
+    stated.
+    """
     if texture.sampleCount is not None:
         return texture.sampleCount
-    return 1 if texture.drawable or (texture.textureType is not None and texture.textureType not in MULTISAMPLE_TYPES) else None
+    return (
+        1
+        if texture.drawable
+        or (texture.textureType is not None and texture.textureType not in MULTISAMPLE_TYPES)
+        else None
+    )
 
 
 def _inner(command: MetalCommand) -> Node:
@@ -241,7 +329,9 @@ def _type(texture: MetalTexture) -> Items:
     by = "arrayLength"
     if texture.textureType is not None:
         kind = texture.textureType
-        key, value = placed(texture, "textureType", "1D" if "1D" in kind else "3D" if "3D" in kind else "2D")
+        key, value = placed(
+            texture, "textureType", "1D" if "1D" in kind else "3D" if "3D" in kind else "2D"
+        )
         items.append(("imageType", key, value))
         if kind.startswith("typeCube"):
             flags.append(scalar("CUBE_COMPATIBLE", value.span))
@@ -259,7 +349,9 @@ def _blend(color: MetalPipelineColor | None, at: Span) -> Node:
     member = first_stated(color, _BLENDING) if color is not None else None
     if color is None or member is None:
         return mapping((), at)
-    return mapping([("blendEnable", *placed(color, member, getattr(color, member)))], color.node.span)
+    return mapping(
+        [("blendEnable", *placed(color, member, getattr(color, member)))], color.node.span
+    )
 
 
 def _formats(each: MetalRenderPipeline, colors: Sequence[MetalPipelineColor | None]) -> Items:
@@ -268,11 +360,19 @@ def _formats(each: MetalRenderPipeline, colors: Sequence[MetalPipelineColor | No
     if colors:
         at = key_of(each, "colorAttachments")
         formats = [_format(c, "pixelFormat") if c is not None else None for c in colors]
-        items.append(("colorAttachmentFormats", at, sequence([node or scalar(None, at) for node in formats], at)))
+        items.append(
+            (
+                "colorAttachmentFormats",
+                at,
+                sequence([node or scalar(None, at) for node in formats], at),
+            )
+        )
     for aspect in ("depth", "stencil"):
         node = _format(each, f"{aspect}AttachmentPixelFormat")
         if node is not None:
-            items.append((f"{aspect}AttachmentFormat", key_of(each, f"{aspect}AttachmentPixelFormat"), node))
+            items.append(
+                (f"{aspect}AttachmentFormat", key_of(each, f"{aspect}AttachmentPixelFormat"), node)
+            )
     return items
 
 

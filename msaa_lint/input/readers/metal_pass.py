@@ -9,7 +9,12 @@ from msaa_lint.core.text.node import Node
 from msaa_lint.core.text.node_builder import mapping, scalar, sequence
 from msaa_lint.core.text.span import Span
 from msaa_lint.frame.description.document import StencilApart
-from msaa_lint.frame.description.models import MetalColorAttachment, MetalDepthAttachment, MetalRenderPass, MetalStencilAttachment
+from msaa_lint.frame.description.models import (
+    MetalColorAttachment,
+    MetalDepthAttachment,
+    MetalRenderPass,
+    MetalStencilAttachment,
+)
 from msaa_lint.frame.description.record import Record
 from msaa_lint.frame.description.scalars import UNUSED
 from msaa_lint.frame.metal.names import MULTISAMPLE_RESOLVES
@@ -32,13 +37,17 @@ MetalAttachment = MetalColorAttachment | MetalDepthAttachment | MetalStencilAtta
 
 
 class PassTree:
-    """The attachments of a pass in Vulkan's order: color, depth and stencil, then resolve targets."""
+    """The attachments of a pass in Vulkan's order: color, depth and stencil, then resolve
+    targets.
+    """
 
     def __init__(self, each: MetalRenderPass) -> None:
         self.each = each
         self.attachments: Items = []
         self.origins: list[tuple[str, Mapping[str, Record]]] = []
-        """For each attachment, its path and its Metal structures by aspect; empty for a resolve target."""
+        """For each attachment, its path and its Metal structures by aspect; empty for a resolve
+        target.
+        """
         self.apart: StencilApart | None = None
         # `UNUSED` contains reserved names.
         self._names: set[str] = set(UNUSED)
@@ -50,7 +59,9 @@ class PassTree:
         if colors:
             at = key_of(self.each, "colorAttachments")
             subpass.append(("colorAttachments", at, sequence(references, at)))
-        resolved: list[tuple[int, MetalColorAttachment]] = [(n, c) for n, c in enumerate(colors) if c is not None and resolves(c)]
+        resolved: list[tuple[int, MetalColorAttachment]] = [
+            (n, c) for n, c in enumerate(colors) if c is not None and resolves(c)
+        ]
         subpass += self._depth_stencil()
         if resolved:
             slots = [scalar(None, self.each.head) for _ in colors]
@@ -60,14 +71,20 @@ class PassTree:
             subpass.append(("resolveAttachments", at, sequence(slots, at)))
         head, whole = self.each.head, self.each.node.span
         return mapping(
-            [("attachments", head, mapping(self.attachments, whole)), ("subpasses", head, sequence([mapping(subpass, whole)], whole))],
+            [
+                ("attachments", head, mapping(self.attachments, whole)),
+                ("subpasses", head, sequence([mapping(subpass, whole)], whole)),
+            ],
             whole,
         )
 
     def _name(self, texture: str | None, otherwise: str) -> str:
         """A unique name within the pass: the texture's if it is free."""
         candidates = [texture, f"{texture} ({otherwise})"] if texture is not None else []
-        name = next((candidate for candidate in (*candidates, otherwise) if candidate not in self._names), otherwise)
+        name = next(
+            (candidate for candidate in (*candidates, otherwise) if candidate not in self._names),
+            otherwise,
+        )
         while name in self._names:
             name += "'"
         self._names.add(name)
@@ -77,9 +94,16 @@ class PassTree:
         if color is None:
             return scalar(None, self.each.head)
         slot = f"colorAttachments[{number}]"
-        return self._add(color, slot, renamed(color, {"texture": "image"}) + _operations(color, ""), {"color": color})
+        return self._add(
+            color,
+            slot,
+            renamed(color, {"texture": "image"}) + _operations(color, ""),
+            {"color": color},
+        )
 
-    def _add(self, of: MetalAttachment, slot: str, items: Items, origin: Mapping[str, Record]) -> Node:
+    def _add(
+        self, of: MetalAttachment, slot: str, items: Items, origin: Mapping[str, Record]
+    ) -> Node:
         name = self._name(of.texture, slot)
         self.attachments.append((name, of.head, mapping(items, of.node.span)))
         self.origins.append((of.path, origin))
@@ -91,7 +115,11 @@ class PassTree:
         if first is None:
             return []
         items, origin = renamed(first, {"texture": "image"}), dict[str, Record]()
-        together = depth is None or stencil is None or (depth.texture is not None and depth.texture == stencil.texture)
+        together = (
+            depth is None
+            or stencil is None
+            or (depth.texture is not None and depth.texture == stencil.texture)
+        )
         if depth is not None:
             items += _operations(depth, "")
             origin["depth"] = depth
@@ -103,33 +131,65 @@ class PassTree:
         references: Items = [("depthStencilAttachment", key_of(self.each, slot), reference)]
         if stencil is not None and not together:
             name = self._add(
-                stencil, "stencilAttachment", renamed(stencil, {"texture": "image"}) + _operations(stencil, "stencil"), {"stencil": stencil}
+                stencil,
+                "stencilAttachment",
+                renamed(stencil, {"texture": "image"}) + _operations(stencil, "stencil"),
+                {"stencil": stencil},
             )
-            target = self._target(stencil, "stencilAttachment", ("stencil",)).text if resolves(stencil) else None
+            target = (
+                self._target(stencil, "stencilAttachment", ("stencil",)).text
+                if resolves(stencil)
+                else None
+            )
             self.apart = StencilApart(name.text, target, stencil)
         resolve_items = self._resolved(depth, stencil if together else None)
         return references + resolve_items
 
-    def _resolved(self, depth: MetalDepthAttachment | None, stencil: MetalStencilAttachment | None) -> Items:
+    def _resolved(
+        self, depth: MetalDepthAttachment | None, stencil: MetalStencilAttachment | None
+    ) -> Items:
         """The depth/stencil resolve: of one aspect, or of both to the same texture."""
-        of_depth, of_stencil = depth is not None and resolves(depth), stencil is not None and resolves(stencil)
+        of_depth, of_stencil = (
+            depth is not None and resolves(depth),
+            stencil is not None and resolves(stencil),
+        )
         if not of_depth and not of_stencil:
             return []
         first = depth if of_depth else stencil
         assert first is not None
-        both = of_depth and of_stencil and depth is not None and stencil is not None and depth.resolveTexture == stencil.resolveTexture
+        both = (
+            of_depth
+            and of_stencil
+            and depth is not None
+            and stencil is not None
+            and depth.resolveTexture == stencil.resolveTexture
+        )
         aspects = ("depth", "stencil") if both else ("depth",) if of_depth else ("stencil",)
-        target = self._target(first, "depthAttachment" if of_depth else "stencilAttachment", aspects)
+        target = self._target(
+            first, "depthAttachment" if of_depth else "stencilAttachment", aspects
+        )
         key = key_of(first, "resolveTexture")
         items: Items = [("attachment", key, target)]
         place = first.place("resolveTexture")
         filters = depth.depthResolveFilter if depth is not None and of_depth else None
         mode = _DEPTH_FILTERS[filters] if of_depth else "NONE"
-        items.append(("depthResolveMode", key, scalar(mode, first.place("depthResolveFilter") if filters is not None else place)))
+        items.append(
+            (
+                "depthResolveMode",
+                key,
+                scalar(mode, first.place("depthResolveFilter") if filters is not None else place),
+            )
+        )
         if not of_stencil or stencil is None:
             items.append(("stencilResolveMode", key, scalar("NONE", place)))
-        elif (stencil.stencilResolveFilter != "depthResolvedSample" or mode == "SAMPLE_ZERO") and (both or not of_depth):
-            at = stencil.place("stencilResolveFilter") if stencil.states("stencilResolveFilter") else stencil.place("resolveTexture")
+        elif (stencil.stencilResolveFilter != "depthResolvedSample" or mode == "SAMPLE_ZERO") and (
+            both or not of_depth
+        ):
+            at = (
+                stencil.place("stencilResolveFilter")
+                if stencil.states("stencilResolveFilter")
+                else stencil.place("resolveTexture")
+            )
             items.append(("stencilResolveMode", key, scalar("SAMPLE_ZERO", at)))
         return [("depthStencilResolve", key, mapping(items, first.node.span))]
 
@@ -139,7 +199,11 @@ class PassTree:
         key, at = key_of(of, "resolveTexture"), of.place("resolveTexture")
         items: Items = [("image", key, scalar(of.resolveTexture, at))]
         for aspect in aspects:
-            load, store = ("stencilLoadOp", "stencilStoreOp") if aspect == "stencil" else ("loadOp", "storeOp")
+            load, store = (
+                ("stencilLoadOp", "stencilStoreOp")
+                if aspect == "stencil"
+                else ("loadOp", "storeOp")
+            )
             items += [(load, key, scalar("DONT_CARE", at)), (store, key, scalar("STORE", at))]
         self.attachments.append((name, key, mapping(items, at)))
         self.origins.append((f"{of.path}.resolveTexture", {}))
@@ -150,7 +214,9 @@ def by_index(stated: Mapping[str, Kind | None] | Sequence[Kind | None]) -> list[
     """Color attachments in index order; None for an unused index."""
     if not isinstance(stated, Mapping):
         return list(stated)
-    attachments: list[Kind | None] = [None] * (max((int(index) for index in stated), default=-1) + 1)
+    attachments: list[Kind | None] = [None] * (
+        max((int(index) for index in stated), default=-1) + 1
+    )
     for index, attachment in stated.items():
         attachments[int(index)] = attachment
     return attachments
@@ -174,7 +240,11 @@ def placed(record: Record, member: str, value: str | int | bool) -> tuple[Span, 
 def renamed(record: Record, names: Mapping[str, str]) -> Items:
     """The stated members of a record under other names."""
     values = ((name, member, getattr(record, member)) for member, name in names.items())
-    return [(name, *placed(record, member, value)) for name, member, value in values if value is not None]
+    return [
+        (name, *placed(record, member, value))
+        for name, member, value in values
+        if value is not None
+    ]
 
 
 def attachments_of(render_pass: MetalRenderPass) -> Iterable[tuple[str, MetalAttachment]]:
@@ -189,12 +259,16 @@ def attachments_of(render_pass: MetalRenderPass) -> Iterable[tuple[str, MetalAtt
 
 
 def resolves(attachment: MetalAttachment) -> bool:
-    """Whether a pass resolves an attachment: its store action resolves, and it has a resolve texture."""
+    """Whether a pass resolves an attachment: its store action resolves, and it has a resolve
+    texture.
+    """
     return attachment.storeAction in MULTISAMPLE_RESOLVES and attachment.resolveTexture is not None
 
 
 def _operations(attachment: MetalAttachment, aspect: str) -> Items:
-    """The load and store operations for an attachment's actions. `unknown` is a placeholder that the program replaces, so it is omitted."""
+    """The load and store operations for an attachment's actions. `unknown` is a placeholder that
+    the program replaces, so it is omitted.
+    """
     load, store = ("stencilLoadOp", "stencilStoreOp") if aspect else ("loadOp", "storeOp")
     items: Items = []
     if attachment.loadAction is not None:

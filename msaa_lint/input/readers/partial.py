@@ -1,8 +1,10 @@
-"""What is left of a description with errors, without what could not be read, and whose absence says nothing.
+"""What is left of a description with errors, without what could not be read, and whose absence says
+nothing.
 
-A key that resembles none is taken for a structure of an extension: it goes into the `pNext` of its structure, which leaves uses and
-readers unknown. For any other error, the image, the render pass, the framebuffer, the pipeline, or the commands of the pass that have it
-are left out; names of them are then names of something unknown.
+A key that resembles none is taken for a structure of an extension: it goes into the `pNext` of its
+structure, which leaves uses and readers unknown. For any other error, the image, the render pass,
+the framebuffer, the pipeline, or the commands of the pass that have it are left out; names of them
+are then names of something unknown.
 """
 
 from __future__ import annotations
@@ -41,16 +43,26 @@ _DECISIVE = ("format", "arrayLayers", "encoding")
 def rest_of(source: Source, root: Node, document: Document) -> Document | None:
     """What is left of a description with problems.
 
-    None after a syntax error, where the device or what is enabled could not be read, and of Metal and shorthands if a known key could not.
+    None after a syntax error, where the device or what is enabled could not be read, and of Metal
+    and shorthands if a known key could not.
     """
-    is_lowered = document.description.states("metal") or document.description.states("renderTargets")
+    is_lowered = document.description.states("metal") or document.description.states(
+        "renderTargets"
+    )
     problems = document.problems
     complete = not is_lowered
     for _ in range(MAX_ROUNDS):
-        if root.kind != "mapping" or any(problem.code == "MSAA901" or not problem.path for problem in problems):
+        if root.kind != "mapping" or any(
+            problem.code == "MSAA901" or not problem.path for problem in problems
+        ):
             return None
         sections = {problem.path.split(".")[0] for problem in problems if not problem.foreign}
-        if sections and (is_lowered or not _NEEDED.isdisjoint(meant(section, Description.SHAPE) or section for section in sections)):
+        if sections and (
+            is_lowered
+            or not _NEEDED.isdisjoint(
+                meant(section, Description.SHAPE) or section for section in sections
+            )
+        ):
             return None
         rest = _Rest(problems)
         root = rest.of(root)
@@ -63,7 +75,9 @@ def rest_of(source: Source, root: Node, document: Document) -> Document | None:
 
 
 class _Rest:
-    """Leaves out what has problems. `complete` says that nothing was left out that may use an image or a pass."""
+    """Leaves out what has problems. `complete` says that nothing was left out that may use an image
+    or a pass.
+    """
 
     def __init__(self, problems: Sequence[Problem]) -> None:
         self._wrong = {problem.path for problem in problems}
@@ -89,23 +103,41 @@ class _Rest:
 
     def _below(self, path: str) -> set[str]:
         """The paths of the problems of a structure, and of what it has."""
-        return {wrong for wrong in self._wrong if wrong == path or wrong.startswith((f"{path}.", f"{path}["))}
+        return {
+            wrong
+            for wrong in self._wrong
+            if wrong == path or wrong.startswith((f"{path}.", f"{path}["))
+        }
 
     def _section(self, path: str, value: Node) -> Node:
         if path == "commands":
             self.complete = False
             return self._commands(value)
-        if path not in ("images", "renderPasses", "framebuffers", "pipelines", "sampleCountChoices"):
+        if path not in (
+            "images",
+            "renderPasses",
+            "framebuffers",
+            "pipelines",
+            "sampleCountChoices",
+        ):
             return without(value, path, self._wrong)[0]
-        left = [(key, value.keys[key].span, self._entry(path, f"{path}.{shortened(key)}", entry)) for key, entry in value.value.items()]
-        return mapping([(key, at, entry) for key, at, entry in left if entry is not None], value.span)
+        left = [
+            (key, value.keys[key].span, self._entry(path, f"{path}.{shortened(key)}", entry))
+            for key, entry in value.value.items()
+        ]
+        return mapping(
+            [(key, at, entry) for key, at, entry in left if entry is not None], value.span
+        )
 
     def _entry(self, section: str, path: str, entry: Node) -> Node | None:
         """What is left of an entry of a section; None if it is left out."""
         wrong = self._below(path)
         if not wrong:
             return entry
-        if path in wrong or any(not (each in self._foreign or _is_scalar(section, each.removeprefix(path))) for each in wrong):
+        if path in wrong or any(
+            not (each in self._foreign or _is_scalar(section, each.removeprefix(path)))
+            for each in wrong
+        ):
             self.complete = False
             return None
         self.complete = self.complete and wrong <= self._foreign
@@ -113,7 +145,9 @@ class _Rest:
         return _with_unread(rest) if section in ("images", "renderPasses") else rest
 
     def _commands(self, commands: Node) -> Node:
-        """The commands without those of passes that have problems, in whose places are commands without effect."""
+        """The commands without those of passes that have problems, in whose places are commands
+        without effect.
+        """
         items: list[Node] = []
         segment: list[Node] = []
         is_left_out = False
@@ -147,7 +181,12 @@ def _is_scalar(section: str, member: str) -> bool:
         return False
     name = member.rpartition(".")[2].partition("[")[0]
     name = name if name in kind.SHAPE else meant(name, kind.SHAPE) or ""
-    return name in kind.SHAPE and getattr(kind, name) is None and name not in _DECISIVE and kind.SHAPE[name][0] != "name"
+    return (
+        name in kind.SHAPE
+        and getattr(kind, name) is None
+        and name not in _DECISIVE
+        and kind.SHAPE[name][0] != "name"
+    )
 
 
 def _name(command: Node) -> str:
@@ -162,7 +201,9 @@ def _foreign_left_out(command: Node, path: str, wrong: set[str]) -> Node:
     if _name(rest) != "beginRendering":
         return rest
     key = rest.keys["beginRendering"]
-    return mapping([("beginRendering", key.span, _with_unread(rest.value["beginRendering"]))], rest.span)
+    return mapping(
+        [("beginRendering", key.span, _with_unread(rest.value["beginRendering"]))], rest.span
+    )
 
 
 def _with_unread(node: Node) -> Node:
@@ -182,18 +223,24 @@ def _no_effect(node: Node) -> Node:
 
 
 def without(node: Node, path: str, wrong: Set[str], depth: int = 0) -> tuple[Node, bool]:
-    """Returns a node without its invalid members, and whether the node itself is invalid. A list with an invalid element is."""
+    """Returns a node without its invalid members, and whether the node itself is invalid. A list
+    with an invalid element is.
+    """
     if (path and path in wrong) or depth > MAX_DEEP:
         return node, True
     if node.kind == "sequence":
-        items = [without(item, f"{path}[{n}]", wrong, depth + 1) for n, item in enumerate(node.value)]
+        items = [
+            without(item, f"{path}[{n}]", wrong, depth + 1) for n, item in enumerate(node.value)
+        ]
         copied = Node(node.kind, node.start, node.end, [item for item, _ in items], node.keys)
         return copied, any(bad for _, bad in items)
     if node.kind != "mapping":
         return node, False
     members = []
     for key, value in node.value.items():
-        inner, bad = without(value, f"{path}.{shortened(key)}" if path else shortened(key), wrong, depth + 1)
+        inner, bad = without(
+            value, f"{path}.{shortened(key)}" if path else shortened(key), wrong, depth + 1
+        )
         if not bad:
             members.append((key, node.keys[key].span, inner))
     return mapping(members, node.span), False

@@ -1,6 +1,8 @@
-"""RenderDoc captures as written by `renderdoccmd convert -c xml` or `-c zip.xml`: one frame, and the calls that created its objects.
+"""RenderDoc captures as written by `renderdoccmd convert -c xml` or `-c zip.xml`: one frame, and
+the calls that created its objects.
 
-A chunk is a call. `renderdoc_calls` converts RenderDoc's names to C's; `renderdoc_blobs` reads shaders from the zip beside a zip.xml.
+A chunk is a call. `renderdoc_calls` converts RenderDoc's names to C's; `renderdoc_blobs` reads
+shaders from the zip beside a zip.xml.
 """
 
 from __future__ import annotations
@@ -13,7 +15,17 @@ from msaa_lint.input.captures.call import Call, CaptureError, Mark, Place, is_wa
 
 from .renderdoc_blobs import Blobs
 from .renderdoc_calls import INITIAL_CONTENTS, NEEDED_FOR, CallConverter
-from .renderdoc_elements import BUFFERS, CHUNK, END, MAX_SIZE, NAME, SPECIAL, VALUES, ElementParser, Unusual
+from .renderdoc_elements import (
+    BUFFERS,
+    CHUNK,
+    END,
+    MAX_SIZE,
+    NAME,
+    SPECIAL,
+    VALUES,
+    ElementParser,
+    Unusual,
+)
 from .renderdoc_repair import XmlRepair
 from .renderdoc_sets import unknown_set
 
@@ -28,10 +40,14 @@ MAX_ELEMENTS = 1_000_000
 """Maximum number of structures and arrays in a chunk."""
 
 MAX_NAMES = 20_000
-"""Maximum number of element and attribute names in a file, which expat keeps; RenderDoc writes about 30."""
+"""Maximum number of element and attribute names in a file, which expat keeps; RenderDoc writes
+about 30.
+"""
 
 MAX_CACHE = 8 << 20
-"""Maximum total size of cached chunks, in bytes of text; the parsed calls take about three times as much memory."""
+"""Maximum total size of cached chunks, in bytes of text; the parsed calls take about three times as
+much memory.
+"""
 
 MAX_DEPTH = 100
 
@@ -93,7 +109,9 @@ class _ChunkParser:
         self.converter = CallConverter()
         self.elements = ElementParser(self.special_value)
         self.is_usual = True
-        """Whether the file may still have chunks in RenderDoc's layout: so far it has no comments, CDATA, or very long lines."""
+        """Whether the file may still have chunks in RenderDoc's layout: so far it has no comments,
+        CDATA, or very long lines.
+        """
         self.skipped_lines = 0
         self.fed_lines = 0
         """The numbers of lines that the XML parser did not get, and that it got."""
@@ -117,9 +135,11 @@ class _ChunkParser:
         self.expect_chunk()
 
     def take(self, text: bytes, last: bool) -> bytes:
-        """Takes the next text of the file, and returns the end of it that is needed again with what follows.
+        """Takes the next text of the file, and returns the end of it that is needed again with what
+        follows.
 
-        Chunks in RenderDoc's own layout are skipped, or parsed by `elements`: the XML parser gets the others, line by line.
+        Chunks in RenderDoc's own layout are skipped, or parsed by `elements`: the XML parser gets
+        the others, line by line.
         """
         at = 0
         while self.is_usual:
@@ -151,7 +171,9 @@ class _ChunkParser:
         return b""
 
     def take_chunk(self, text: bytes, at: int) -> int:
-        """Takes a chunk in RenderDoc's layout, and returns where it ends; 0 if there is none, or only a part of it."""
+        """Takes a chunk in RenderDoc's layout, and returns where it ends; 0 if there is none, or
+        only a part of it.
+        """
         start = CHUNK.match(text, at)
         stop = text.find(b"</chunk>", start.end()) if start is not None else -1
         end = END.match(text, stop) if stop >= 0 else None
@@ -162,7 +184,11 @@ class _ChunkParser:
             return 0
         name = name_match[1].decode("utf-8", "replace")
         if self.is_needed(name):
-            place = Place(self.fed_lines + self.skipped_lines + 1, start.start(1) - at - len("<chunk") + 1, self.number + 1)
+            place = Place(
+                self.fed_lines + self.skipped_lines + 1,
+                start.start(1) - at - len("<chunk") + 1,
+                self.number + 1,
+            )
             body = text[start.end() : stop]
             cached = self.cache.get(body)
             if cached is not None and cached.name == name:
@@ -189,7 +215,9 @@ class _ChunkParser:
         """Whether chunks with this name are read."""
         needed = self.needed.get(name)
         if needed is None:
-            needed = is_wanted(self.wanted, name) or (name in NEEDED_FOR and not self.wanted.isdisjoint(NEEDED_FOR[name]))
+            needed = is_wanted(self.wanted, name) or (
+                name in NEEDED_FOR and not self.wanted.isdisjoint(NEEDED_FOR[name])
+            )
             if len(self.needed) < MAX_NAMES:
                 self.needed[name] = needed
         return needed
@@ -199,9 +227,18 @@ class _ChunkParser:
         try:
             self.parser.Parse(block, last)
         except self.error as error:
-            what = "the XML is truncated" if last else f"invalid XML: {self.error_text(error.code) or error.code}"
+            what = (
+                "the XML is truncated"
+                if last
+                else f"invalid XML: {self.error_text(error.code) or error.code}"
+            )
             raise CaptureError(
-                what, Place(error.lineno + self.skipped_lines, error.offset + 1, self.number if self.in_chunk else None)
+                what,
+                Place(
+                    error.lineno + self.skipped_lines,
+                    error.offset + 1,
+                    self.number if self.in_chunk else None,
+                ),
             ) from None
         self.fed += len(block)
         done = self.parser.CurrentByteIndex
@@ -220,7 +257,9 @@ class _ChunkParser:
     def release(self) -> None:
         """Removes the handlers, which refer back to this object."""
         parser = self.parser
-        parser.StartElementHandler = parser.EndElementHandler = parser.CharacterDataHandler = parser.StartDoctypeDeclHandler = None
+        parser.StartElementHandler = parser.EndElementHandler = parser.CharacterDataHandler = (
+            parser.StartDoctypeDeclHandler
+        ) = None
 
     def error_here(self, message: str) -> CaptureError:
         """An error at the parser's position."""
@@ -229,10 +268,18 @@ class _ChunkParser:
 
     def position(self) -> tuple[int, int]:
         """The line and column that the XML parser is at."""
-        return self.parser.CurrentLineNumber + self.skipped_lines, self.parser.CurrentColumnNumber + 1
+        return (
+            self.parser.CurrentLineNumber + self.skipped_lines,
+            self.parser.CurrentColumnNumber + 1,
+        )
 
-    def reject_doctype(self, name: str, system: str | None, public: str | None, subset: int) -> None:
-        raise self.error_here("unexpected document type declaration; RenderDoc does not write one, and entities are not supported")
+    def reject_doctype(
+        self, name: str, system: str | None, public: str | None, subset: int
+    ) -> None:
+        raise self.error_here(
+            "unexpected document type declaration; RenderDoc does not write one, and entities are "
+            "not supported"
+        )
 
     def expect_chunk(self) -> None:
         """Installs the handlers that find the next chunk."""
@@ -265,7 +312,9 @@ class _ChunkParser:
             self.parser.CharacterDataHandler = None
             driver = self.driver.strip()
             if driver != "Vulkan":
-                raise self.error_here(f"expected a Vulkan capture, found the driver `{driver[:64]}`")
+                raise self.error_here(
+                    f"expected a Vulkan capture, found the driver `{driver[:64]}`"
+                )
 
     def add_driver_text(self, text: str) -> None:
         self.driver = (self.driver + text)[:100]
@@ -309,7 +358,8 @@ class _ChunkParser:
         """Installs handlers that read the elements of a chunk."""
         container: Any = {}
         self.arguments = container
-        # The containers around `container`, each with the attributes of the element inside it. Unknown elements are dropped.
+        # The containers around `container`, each with the attributes of the element inside it.
+        # Unknown elements are dropped.
         outer: list[tuple[Any, list[str]]] = []
         text: list[str] = []
         value_of: Callable[[str], Any] | None = None
@@ -341,7 +391,9 @@ class _ChunkParser:
                 try:
                     value = value_of("".join(text))
                 except (ValueError, OverflowError, KeyError):
-                    raise self.error_here(f"`{''.join(text)[:64]}` is not a valid `{tag}`") from None
+                    raise self.error_here(
+                        f"`{''.join(text)[:64]}` is not a valid `{tag}`"
+                    ) from None
                 value_of = None
             elif outer:
                 value = container
@@ -354,7 +406,11 @@ class _ChunkParser:
             if type(container) is list:
                 container.append(value)
                 return
-            name = attributes[1] if attributes and attributes[0] == "name" else _attribute(attributes, "name")
+            name = (
+                attributes[1]
+                if attributes and attributes[0] == "name"
+                else _attribute(attributes, "name")
+            )
             if name in SPECIAL:
                 value = self.special_value(name, value, attributes)
                 if value is SPECIAL:
@@ -367,7 +423,9 @@ class _ChunkParser:
         self.parser.CharacterDataHandler = text.append
 
     def special_value(self, name: str, value: Any, attributes: list[str]) -> Any:
-        """The C value of a member that RenderDoc writes differently; `SPECIAL` itself if C has no such member."""
+        """The C value of a member that RenderDoc writes differently; `SPECIAL` itself if C has no
+        such member.
+        """
         if name == "sType":
             return _attribute(attributes, "string") or value
         if name == "pSampleMask":
@@ -387,10 +445,16 @@ class _ChunkParser:
 
     def add_calls(self, name: str, arguments: dict[str, Any], place: Place) -> None:
         """Adds the calls for a chunk."""
-        self.output += [call for call in self.converter.calls(name, arguments, place) if is_wanted(self.wanted, call.name)]
+        self.output += [
+            call
+            for call in self.converter.calls(name, arguments, place)
+            if is_wanted(self.wanted, call.name)
+        ]
 
     def reject_large_chunk(self, limit: str) -> None:
-        """Raises CaptureError for a chunk above a limit. The contents of a large descriptor set are unknown instead."""
+        """Raises CaptureError for a chunk above a limit. The contents of a large descriptor set are
+        unknown instead.
+        """
         if self.name != INITIAL_CONTENTS:
             raise CaptureError(f"{self.name[:64]} exceeds {limit}", self.place)
         handle = self.arguments.get("id")

@@ -21,7 +21,9 @@ _END_RECORD = b"PK\x05\x06"
 
 
 class Blobs:
-    """The zip beside a file, opened on first use. If it is missing or damaged, its buffers are unknown."""
+    """The zip beside a file, opened on first use. If it is missing or damaged, its buffers are
+    unknown.
+    """
 
     def __init__(self, name: str | None) -> None:
         self.path = _zip_path(name)

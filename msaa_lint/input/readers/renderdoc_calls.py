@@ -1,4 +1,6 @@
-"""Converts RenderDoc's chunks to C calls: parameter names, one-element arrays, and chunks that stand for several calls."""
+"""Converts RenderDoc's chunks to C calls: parameter names, one-element arrays, and chunks that
+stand for several calls.
+"""
 
 from __future__ import annotations
 
@@ -34,7 +36,9 @@ RENAMED = {
     "memoryRequirements": "",
     "Decoded Writes": "pDescriptorWrites",
 }
-"""C names of chunk, unless they are RenderDoc's name with `p` before a capital; empty if C has no such parameter."""
+"""C names of chunk, unless they are RenderDoc's name with `p` before a capital; empty if C has no
+such parameter.
+"""
 
 _PIPELINES = {"count": "createInfoCount", "CreateInfo": "pCreateInfos", "Pipeline": "pPipelines"}
 
@@ -42,7 +46,10 @@ RENAMED_BY_CALL: dict[str, dict[str, str]] = {
     "vkBeginCommandBuffer": {"CommandBuffer": "commandBuffer", "device": "", "AllocateInfo": ""},
     "vkEndCommandBuffer": {"CommandBuffer": "commandBuffer"},
     "vkCreateSwapchainKHR": {"SwapChain": "pSwapchain", "NumImages": ""},
-    "vkUpdateDescriptorSets": {"writeCount": "descriptorWriteCount", "copyCount": "descriptorCopyCount"},
+    "vkUpdateDescriptorSets": {
+        "writeCount": "descriptorWriteCount",
+        "copyCount": "descriptorCopyCount",
+    },
     "vkCmdBindDescriptorSets": {"setCount": "descriptorSetCount"},
     "vkCmdCopyImage2": {"CopyInfo": "pCopyImageInfo"},
     "vkCmdBlitImage2": {"BlitInfo": "pBlitImageInfo"},
@@ -79,18 +86,29 @@ NAMED_OBJECTS = {
     "vkCreateSwapchainKHR": ("SwapChain", "SWAPCHAIN_KHR"),
     "vkGetSwapchainImagesKHR": ("SwapchainImage", "IMAGE"),
 }
-"""Calls that create objects with debug names: the parameter with the handle, and the VkObjectType, which a debug-name chunk omits."""
+"""Calls that create objects with debug names: the parameter with the handle, and the VkObjectType,
+which a debug-name chunk omits.
+"""
 
 _SET_CALLS = frozenset({"vkUpdateDescriptorSets"})
 _NAME_CALLS = frozenset({"vkSetDebugUtilsObjectName", "vkDebugMarkerSetObjectName"})
 
 NEEDED_FOR = {
     **dict.fromkeys(
-        (INITIAL_CONTENTS, "vkCreateDescriptorSetLayout", "vkAllocateDescriptorSets", "vkUpdateDescriptorSetWithTemplate"), _SET_CALLS
+        (
+            INITIAL_CONTENTS,
+            "vkCreateDescriptorSetLayout",
+            "vkAllocateDescriptorSets",
+            "vkUpdateDescriptorSetWithTemplate",
+        ),
+        _SET_CALLS,
     ),
     **dict.fromkeys(NAMED_OBJECTS, _NAME_CALLS),
     "vkCreateImage": _NAME_CALLS | {"vkGetImageMemoryRequirements"},
-    ENUMERATE_DEVICES: frozenset(f"vkGetPhysicalDevice{query}" for query in ("Properties", "Properties2", "MemoryProperties", "Features")),
+    ENUMERATE_DEVICES: frozenset(
+        f"vkGetPhysicalDevice{query}"
+        for query in ("Properties", "Properties2", "MemoryProperties", "Features")
+    ),
 }
 """Chunks that are read because other calls need them."""
 
@@ -104,7 +122,9 @@ class CallConverter:
         self.sets = DescriptorSets()
 
     def calls(self, name: str, chunk: dict[str, Any], at: Place) -> Iterator[Call]:
-        """The calls for a chunk. The queries for a device's properties come before the call that enumerates it."""
+        """The calls for a chunk. The queries for a device's properties come before the call that
+        enumerates it.
+        """
         if name in NAMED_OBJECTS:
             parameter, kind = NAMED_OBJECTS[name]
             handle = chunk.get(parameter)
@@ -139,8 +159,14 @@ class CallConverter:
             yield Call("vkGetImageMemoryRequirements", needs, at)
 
     def swapchain_images(self, chunk: dict[str, Any]) -> dict[str, Any]:
-        """The arguments of vkGetSwapchainImagesKHR: a chunk has one image, the call also the earlier ones."""
-        swapchain, index, image = chunk.get("Swapchain"), chunk.get("SwapchainImageIndex"), chunk.get("SwapchainImage")
+        """The arguments of vkGetSwapchainImagesKHR: a chunk has one image, the call also the
+        earlier ones.
+        """
+        swapchain, index, image = (
+            chunk.get("Swapchain"),
+            chunk.get("SwapchainImageIndex"),
+            chunk.get("SwapchainImage"),
+        )
         images: list[Any] = []
         if type(swapchain) is int and type(index) is int and 0 <= index < MAX_SWAPCHAIN_IMAGES:
             if len(self.swapchains) < MAX_SWAPCHAINS:
@@ -159,8 +185,18 @@ class CallConverter:
         handle = chunk.get("Object")
         kind = self.types.get(handle) if type(handle) is int else None
         utils = name == "vkSetDebugUtilsObjectNameEXT"
-        of_type = None if kind is None else f"VK_OBJECT_TYPE_{kind}" if utils else f"VK_DEBUG_REPORT_OBJECT_TYPE_{kind}_EXT"
-        info = {"objectType": of_type, "objectHandle" if utils else "object": handle, "pObjectName": chunk.get("ObjectName")}
+        of_type = (
+            None
+            if kind is None
+            else f"VK_OBJECT_TYPE_{kind}"
+            if utils
+            else f"VK_DEBUG_REPORT_OBJECT_TYPE_{kind}_EXT"
+        )
+        info = {
+            "objectType": of_type,
+            "objectHandle" if utils else "object": handle,
+            "pObjectName": chunk.get("ObjectName"),
+        }
         return {"pNameInfo": info}
 
 
@@ -177,21 +213,44 @@ def _renamed(name: str, chunk: dict[str, Any]) -> dict[str, Any]:
 def _device_queries(chunk: dict[str, Any], at: Place) -> Iterator[Call]:
     """RenderDoc's record of the physical device as the queries that return it."""
     device = chunk.get("PhysicalDevice")
-    properties, memory, features, driver = (chunk.get(key) for key in ("physProps", "memProps", "physFeatures", "driverProps"))
+    properties, memory, features, driver = (
+        chunk.get(key) for key in ("physProps", "memProps", "physFeatures", "driverProps")
+    )
     if isinstance(properties, dict):
-        yield Call("vkGetPhysicalDeviceProperties", {"physicalDevice": device, "pProperties": properties}, at)
+        yield Call(
+            "vkGetPhysicalDeviceProperties",
+            {"physicalDevice": device, "pProperties": properties},
+            at,
+        )
         if isinstance(driver, dict):
-            second = {"sType": "VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2", "pNext": driver, "properties": properties}
-            yield Call("vkGetPhysicalDeviceProperties2", {"physicalDevice": device, "pProperties": second}, at)
+            second = {
+                "sType": "VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2",
+                "pNext": driver,
+                "properties": properties,
+            }
+            yield Call(
+                "vkGetPhysicalDeviceProperties2",
+                {"physicalDevice": device, "pProperties": second},
+                at,
+            )
     if isinstance(memory, dict):
         trimmed = dict(memory)
-        for count, array in (("memoryTypeCount", "memoryTypes"), ("memoryHeapCount", "memoryHeaps")):
+        for count, array in (
+            ("memoryTypeCount", "memoryTypes"),
+            ("memoryHeapCount", "memoryHeaps"),
+        ):
             # The arrays have C's fixed length.
             if isinstance(trimmed.get(array), list) and type(trimmed.get(count)) is int:
                 trimmed[array] = trimmed[array][: max(trimmed[count], 0)]
-        yield Call("vkGetPhysicalDeviceMemoryProperties", {"physicalDevice": device, "pMemoryProperties": trimmed}, at)
+        yield Call(
+            "vkGetPhysicalDeviceMemoryProperties",
+            {"physicalDevice": device, "pMemoryProperties": trimmed},
+            at,
+        )
     if isinstance(features, dict):
-        yield Call("vkGetPhysicalDeviceFeatures", {"physicalDevice": device, "pFeatures": features}, at)
+        yield Call(
+            "vkGetPhysicalDeviceFeatures", {"physicalDevice": device, "pFeatures": features}, at
+        )
 
 
 def _instance(chunk: dict[str, Any]) -> dict[str, Any]:
@@ -200,7 +259,9 @@ def _instance(chunk: dict[str, Any]) -> dict[str, Any]:
         "pCreateInfo": {
             "sType": "VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO",
             "pNext": None,
-            "pApplicationInfo": {member: init[key] for key, member in APPLICATION_MEMBERS.items() if key in init},
+            "pApplicationInfo": {
+                member: init[key] for key, member in APPLICATION_MEMBERS.items() if key in init
+            },
             "ppEnabledLayerNames": init.get("Layers"),
             "ppEnabledExtensionNames": init.get("Extensions"),
         },

@@ -1,6 +1,8 @@
-"""The elements of a RenderDoc chunk in the layout that RenderDoc writes, by regular expression: five times as fast as an XML parser.
+"""The elements of a RenderDoc chunk in the layout that RenderDoc writes, by regular expression:
+five times as fast as an XML parser.
 
-Text of another shape is left to the XML parser: entities, comments, processing instructions, and whatever is not well-formed.
+Text of another shape is left to the XML parser: entities, comments, processing instructions, and
+whatever is not well-formed.
 """
 
 from __future__ import annotations
@@ -46,7 +48,9 @@ VALUES: dict[str, Callable[[str], Any]] = {
 """The elements that hold a value, with their parsers."""
 
 BUFFERS = ("pCode", "pData")
-SPECIAL = frozenset({"sType", "pNextType", "pSampleMask", "DebugMessages", "BakedCommandBuffer", *BUFFERS})
+SPECIAL = frozenset(
+    {"sType", "pNextType", "pSampleMask", "DebugMessages", "BakedCommandBuffer", *BUFFERS}
+)
 """Members that `special_value` converts."""
 
 Attributes = list[str]
@@ -58,17 +62,27 @@ class Unusual(Exception):
 
 
 class ElementParser:
-    """Parses the elements of chunks. `special` converts members in SPECIAL, and returns SPECIAL itself for those that C does not have."""
+    """Parses the elements of chunks. `special` converts members in SPECIAL, and returns SPECIAL
+    itself for those that C does not have.
+    """
 
     def __init__(self, special: Callable[[str, Any, Attributes], Any]) -> None:
-        self.values = {tag.encode(): parser if parser is not str else _printable for tag, parser in VALUES.items()}
+        self.values = {
+            tag.encode(): parser if parser is not str else _printable
+            for tag, parser in VALUES.items()
+        }
         self.special = special
         self.tags: dict[bytes, tuple[str | None, Attributes, bool]] = {}
 
     def parse(self, text: bytes) -> dict[str, Any]:
         """The members of a chunk by name, from the text between its tags. Raises Unusual."""
         elements = _ELEMENT.findall(text)
-        if len(elements) != text.count(b"<") or len(elements) != text.count(b">") or b"&" in text or not text.isascii():
+        if (
+            len(elements) != text.count(b"<")
+            or len(elements) != text.count(b">")
+            or b"&" in text
+            or not text.isascii()
+        ):
             raise Unusual
         arguments: dict[str, Any] = {}
         container: Any = arguments
@@ -135,14 +149,20 @@ class ElementParser:
         keys = [key for key, _ in pairs]
         if len(set(keys)) != len(keys):
             raise Unusual
-        tag = next((value for key, value in pairs if key == "name"), None), [part for pair in pairs for part in pair], match[2] is not None
+        tag = (
+            next((value for key, value in pairs if key == "name"), None),
+            [part for pair in pairs for part in pair],
+            match[2] is not None,
+        )
         if len(self.tags) < MAX_CACHED_TAGS and len(text) <= MAX_CACHED_TAG:
             self.tags[text] = tag
         return tag
 
 
 def _printable(text: str) -> str:
-    """The text of a string. Raises ValueError for control characters: XML has no others than line ends, which a parser converts."""
+    """The text of a string. Raises ValueError for control characters: XML has no others than line
+    ends, which a parser converts.
+    """
     if not text.isprintable():
         raise ValueError
     return text

@@ -13,7 +13,8 @@ _PARTIAL_REFERENCE = re.compile(rb"&(?:#(?:\d\d?)?)?\Z")
 class XmlRepair:
     """Repairs RenderDoc's XML, which has names verbatim, in any encoding, block by block.
 
-    Control characters become question marks, invalid UTF-8 becomes U+FFFD. Positions do not change."""
+    Control characters become question marks, invalid UTF-8 becomes U+FFFD. Positions do not
+    change."""
 
     def __init__(self) -> None:
         self.decoder = codecs.getincrementaldecoder("utf-8")("replace")
@@ -21,7 +22,9 @@ class XmlRepair:
         self.rest = b""
 
     def repair(self, block: bytes, last: bool) -> bytes:
-        """Repairs the next block. A reference or character that continues in the following block is held back."""
+        """Repairs the next block. A reference or character that continues in the following block is
+        held back.
+        """
         if not (self.ascii and block.isascii()):
             self.ascii = False
             block = self.decoder.decode(block, last).encode()

@@ -1,4 +1,6 @@
-"""The contents of descriptor sets at the start of a RenderDoc frame, as the updates that would write them."""
+"""The contents of descriptor sets at the start of a RenderDoc frame, as the updates that would
+write them.
+"""
 
 from __future__ import annotations
 
@@ -9,7 +11,9 @@ from msaa_lint.input.captures.call import Call, Place
 from msaa_lint.input.captures.values import record
 
 IMAGES = (1, 2, 3, 10)
-"""VkDescriptorType of image views: COMBINED_IMAGE_SAMPLER, SAMPLED_IMAGE, STORAGE_IMAGE, INPUT_ATTACHMENT."""
+"""VkDescriptorType of image views: COMBINED_IMAGE_SAMPLER, SAMPLED_IMAGE, STORAGE_IMAGE,
+INPUT_ATTACHMENT.
+"""
 
 INLINE = 1000138000
 """INLINE_UNIFORM_BLOCK: its descriptorCount is in bytes; it has one slot."""
@@ -18,11 +22,15 @@ MAX_BINDINGS = 4096
 """Maximum number of bindings in a layout."""
 
 MAX_BINDINGS_TOTAL = 300_000
-"""Maximum number of bindings in all layouts, and of sets; the contents of further sets are unknown."""
+"""Maximum number of bindings in all layouts, and of sets; the contents of further sets are
+unknown.
+"""
 
 
 class DescriptorSets:
-    """The layouts of descriptor sets. A set's contents are a sequence of slots, binding after binding."""
+    """The layouts of descriptor sets. A set's contents are a sequence of slots, binding after
+    binding.
+    """
 
     def __init__(self) -> None:
         self.layouts: dict[int, list[tuple[int, int]]] = {}
@@ -32,20 +40,36 @@ class DescriptorSets:
     def observe(self, name: str, arguments: dict[str, Any]) -> None:
         """Records the layouts and sets that a call creates."""
         if name == "vkCreateDescriptorSetLayout":
-            handle, bindings = arguments.get("pSetLayout"), record(arguments.get("pCreateInfo")).get("pBindings")
-            if type(handle) is int and isinstance(bindings, list) and len(bindings) <= min(MAX_BINDINGS, self.remaining - 1):
+            handle, bindings = (
+                arguments.get("pSetLayout"),
+                record(arguments.get("pCreateInfo")).get("pBindings"),
+            )
+            if (
+                type(handle) is int
+                and isinstance(bindings, list)
+                and len(bindings) <= min(MAX_BINDINGS, self.remaining - 1)
+            ):
                 self.remaining -= len(bindings) + 1
                 parsed = map(_binding, bindings)
                 self.layouts[handle] = sorted(binding for binding in parsed if binding is not None)
         elif name == "vkAllocateDescriptorSets":
-            handles, layouts = arguments.get("pDescriptorSets"), record(arguments.get("pAllocateInfo")).get("pSetLayouts")
+            handles, layouts = (
+                arguments.get("pDescriptorSets"),
+                record(arguments.get("pAllocateInfo")).get("pSetLayouts"),
+            )
             if isinstance(handles, list) and isinstance(layouts, list):
                 for handle, layout in zip(handles, layouts, strict=False):
-                    if type(handle) is int and type(layout) is int and len(self.layout_of_set) < MAX_BINDINGS_TOTAL:
+                    if (
+                        type(handle) is int
+                        and type(layout) is int
+                        and len(self.layout_of_set) < MAX_BINDINGS_TOTAL
+                    ):
                         self.layout_of_set[handle] = layout
 
     def initial_contents(self, chunk: dict[str, Any], at: Place) -> Iterator[Call]:
-        """The images in a set at the start of the frame; no calls for initial contents of other objects."""
+        """The images in a set at the start of the frame; no calls for initial contents of other
+        objects.
+        """
         handle, slots = chunk.get("id"), chunk.get("Bindings")
         if type(handle) is not int or not isinstance(slots, list):
             return
@@ -59,7 +83,11 @@ class DescriptorSets:
             writes.extend(_writes(handle, binding, slots[first : first + count]))
             first += count
         if writes:
-            yield Call("vkUpdateDescriptorSets", {"descriptorWriteCount": len(writes), "pDescriptorWrites": writes}, at)
+            yield Call(
+                "vkUpdateDescriptorSets",
+                {"descriptorWriteCount": len(writes), "pDescriptorWrites": writes},
+                at,
+            )
 
 
 def unknown_set(handle: int, at: Place) -> Call:
@@ -76,9 +104,19 @@ def _writes(handle: int, binding: int, slots: list[Any]) -> Iterator[dict[str, A
             write = None
             continue
         if write is None or write["descriptorType"] != kind:
-            write = {"dstSet": handle, "dstBinding": binding, "dstArrayElement": element, "descriptorType": kind, "pImageInfo": []}
+            write = {
+                "dstSet": handle,
+                "dstBinding": binding,
+                "dstArrayElement": element,
+                "descriptorType": kind,
+                "pImageInfo": [],
+            }
             yield write
-        image = {"sampler": slot.get("sampler", 0), "imageView": resource, "imageLayout": slot.get("imageLayout")}
+        image = {
+            "sampler": slot.get("sampler", 0),
+            "imageView": resource,
+            "imageLayout": slot.get("imageLayout"),
+        }
         write["pImageInfo"].append(image)
 
 

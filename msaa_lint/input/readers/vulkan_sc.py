@@ -1,6 +1,8 @@
-"""Vulkan SC pipeline JSON: the input of the offline pipeline compiler, as the Khronos tools write it.
+"""Vulkan SC pipeline JSON: the input of the offline pipeline compiler, as the Khronos tools write
+it.
 
-A file contains one pipeline, with its render pass as C structures. It has no images, so what the file omits is unknown.
+A file contains one pipeline, with its render pass as C structures. It has no images, so what the
+file omits is unknown.
 """
 
 from __future__ import annotations
@@ -24,7 +26,9 @@ def claims(root: Node) -> bool:
 def read(source: Source, root: Node) -> Document:
     """Reads a pipeline as a document. The document of a compute pipeline has no passes."""
     binder = Binder(dumped=True)
-    description: Description = binder.record(Description, _nothing(root), "", "", Span(root.start, root.start))
+    description: Description = binder.record(
+        Description, _nothing(root), "", "", Span(root.start, root.start)
+    )
     if root.kind != "mapping" or not any(state in root.value for state in STATES):
         binder.wrong_structure(root, "", f"a mapping with one of {', '.join(STATES)}")
         return Document(source, description, tuple(binder.problems), whole=False)
@@ -44,12 +48,16 @@ def _nothing(root: Node) -> Node:
 
 def _graphics(binder: Binder, description: Description, state: Node) -> None:
     passes = [
-        key for key in ("Renderpass", "Renderpass2", "RenderPass", "RenderPass2") if key in state.value and not is_null(state.value[key])
+        key
+        for key in ("Renderpass", "Renderpass2", "RenderPass", "RenderPass2")
+        if key in state.value and not is_null(state.value[key])
     ]
     name = ""
     for name in passes:
         path = f"GraphicsPipelineState.{name}"
-        render_pass: RenderPass = binder.record(RenderPass, state.value[name], path, name, state.keys[name].span)
+        render_pass: RenderPass = binder.record(
+            RenderPass, state.value[name], path, name, state.keys[name].span
+        )
         description.renderPasses = {name: render_pass}
     pipeline = state.value.get("GraphicsPipeline")
     if pipeline is None or is_null(pipeline):
@@ -58,7 +66,9 @@ def _graphics(binder: Binder, description: Description, state: Node) -> None:
     if pipeline.kind != "mapping":
         binder.wrong_structure(pipeline, path, "a mapping")
         return
-    pipeline_record: Pipeline = binder.record(Pipeline, _plain(pipeline), path, "GraphicsPipeline", state.keys["GraphicsPipeline"].span)
+    pipeline_record: Pipeline = binder.record(
+        Pipeline, _plain(pipeline), path, "GraphicsPipeline", state.keys["GraphicsPipeline"].span
+    )
     # `renderPass` is the tool's number for the render pass above.
     pipeline_record.renderPass = name or None
     for stage in pipeline_record.stages:
@@ -69,7 +79,9 @@ def _graphics(binder: Binder, description: Description, state: Node) -> None:
 
 
 def _plain(pipeline: Node) -> Node:
-    """The pipeline without the number of its render pass, and with a plain list of dynamic states."""
+    """The pipeline without the number of its render pass, and with a plain list of dynamic
+    states.
+    """
     keys = {key: node for key, node in pipeline.keys.items() if key != "renderPass"}
     value = {key: pipeline.value[key] for key in keys}
     state = value.get("pDynamicState")
@@ -84,7 +96,13 @@ def _plain(pipeline: Node) -> Node:
 
 def _enabled(binder: Binder, description: Description, root: Node, state: Node) -> None:
     """Reads EnabledExtensions, and the features that the device is created with."""
-    enabled: Enabled = binder.record(Enabled, _nothing(root), "EnabledExtensions", "EnabledExtensions", Span(root.start, root.start))
+    enabled: Enabled = binder.record(
+        Enabled,
+        _nothing(root),
+        "EnabledExtensions",
+        "EnabledExtensions",
+        Span(root.start, root.start),
+    )
     extensions = root.value.get("EnabledExtensions")
     if extensions is not None and extensions.kind == "sequence":
         enabled.extensions = tuple(item.text for item in extensions.value if item.kind == "scalar")
@@ -96,18 +114,27 @@ def _enabled(binder: Binder, description: Description, root: Node, state: Node) 
         chain = [features, node]
         while chain[-2].kind == "mapping" and "pNext" in chain[-2].value:
             chain.insert(-1, chain[-2].value["pNext"])
-        members = [member for each in chain if each.kind == "mapping" for member in each.value.items()]
-        enabled.features = tuple(name for name, item in members if item.kind == "scalar" and item.text in ("VK_TRUE", "1", "true"))
+        members = [
+            member for each in chain if each.kind == "mapping" for member in each.value.items()
+        ]
+        enabled.features = tuple(
+            name
+            for name, item in members
+            if item.kind == "scalar" and item.text in ("VK_TRUE", "1", "true")
+        )
         rate = "sampleRateShading"
-        enabled.spelled["features"] = (node.keys[rate], node.value[rate]) if rate in node.value else (key, node)
+        enabled.spelled["features"] = (
+            (node.keys[rate], node.value[rate]) if rate in node.value else (key, node)
+        )
     description.enabled = enabled
 
 
 def _core_features(chain: Node) -> tuple[Node, Node] | None:
     """The VkPhysicalDeviceFeatures that the device is created with, from a chain of structures.
 
-    The tools dump VkDeviceObjectReservationCreateInfo. Its chain contains the application's VkPhysicalDeviceFeatures2, if any; beside the
-    chain is pEnabledFeatures, all false if the application passed none.
+    The tools dump VkDeviceObjectReservationCreateInfo. Its chain contains the application's
+    VkPhysicalDeviceFeatures2, if any; beside the chain is pEnabledFeatures, all false if the
+    application passed none.
     """
     node: Node | None = chain
     outer: tuple[Node, Node] | None = None

@@ -1,4 +1,6 @@
-"""Opens files of corpora as tables of one DuckDB database that reaches nothing else, so that SQL of a stranger can only read them."""
+"""Opens files of corpora as tables of one DuckDB database that reaches nothing else, so that SQL of
+a stranger can only read them.
+"""
 
 from __future__ import annotations
 
@@ -37,7 +39,9 @@ _SETTINGS = (
     "enable_external_access = false",
     "lock_configuration = true",
 )
-"""Nothing is read or written but the tables, not even a temporary file, and SQL cannot change that."""
+"""Nothing is read or written but the tables, not even a temporary file, and SQL cannot change
+that.
+"""
 
 
 class Rows(NamedTuple):
@@ -49,9 +53,11 @@ class Rows(NamedTuple):
 
 
 class Database:
-    """The tables of corpora: of all `files` together, and in the schema `since` those of an earlier run, if there are any.
+    """The tables of corpora: of all `files` together, and in the schema `since` those of an earlier
+    run, if there are any.
 
-    Each table has the column `corpus` before its own: the file that the row is of, as it was named. Use it as a context manager.
+    Each table has the column `corpus` before its own: the file that the row is of, as it was named.
+    Use it as a context manager.
     """
 
     def __init__(self, files: Sequence[CorpusFile], since: Sequence[CorpusFile] = ()) -> None:
@@ -107,21 +113,31 @@ class Database:
                 with _errors(file.name):
                     self._load_table(name, table, file)
                 parts.append(f"SELECT {_literal(file.name)} AS corpus, * FROM {name}")
-            self._connection.execute(f"CREATE VIEW {schema}.{table.name} AS {' UNION ALL '.join(parts)}")
+            self._connection.execute(
+                f"CREATE VIEW {schema}.{table.name} AS {' UNION ALL '.join(parts)}"
+            )
 
     def _load_table(self, name: str, table: Table, file: CorpusFile) -> None:
-        """Makes a table of a file known by a name: Parquet is read when it is queried, SQLite is copied."""
+        """Makes a table of a file known by a name: Parquet is read when it is queried, SQLite is
+        copied.
+        """
         schema = arrow_schema(table)
         if file.paths is not None:
-            # A dataset is read by its path alone: in one of DuckDB's, `*` and `[` would be patterns.
+            # A dataset is read by its path alone: in one of DuckDB's, `*` and `[` would be
+            # patterns.
             path = os.path.abspath(file.paths[table.name])
-            data = pyarrow.dataset.dataset(path, schema, format="parquet", filesystem=pyarrow.fs.LocalFileSystem())
+            data = pyarrow.dataset.dataset(
+                path, schema, format="parquet", filesystem=pyarrow.fs.LocalFileSystem()
+            )
             self._connection.register(name, data)
             return
         self._connection.register("_empty", schema.empty_table())
         self._connection.execute(f"CREATE TABLE {name} AS SELECT * FROM _empty")
         for batch in batches(sqlite_rows(file.path, table), _BATCH):
-            arrays = [pa.array(values, field.type) for values, field in zip(zip(*batch, strict=True), schema, strict=True)]
+            arrays = [
+                pa.array(values, field.type)
+                for values, field in zip(zip(*batch, strict=True), schema, strict=True)
+            ]
             self._connection.register("_batch", pa.Table.from_arrays(arrays, schema=schema))
             self._connection.execute(f"INSERT INTO {name} SELECT * FROM _batch")
 
@@ -148,7 +164,10 @@ def _fetch(result: duckdb.DuckDBPyConnection) -> Iterator[tuple[Any, ...]]:
 
 
 def _is_numeric(kind: str) -> bool:
-    return kind.startswith(("DECIMAL", "UTINYINT", "USMALLINT", "UINTEGER", "UBIGINT", "UHUGEINT")) or kind in _NUMERIC
+    return (
+        kind.startswith(("DECIMAL", "UTINYINT", "USMALLINT", "UINTEGER", "UBIGINT", "UHUGEINT"))
+        or kind in _NUMERIC
+    )
 
 
 _NUMERIC = {"TINYINT", "SMALLINT", "INTEGER", "BIGINT", "HUGEINT", "FLOAT", "DOUBLE", "NUMBER"}

@@ -1,4 +1,6 @@
-"""Files of corpora: which there are, which version of msaa-lint wrote them, and whether they are whole."""
+"""Files of corpora: which there are, which version of msaa-lint wrote them, and whether they are
+whole.
+"""
 
 from __future__ import annotations
 
@@ -27,7 +29,9 @@ class CorpusError(Exception):
 
 
 class CorpusFile(NamedTuple):
-    """A file with the findings of a run. `name` is its path as text, `paths` those of the Parquet files of its tables; None for SQLite."""
+    """A file with the findings of a run. `name` is its path as text, `paths` those of the Parquet
+    files of its tables; None for SQLite.
+    """
 
     path: str
     name: str
@@ -35,7 +39,9 @@ class CorpusFile(NamedTuple):
 
 
 def corpus_files(paths: Sequence[str]) -> list[CorpusFile]:
-    """The corpora at paths: files, and those in folders, in order. CorpusError if one cannot be used, or there is none."""
+    """The corpora at paths: files, and those in folders, in order. CorpusError if one cannot be
+    used, or there is none.
+    """
     found = []
     for path in dict.fromkeys(paths):
         if not os.path.isdir(path):
@@ -43,20 +49,29 @@ def corpus_files(paths: Sequence[str]) -> list[CorpusFile]:
             continue
         inside = [_file(each) for each in _in_folder(path)]
         if not inside:
-            raise CorpusError(f"{path}: no corpus in this folder; `msaa-lint check --output parquet=findings.parquet` writes one")
+            raise CorpusError(
+                f"{path}: no corpus in this folder; `msaa-lint check --output "
+                f"parquet=findings.parquet` writes one"
+            )
         found += inside
     return found
 
 
 def _in_folder(folder: str) -> Iterator[str]:
-    """The corpora in a folder: databases, and the Parquet files beside which there is a table of the run."""
+    """The corpora in a folder: databases, and the Parquet files beside which there is a table of
+    the run.
+    """
     for root, folders, names in os.walk(folder):
         folders.sort()
         for name in sorted(names):
             path = os.path.join(root, name)
             if not name.endswith(_ENDINGS) or not os.path.isfile(path):
                 continue
-            if os.path.isfile(parquet_paths(path)[RUN.name]) if name.endswith(".parquet") else _head(path) == _SQLITE:
+            if (
+                os.path.isfile(parquet_paths(path)[RUN.name])
+                if name.endswith(".parquet")
+                else _head(path) == _SQLITE
+            ):
                 yield path
 
 
@@ -72,7 +87,10 @@ def _file(path: str) -> CorpusFile:
     if head == _SQLITE:
         _check_sqlite(path, name)
         return CorpusFile(path, name, None)
-    raise CorpusError(f"{name}: not a corpus: expected a file that `msaa-lint check` wrote with `--output parquet=FILE` or `sqlite=FILE`")
+    raise CorpusError(
+        f"{name}: not a corpus: expected a file that `msaa-lint check` wrote with `--output "
+        f"parquet=FILE` or `sqlite=FILE`"
+    )
 
 
 def _head(path: str) -> bytes:
@@ -93,12 +111,16 @@ def _check_parquet(path: str, table: Table, name: str) -> None:
         schema = pq.read_schema(path)
     except (pa.ArrowException, OSError) as error:
         raise CorpusError(f"{path}: {str(error).splitlines()[0]}") from None
-    stated = {key: value.decode("utf-8", "replace") for key, value in (schema.metadata or {}).items()}
+    stated = {
+        key: value.decode("utf-8", "replace") for key, value in (schema.metadata or {}).items()
+    }
     if b"schema" not in stated or b"table" not in stated:
         raise CorpusError(f"{path}: a Parquet file, but not of msaa-lint")
     _check_version(path, stated[b"schema"], stated.get(b"version", ""))
     if stated[b"table"] != table.name:
-        raise CorpusError(f"{path}: the table `{stated[b'table']}` of a corpus; name the file of its findings")
+        raise CorpusError(
+            f"{path}: the table `{stated[b'table']}` of a corpus; name the file of its findings"
+        )
     if schema.remove_metadata() != arrow_schema(table):
         raise CorpusError(f"{path}: the columns are not those of the table `{table.name}`")
 
@@ -106,7 +128,12 @@ def _check_parquet(path: str, table: Table, name: str) -> None:
 def _check_sqlite(path: str, name: str) -> None:
     """CorpusError unless a database has the tables in this version."""
     with _database(path) as connection:
-        tables = {row[0] for row in connection.execute("SELECT name FROM sqlite_schema WHERE type = 'table' AND rootpage > 0")}
+        tables = {
+            row[0]
+            for row in connection.execute(
+                "SELECT name FROM sqlite_schema WHERE type = 'table' AND rootpage > 0"
+            )
+        }
         missing = [table.name for table in TABLES if table.name not in tables]
         if len(missing) == len(TABLES):
             raise CorpusError(f"{name}: a SQLite database, but not of msaa-lint")
@@ -122,7 +149,11 @@ def _check_sqlite(path: str, name: str) -> None:
 
 def _version(connection: sqlite3.Connection, name: str) -> tuple[str, str]:
     columns = {row[1] for row in connection.execute(f"PRAGMA table_info({RUN.name})")}
-    row = connection.execute(f"SELECT schema, version FROM {RUN.name}").fetchone() if {"schema", "version"} <= columns else None
+    row = (
+        connection.execute(f"SELECT schema, version FROM {RUN.name}").fetchone()
+        if {"schema", "version"} <= columns
+        else None
+    )
     if row is None:
         raise CorpusError(f"{name}: a SQLite database, but not of msaa-lint")
     return str(row[0]), str(row[1])
@@ -131,7 +162,8 @@ def _version(connection: sqlite3.Connection, name: str) -> tuple[str, str]:
 def _check_version(name: str, schema: str, version: str) -> None:
     if schema != SCHEMA:
         raise CorpusError(
-            f"{name}: written by msaa-lint {version} as `{schema}`; msaa-lint {VERSION} reads `{SCHEMA}`: check the inputs again"
+            f"{name}: written by msaa-lint {version} as `{schema}`; msaa-lint {VERSION} reads "
+            f"`{SCHEMA}`: check the inputs again"
         )
 
 
@@ -151,7 +183,9 @@ def sqlite_rows(path: str, table: Table) -> Iterator[Row]:
 def _database(path: str) -> Iterator[sqlite3.Connection]:
     """A database that is only read, and of which nothing is executed. CorpusError if that fails."""
     try:
-        with closing(sqlite3.connect(f"file:{quote(os.fsencode(path))}?mode=ro&immutable=1", uri=True)) as connection:
+        with closing(
+            sqlite3.connect(f"file:{quote(os.fsencode(path))}?mode=ro&immutable=1", uri=True)
+        ) as connection:
             connection.execute("PRAGMA trusted_schema = OFF")
             yield connection
     except sqlite3.Error as error:

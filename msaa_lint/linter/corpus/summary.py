@@ -1,7 +1,8 @@
-"""What is asked of corpora: where the most can be saved, how prices are distributed, and what has changed since an earlier run.
+"""What is asked of corpora: where the most can be saved, how prices are distributed, and what has
+changed since an earlier run.
 
-Only prices that are savings count, of findings that are not suppressed. Sums are those of single fixes: what several findings of an input
-save of the same bytes is counted for each.
+Only prices that are savings count, of findings that are not suppressed. Sums are those of single
+fixes: what several findings of an input save of the same bytes is counted for each.
 """
 
 from __future__ import annotations
@@ -19,20 +20,24 @@ _DECIMAL = "TRY_CAST({} AS DECIMAL(38, 6))"
 """Sums of these do not depend on their order, which those of DOUBLE do."""
 
 _SHOWN = f"""
-    SELECT f.corpus, coalesce(m.input, f.input) AS input, f.rule, f.code, i.engine, i.device, f.line,
+    SELECT f.corpus, coalesce(m.input, f.input) AS input, f.rule, f.code, i.engine, i.device,
+    f.line,
         regexp_replace(coalesce(f.subject, ''), '{NUMBERS}', '', 'g') AS object,
         {_DECIMAL.format("f.read_mb_per_s + f.write_mb_per_s")} AS traffic,
         {_DECIMAL.format("f.memory_mib")} AS memory, {_DECIMAL.format("f.milliwatts")} AS power,
         coalesce(f.is_saving, false) AS priced,
         row_number() OVER (
-            PARTITION BY coalesce(m.input, f.input), f.rule, object ORDER BY f.corpus, f.line, f.column_number, f.call_number, f.subject
+            PARTITION BY coalesce(m.input, f.input), f.rule, object ORDER BY f.corpus, f.line,
+            f.column_number, f.call_number, f.subject
         ) AS number
-    FROM {{schema}}.findings f LEFT JOIN {{schema}}.inputs i ON i.corpus = f.corpus AND i.input = f.input
+    FROM {{schema}}.findings f LEFT JOIN {{schema}}.inputs i ON i.corpus = f.corpus AND i.input =
+    f.input
         LEFT JOIN {{moved}} m ON m.earlier = f.input
     WHERE f.suppressed IS NULL
 """
-"""The findings that count. Those of an input about the same are told apart by `number`, as in fingerprints. Inputs that have `moved` have
-their names of now."""
+"""The findings that count. Those of an input about the same are told apart by `number`, as in
+fingerprints. Inputs that have `moved` have their names of now.
+"""
 
 _NOT_MOVED = "(SELECT NULL AS input, NULL AS earlier)"
 
@@ -40,7 +45,9 @@ _PERCENTILES = (0.5, 0.9, 0.99)
 
 
 class Distribution(NamedTuple):
-    """The prices of a group in MB/s of reads and writes: percentiles and the highest one; None without any."""
+    """The prices of a group in MB/s of reads and writes: percentiles and the highest one; None
+    without any.
+    """
 
     p50: float | None
     p90: float | None
@@ -51,8 +58,8 @@ class Distribution(NamedTuple):
 class Group(NamedTuple):
     """Findings of one rule, engine, device, or input, by the names of the summary's `keys`.
 
-    `inputs` and `rules` are the numbers of different ones, `priced` that of the findings with a price. `traffic_mb_per_s`, `memory_mib`,
-    and `milliwatts` are sums of their prices.
+    `inputs` and `rules` are the numbers of different ones, `priced` that of the findings with a
+    price. `traffic_mb_per_s`, `memory_mib`, and `milliwatts` are sums of their prices.
     """
 
     names: tuple[str | None, ...]
@@ -67,7 +74,9 @@ class Group(NamedTuple):
 
 
 class Change(NamedTuple):
-    """The findings of a rule that are new since an earlier run, and those that are gone, with the sums of their prices."""
+    """The findings of a rule that are new since an earlier run, and those that are gone, with the
+    sums of their prices.
+    """
 
     rule: str | None
     new: int
@@ -86,8 +95,8 @@ class NewFinding(NamedTuple):
 
 
 class Since(NamedTuple):
-    """What has changed since an earlier run. `new_findings` are the most expensive ones; `new_inputs`, `gone_inputs`, and `moved_inputs`,
-    which have another name, count inputs.
+    """What has changed since an earlier run. `new_findings` are the most expensive ones;
+    `new_inputs`, `gone_inputs`, and `moved_inputs`, which have another name, count inputs.
 
     `remarks` say what makes the runs hard to compare.
     """
@@ -116,8 +125,10 @@ class Run(NamedTuple):
 
 
 class Summary(NamedTuple):
-    """The answers. `groups` are by `keys`, most expensive first, and `group_count` is the number of all. If there are two keys, `wholes`
-    are the groups by the first one. `top_inputs` are the inputs of which fixes save the most."""
+    """The answers. `groups` are by `keys`, most expensive first, and `group_count` is the number of
+    all. If there are two keys, `wholes` are the groups by the first one. `top_inputs` are the
+    inputs of which fixes save the most.
+    """
 
     runs: Sequence[Run]
     findings: int
@@ -132,8 +143,9 @@ class Summary(NamedTuple):
 
 
 def summarize(database: Database, by: str, top: int | None) -> Summary:
-    """Answers what is asked of corpora, with at most `top` rows in each answer; None for all. Findings are grouped `by` rule, by input, or
-    by engine or device and then by rule."""
+    """Answers what is asked of corpora, with at most `top` rows in each answer; None for all.
+    Findings are grouped `by` rule, by input, or by engine or device and then by rule.
+    """
     database.rows(f"CREATE TEMP TABLE shown AS {_SHOWN.format(schema='main', moved=_NOT_MOVED)}")
     runs = _runs(database, "main", database.files)
     findings, suppressed = database.rows("SELECT count(*), count(suppressed) FROM findings")[0]
@@ -146,25 +158,41 @@ def summarize(database: Database, by: str, top: int | None) -> Summary:
         groups = [group for group in groups if group.names[0] in shown]
     inputs, input_count = ([], count) if by == "input" else _groups(database, ("input",), top)
     since = _since(database, runs, top) if database.since else None
-    return Summary(runs, findings, suppressed, keys, wholes, groups, count, inputs, input_count, since)
+    return Summary(
+        runs, findings, suppressed, keys, wholes, groups, count, inputs, input_count, since
+    )
 
 
 def _groups(database: Database, keys: tuple[str, ...], top: int | None) -> tuple[list[Group], int]:
-    """The groups by some columns, most expensive first, and the number of all. With two columns, the value of the first for which fixes
-    save the most comes first, and each has at most `top` groups."""
+    """The groups by some columns, most expensive first, and the number of all. With two columns,
+    the value of the first for which fixes save the most comes first, and each has at most `top`
+    groups.
+    """
     # Inputs of several corpora may have the same name.
     grouping = "input, corpus" if keys == ("input",) else ", ".join(keys)
-    quantiles = ", ".join(f"quantile_cont(traffic::DOUBLE, {fraction}) FILTER (priced)" for fraction in _PERCENTILES)
-    order = f"sum(power) FILTER (priced) DESC NULLS LAST, sum(memory) FILTER (priced) DESC NULLS LAST, count(*) DESC, {grouping}"
+    quantiles = ", ".join(
+        f"quantile_cont(traffic::DOUBLE, {fraction}) FILTER (priced)" for fraction in _PERCENTILES
+    )
+    order = (
+        f"sum(power) FILTER (priced) DESC NULLS LAST, sum(memory) FILTER (priced) DESC NULLS "
+        f"LAST, count(*) DESC, {grouping}"
+    )
     limit = f"ORDER BY {order} {_limit(top)}"
     if len(keys) > 1:
-        ranked = "" if top is None else f"QUALIFY row_number() OVER (PARTITION BY {keys[0]} ORDER BY {order}) <= {top:d}"
+        ranked = (
+            ""
+            if top is None
+            else f"QUALIFY row_number() OVER (PARTITION BY {keys[0]} ORDER BY {order}) <= {top:d}"
+        )
         whole = f"sum(sum(power) FILTER (priced)) OVER (PARTITION BY {keys[0]})"
         limit = f"{ranked} ORDER BY {whole} DESC NULLS LAST, {keys[0]} NULLS LAST, {order}"
     rows = database.rows(f"""
-        SELECT {", ".join(keys)}, count(*), count(DISTINCT (corpus, input)), count(DISTINCT rule), count(*) FILTER (priced),
-            coalesce(sum(traffic) FILTER (priced), 0)::DOUBLE, coalesce(sum(memory) FILTER (priced), 0)::DOUBLE,
-            coalesce(sum(power) FILTER (priced), 0)::DOUBLE, {quantiles}, max(traffic) FILTER (priced)::DOUBLE, count(*) OVER ()
+        SELECT {", ".join(keys)}, count(*), count(DISTINCT (corpus, input)), count(DISTINCT rule),
+        count(*) FILTER (priced),
+            coalesce(sum(traffic) FILTER (priced), 0)::DOUBLE, coalesce(sum(memory) FILTER (priced),
+            0)::DOUBLE,
+            coalesce(sum(power) FILTER (priced), 0)::DOUBLE, {quantiles}, max(traffic) FILTER
+            (priced)::DOUBLE, count(*) OVER ()
         FROM shown GROUP BY {grouping} {limit}
     """)
     width = len(keys)
@@ -174,33 +202,66 @@ def _groups(database: Database, keys: tuple[str, ...], top: int | None) -> tuple
 def _group(row: Sequence[Any], width: int) -> Group:
     """A group from its row, whose first `width` values are its names."""
     findings, inputs, rules, priced, traffic, memory, power, p50, p90, p99, most, _ = row[width:]
-    return Group(tuple(row[:width]), findings, inputs, rules, priced, traffic, memory, power, Distribution(p50, p90, p99, most))
+    return Group(
+        tuple(row[:width]),
+        findings,
+        inputs,
+        rules,
+        priced,
+        traffic,
+        memory,
+        power,
+        Distribution(p50, p90, p99, most),
+    )
 
 
 def _since(database: Database, runs: Sequence[Run], top: int | None) -> Since:
-    """What differs from the tables of the earlier run: findings are the same if their input, rule, and object are."""
+    """What differs from the tables of the earlier run: findings are the same if their input, rule,
+    and object are.
+    """
     moved = moved_inputs(database)
-    database.rows("CREATE TEMP TABLE moved AS SELECT unnest($1) AS input, unnest($2) AS earlier", [list(moved), list(moved.values())])
-    database.rows(f"CREATE TEMP TABLE shown_since AS {_SHOWN.format(schema='since', moved='moved')}")
-    for name, these, others in (("new_findings", "shown", "shown_since"), ("gone_findings", "shown_since", "shown")):
-        database.rows(f"CREATE TEMP TABLE {name} AS SELECT * FROM {these} ANTI JOIN {others} USING (input, rule, object, number)")
+    database.rows(
+        "CREATE TEMP TABLE moved AS SELECT unnest($1) AS input, unnest($2) AS earlier",
+        [list(moved), list(moved.values())],
+    )
+    database.rows(
+        f"CREATE TEMP TABLE shown_since AS {_SHOWN.format(schema='since', moved='moved')}"
+    )
+    for name, these, others in (
+        ("new_findings", "shown", "shown_since"),
+        ("gone_findings", "shown_since", "shown"),
+    ):
+        database.rows(
+            f"CREATE TEMP TABLE {name} AS SELECT * FROM {these} ANTI JOIN {others} USING (input, "
+            f"rule, object, number)"
+        )
     changes = database.rows(f"""
         SELECT rule, count(*) FILTER (is_new), count(*) FILTER (NOT is_new),
-            coalesce(sum(traffic) FILTER (priced AND is_new), 0)::DOUBLE, coalesce(sum(traffic) FILTER (priced AND NOT is_new), 0)::DOUBLE
-        FROM (SELECT *, true AS is_new FROM new_findings UNION ALL SELECT *, false AS is_new FROM gone_findings)
+            coalesce(sum(traffic) FILTER (priced AND is_new), 0)::DOUBLE, coalesce(sum(traffic)
+            FILTER (priced AND NOT is_new), 0)::DOUBLE
+        FROM (SELECT *, true AS is_new FROM new_findings UNION ALL SELECT *, false AS is_new FROM
+        gone_findings)
         GROUP BY rule ORDER BY 4 DESC, 2 DESC, 5 DESC, 3 DESC, rule {_limit(top)}
     """)
     findings = database.rows(f"""
         SELECT rule, input, line, CASE WHEN priced THEN traffic::DOUBLE END FROM new_findings
         ORDER BY 4 DESC NULLS LAST, rule, input, line, object, number {_limit(top)}
     """)
-    (new,), (gone,) = database.rows("SELECT count(*) FROM new_findings UNION ALL SELECT count(*) FROM gone_findings")
+    (new,), (gone,) = database.rows(
+        "SELECT count(*) FROM new_findings UNION ALL SELECT count(*) FROM gone_findings"
+    )
     new_inputs, gone_inputs = (
-        database.rows(f"SELECT count(*) FROM (SELECT input FROM {these}.inputs EXCEPT SELECT input FROM {others}.inputs)")[0][0]
+        database.rows(
+            f"SELECT count(*) FROM (SELECT input FROM {these}.inputs EXCEPT SELECT input FROM "
+            f"{others}.inputs)"
+        )[0][0]
         for these, others in (("main", "since"), ("since", "main"))
     )
     # Other files of programs may have moved, too.
-    ((moved_count,),) = database.rows("SELECT count(*) FROM moved SEMI JOIN (SELECT DISTINCT input FROM main.inputs) USING (input)")
+    ((moved_count,),) = database.rows(
+        "SELECT count(*) FROM moved SEMI JOIN (SELECT DISTINCT input FROM main.inputs) USING "
+        "(input)"
+    )
     return Since(
         database.since,
         [Change(*row) for row in changes],
@@ -229,8 +290,15 @@ def _remarks(old: Sequence[Run], new: Sequence[Run]) -> list[str]:
     for word in ("version", "edition", "configuration"):
         before, after = ({getattr(run, word) for run in runs} for runs in (old, new))
         if before != after:
-            stated = "" if word == "configuration" else f" ({', '.join(sorted(before))}; now {', '.join(sorted(after))})"
-            remarks.append(f"the earlier run had another {word}{stated}: findings may be new or gone because of it")
+            stated = (
+                ""
+                if word == "configuration"
+                else f" ({', '.join(sorted(before))}; now {', '.join(sorted(after))})"
+            )
+            remarks.append(
+                f"the earlier run had another {word}{stated}: findings may be new or gone because "
+                f"of it"
+            )
     return remarks
 
 

@@ -38,7 +38,11 @@ ACTIONS: dict[str, Action] = {
 }
 
 PRICE_ONLY = frozenset({"keep-on-tile", "merge-passes"})
-"""Fixes whose changes are for the price alone. What such a fix is, one pass in place of two, no edit of a description can write."""
+"""Fixes whose changes are for the price alone. What such a fix is, one pass in place of two, no
+edit of a description can write.
+"""
 
-PRICE_NOTES: dict[str, Callable[[Subject, FixContext], str | None]] = {"merge-passes": merge_price_note}
+PRICE_NOTES: dict[str, Callable[[Subject, FixContext], str | None]] = {
+    "merge-passes": merge_price_note
+}
 """What the price of such a fix leaves out, for a subject; None if nothing."""

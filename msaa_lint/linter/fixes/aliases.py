@@ -1,4 +1,6 @@
-"""Finds members that share their text through aliases and merge keys, and whether several fixes request the same change of them."""
+"""Finds members that share their text through aliases and merge keys, and whether several fixes
+request the same change of them.
+"""
 
 from __future__ import annotations
 
@@ -27,7 +29,9 @@ def requests(changes: Iterable[Change]) -> dict[Member, set[tuple[str, str]]]:
     """What changes request of each member."""
     requested: dict[Member, set[tuple[str, str]]] = {}
     for change in changes:
-        requested.setdefault((id(change.record), change.member), set()).add((change.action, str(change.value)))
+        requested.setdefault((id(change.record), change.member), set()).add(
+            (change.action, str(change.value))
+        )
     return requested
 
 
@@ -38,7 +42,9 @@ def all_request(members: Iterable[Member], changes: Sequence[Change], requested:
 
 
 class Aliases:
-    """The members of records by the key that states them and by their value, and the records by their mapping."""
+    """The members of records by the key that states them and by their value, and the records by
+    their mapping.
+    """
 
     def __init__(self, records: Iterable[Record]) -> None:
         self._by_key: dict[int, list[Member]] = {}
@@ -50,7 +56,10 @@ class Aliases:
             self._by_mapping.setdefault(_origin(record.node), []).append(id(record))
             members = [(name, key, value) for name, (key, value) in record.spelled.items()]
             if isinstance(record, Command) and record.node.kind == "mapping":
-                members += [(name, record.node.keys[name], value) for name, value in record.node.value.items()]
+                members += [
+                    (name, record.node.keys[name], value)
+                    for name, value in record.node.value.items()
+                ]
             for name, key, value in members:
                 self._by_key.setdefault(id(key), []).append((id(record), name))
                 self._by_value.setdefault(_origin(value), []).append((id(record), name))
@@ -68,7 +77,11 @@ class Aliases:
         members, same_key = self._by_value[_origin(value)], self._by_key[id(key)]
         if len(members) == len(same_key):
             return []
-        return [_TOO_MANY] if len(members) > MAX_SHARED else [other for other in members if other not in same_key]
+        return (
+            [_TOO_MANY]
+            if len(members) > MAX_SHARED
+            else [other for other in members if other not in same_key]
+        )
 
     def has_same_node(self, record: Record) -> bool:
         """Whether another record is stated at the same place of the text."""

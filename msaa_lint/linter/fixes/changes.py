@@ -60,7 +60,12 @@ class Change(NamedTuple):
 
 def distinct(changes: Iterable[Change]) -> list[Change]:
     """The changes without repetitions."""
-    return list({(id(change.record), change.member, change.action, repr(change.value)): change for change in changes}.values())
+    return list(
+        {
+            (id(change.record), change.member, change.action, repr(change.value)): change
+            for change in changes
+        }.values()
+    )
 
 
 class NoFix(Exception):
@@ -68,25 +73,35 @@ class NoFix(Exception):
 
 
 class SharedText(NoFix):
-    """Anchors, aliases, or merge keys share a text that a fix changes with structures that it does not change."""
+    """Anchors, aliases, or merge keys share a text that a fix changes with structures that it does
+    not change.
+    """
 
 
 class StructuralChange(Exception):
-    """A change cannot be applied in place: it is structural, or it concerns a Metal record, from which other records are derived."""
+    """A change cannot be applied in place: it is structural, or it concerns a Metal record, from
+    which other records are derived.
+    """
 
 
 @contextmanager
 def apply_temporarily(changes: Sequence[Change]) -> Iterator[None]:
-    """Applies changes to the records within a `with` statement, then restores the exact previous values, even after an exception.
+    """Applies changes to the records within a `with` statement, then restores the exact previous
+    values, even after an exception.
 
-    Raises StructuralChange, before any record changes, if one of the changes cannot be applied in place.
+    Raises StructuralChange, before any record changes, if one of the changes cannot be applied in
+    place.
     """
     if any(change.structural or isinstance(change.record, MetalRecord) for change in changes):
         raise StructuralChange
     values = [(record, member, getattr(record, member)) for record, member, *_ in changes]
     try:
         for change in changes:
-            setattr(change.record, change.member, change.applied_to(getattr(change.record, change.member)))
+            setattr(
+                change.record,
+                change.member,
+                change.applied_to(getattr(change.record, change.member)),
+            )
         yield
     finally:
         for record, member, value in values:

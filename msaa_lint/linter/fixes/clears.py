@@ -1,4 +1,6 @@
-"""`do: clear-on-load` and `do: draw-the-copy`: a command before or in a pass becomes a load operation or a draw."""
+"""`do: clear-on-load` and `do: draw-the-copy`: a command before or in a pass becomes a load
+operation or a draw.
+"""
 
 from __future__ import annotations
 
@@ -20,7 +22,11 @@ def clear_on_load(subject: Subject, context: FixContext) -> list[Change]:
     if aspect.load == "LOAD" or entry is not None:
         changes.append(Change(attachment.record, aspect.load_member, "set", "CLEAR"))
         body = context.frame.commands[begin].body
-        if isinstance(body, BeginRenderPass) and body.clearValueCount is not None and body.clearValueCount <= attachment.index:
+        if (
+            isinstance(body, BeginRenderPass)
+            and body.clearValueCount is not None
+            and body.clearValueCount <= attachment.index
+        ):
             # VUID-VkRenderPassBeginInfo-clearValueCount-00902
             changes.append(Change(body, "clearValueCount", "set", attachment.index + 1))
     return changes
@@ -31,7 +37,9 @@ def draw_the_copy(subject: Subject, context: FixContext) -> list[Change]:
     position, _ = _command(subject, "aspect.copy_command", context)
     attachment, aspect = aspect_of(subject)
     begin = _only_begin(attachment, context)
-    source = present(text_fact(subject, "aspect.copy_source"), "the source of the copy is not an image")
+    source = present(
+        text_fact(subject, "aspect.copy_source"), "the source of the copy is not an image"
+    )
     read = {"readImage": {"image": source, "stage": "FRAGMENT", "access": "SHADER_READ"}}
     return [
         context.drop_command(position),
@@ -41,7 +49,9 @@ def draw_the_copy(subject: Subject, context: FixContext) -> list[Change]:
 
 
 def _command(subject: Subject, fact: str, context: FixContext) -> tuple[int, int | None]:
-    """The only command at the place of a fact: its position and, for vkCmdClearAttachments, the entry."""
+    """The only command at the place of a fact: its position and, for vkCmdClearAttachments, the
+    entry.
+    """
     place = subject.facts.places.get(fact)
     commands = context.commands_at.get(place, []) if place is not None else []
     if len(commands) != 1:
@@ -51,8 +61,19 @@ def _command(subject: Subject, fact: str, context: FixContext) -> tuple[int, int
 
 def _only_begin(attachment: Attachment, context: FixContext) -> int:
     """The position of the only command that begins an attachment's pass."""
-    candidates = (candidate for target in attachment.targets for candidate in context.attachments.get(id(target.record), ()))
-    render_pass = next((render_pass for render_pass, candidate in candidates if candidate.record is attachment.record), None)
+    candidates = (
+        candidate
+        for target in attachment.targets
+        for candidate in context.attachments.get(id(target.record), ())
+    )
+    render_pass = next(
+        (
+            render_pass
+            for render_pass, candidate in candidates
+            if candidate.record is attachment.record
+        ),
+        None,
+    )
     begins = present(render_pass, "the pass of the attachment is not known").begun
     if len(begins) != 1:
         raise NoFix("the pass begins more than once")

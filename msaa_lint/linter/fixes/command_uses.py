@@ -16,7 +16,9 @@ COMMAND_USAGES = frozenset({"TRANSFER_SRC", "TRANSFER_DST", "SAMPLED", "STORAGE"
 
 
 class CommandUses:
-    """The uses of images by commands. Empty, with `complete` False, for a frame with more uses than are tracked."""
+    """The uses of images by commands. Empty, with `complete` False, for a frame with more uses than
+    are tracked.
+    """
 
     def __init__(self, frame: Frame) -> None:
         self._usages: dict[str, Counter[str]] = {}
@@ -33,8 +35,14 @@ class CommandUses:
             names = {name for _, name in naming_records(command)}
             if position in begins:
                 attachments = begins[position].attachments
-                names.update(target.name for attachment in attachments for target in targets_at(frame, attachment, position))
-            by_kind = self.barriers if command.kind == "pipelineBarrier" else self._command_positions
+                names.update(
+                    target.name
+                    for attachment in attachments
+                    for target in targets_at(frame, attachment, position)
+                )
+            by_kind = (
+                self.barriers if command.kind == "pipelineBarrier" else self._command_positions
+            )
             for name in names:
                 self._positions.setdefault(name, []).append(position)
                 by_kind.setdefault(name, []).append(position)
@@ -42,7 +50,9 @@ class CommandUses:
                 self._usages.setdefault(name, Counter())[usage] += 1
 
     def needed_usages(self, name: str, without: Command | None = None) -> set[str]:
-        """The usages that the commands, except `without`, require of an image. A read counts as both SAMPLED and STORAGE."""
+        """The usages that the commands, except `without`, require of an image. A read counts as
+        both SAMPLED and STORAGE.
+        """
         counts = Counter(self._usages.get(name, {}))
         if without is not None:
             counts.subtract(usage for image, usage in _needed_usages(without) if image == name)
@@ -57,7 +67,9 @@ class CommandUses:
         return _following(self._command_positions.get(name, []), position)
 
     def used_between(self, name: str, start: int, end: int) -> bool:
-        """Whether a command other than a barrier, from `start` up to, but not including, `end`, uses an image."""
+        """Whether a command other than a barrier, from `start` up to, but not including, `end`,
+        uses an image.
+        """
         positions = self._command_positions.get(name, [])
         first = bisect_left(positions, start)
         return first < len(positions) and positions[first] < end

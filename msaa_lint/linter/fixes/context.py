@@ -6,7 +6,13 @@ from functools import cached_property
 
 from msaa_lint.core.text.span import Span
 from msaa_lint.frame.description.document import Document, Lowered
-from msaa_lint.frame.description.models import ClearAttachments, Framebuffer, Metal, PipelineBarrier, SubpassDependency
+from msaa_lint.frame.description.models import (
+    ClearAttachments,
+    Framebuffer,
+    Metal,
+    PipelineBarrier,
+    SubpassDependency,
+)
 from msaa_lint.frame.description.record import Record
 from msaa_lint.frame.facts.frame import Frame
 from msaa_lint.frame.facts.parts import Attachment, Pass, Resolve
@@ -41,7 +47,11 @@ class FixContext:
     def references(self) -> References:
         """The records that name images or, in a Metal description, textures."""
         description = self.document.description
-        return References(description, "images") if description.metal is None else References(description.metal, "metal.textures")
+        return (
+            References(description, "images")
+            if description.metal is None
+            else References(description.metal, "metal.textures")
+        )
 
     @property
     def metal(self) -> Metal:
@@ -58,7 +68,9 @@ class FixContext:
 
     @cached_property
     def commands_at(self) -> dict[Span, list[tuple[int, int | None]]]:
-        """The positions of commands, and the entries of vkCmdClearAttachments, by the places that facts point to."""
+        """The positions of commands, and the entries of vkCmdClearAttachments, by the places that
+        facts point to.
+        """
         commands: dict[Span, list[tuple[int, int | None]]] = {}
         for position, command in enumerate(self.frame.commands):
             commands.setdefault(command.head, []).append((position, None))
@@ -70,7 +82,11 @@ class FixContext:
     @cached_property
     def waits(self) -> dict[Span, list[Wait]]:
         """The subpass dependencies and barriers by the place of their source stages."""
-        waits: list[Wait] = [wait for record in self.document.description.renderPasses.values() for wait in record.dependencies]
+        waits: list[Wait] = [
+            wait
+            for record in self.document.description.renderPasses.values()
+            for wait in record.dependencies
+        ]
         waits += (body for _, body in self.frame.recorded(PipelineBarrier))
         by_place: dict[Span, list[Wait]] = {}
         for wait in waits:
@@ -81,19 +97,32 @@ class FixContext:
     @cached_property
     def resolves(self) -> dict[tuple[int, str], Resolve]:
         """The resolves within passes, by the identity of their record and their aspect."""
-        subpasses = [subpass for render_pass in self.frame.passes for subpass in render_pass.subpasses]
-        return {(id(resolve.record), resolve.aspect): resolve for subpass in subpasses for resolve in subpass.resolves}
+        subpasses = [
+            subpass for render_pass in self.frame.passes for subpass in render_pass.subpasses
+        ]
+        return {
+            (id(resolve.record), resolve.aspect): resolve
+            for subpass in subpasses
+            for resolve in subpass.resolves
+        }
 
     @cached_property
     def continued(self) -> dict[int, list[Record]]:
-        """By the identity of an attachment's record: those of the renderings that it suspends or resumes, which must state the same."""
+        """By the identity of an attachment's record: those of the renderings that it suspends or
+        resumes, which must state the same.
+        """
         groups: dict[int, list[Pass]] = {}
         for render_pass in self.frame.passes:
             before = self.analysis.walk.suspended.get(id(render_pass))
-            groups[id(render_pass)] = [*(groups[id(before)] if before is not None else ()), render_pass]
+            groups[id(render_pass)] = [
+                *(groups[id(before)] if before is not None else ()),
+                render_pass,
+            ]
         continued: dict[int, list[Record]] = {}
         for group in groups.values():
-            for attachments in zip(*(each.attachments for each in group), strict=False) if len(group) > 1 else ():
+            for attachments in (
+                zip(*(each.attachments for each in group), strict=False) if len(group) > 1 else ()
+            ):
                 records = [attachment.record for attachment in attachments]
                 continued.update((id(record), records) for record in records)
         return continued
@@ -108,7 +137,9 @@ class FixContext:
 
     @cached_property
     def attachments(self) -> dict[int, list[tuple[Pass, Attachment]]]:
-        """The attachments that an image is bound to, with their passes, by the identity of the image's record."""
+        """The attachments that an image is bound to, with their passes, by the identity of the
+        image's record.
+        """
         attachments: dict[int, list[tuple[Pass, Attachment]]] = {}
         for render_pass in self.frame.passes:
             for attachment in render_pass.attachments:
@@ -118,5 +149,6 @@ class FixContext:
 
     def drop_command(self, position: int) -> Change:
         """Removes the command at a position of the frame."""
-        # Rules only run on documents without errors, so the frame has all commands of the description.
+        # Rules only run on documents without errors, so the frame has all commands of the
+        # description.
         return Change(self.document.description, "commands", "drop", position)

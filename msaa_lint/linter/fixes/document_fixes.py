@@ -26,7 +26,9 @@ from .text_edits import TextEditor
 
 
 def documents_by_key(documents: Iterable[DocumentResult]) -> dict[Key, list[int]]:
-    """The numbers of the documents that have a fix for a finding, by what identifies the finding."""
+    """The numbers of the documents that have a fix for a finding, by what identifies the
+    finding.
+    """
     numbers: dict[Key, list[int]] = {}
     for number, document in enumerate(documents):
         for key in document.fix_specs:
@@ -37,10 +39,13 @@ def documents_by_key(documents: Iterable[DocumentResult]) -> dict[Key, list[int]
 class DocumentFixes:
     """Plans and writes the fixes of one document.
 
-    `format` is the reader that was forced, if any. `editable` is False for source code, whose text is never edited.
+    `format` is the reader that was forced, if any. `editable` is False for source code, whose text
+    is never edited.
     """
 
-    def __init__(self, result: DocumentResult, format: str | None = None, editable: bool = True) -> None:
+    def __init__(
+        self, result: DocumentResult, format: str | None = None, editable: bool = True
+    ) -> None:
         self.result = result
         self._format = format
         self._editable = editable
@@ -49,7 +54,9 @@ class DocumentFixes:
         self._changes: dict[Key, tuple[Change, ...]] = {}
 
     def changes(self, finding: Finding) -> tuple[Change, ...]:
-        """The changes that fix a finding of the document everywhere it applies. Raises NoFix if it cannot be fixed."""
+        """The changes that fix a finding of the document everywhere it applies. Raises NoFix if it
+        cannot be fixed.
+        """
         key = finding_key(finding)
         if key not in self._changes:
             changes: list[Change] = []
@@ -59,9 +66,11 @@ class DocumentFixes:
         return self._changes[key]
 
     def price_changes(self, finding: Finding) -> tuple[tuple[Change, ...], tuple[str, ...]]:
-        """The changes that a finding's price is of, and notes on what it includes or leaves out. Raises NoFix as `changes`.
+        """The changes that a finding's price is of, and notes on what it includes or leaves out.
+        Raises NoFix as `changes`.
 
-        They are those of its fix; where depth and stencil move together, also those of the other aspect.
+        They are those of its fix; where depth and stencil move together, also those of the other
+        aspect.
         """
         changes = [*self.changes(finding)]
         notes: list[str] = []
@@ -74,10 +83,14 @@ class DocumentFixes:
                 notes.append(BOTH)
         return tuple(distinct(changes)), tuple(dict.fromkeys(notes))
 
-    def edits(self, changes: Sequence[Change], requested: Requests | None = None) -> tuple[Edit, ...]:
-        """The edits that make the changes, as `TextEditor.edits`; in a shorthand, the edit of one of its words.
+    def edits(
+        self, changes: Sequence[Change], requested: Requests | None = None
+    ) -> tuple[Edit, ...]:
+        """The edits that make the changes, as `TextEditor.edits`; in a shorthand, the edit of one
+        of its words.
 
-        Where an anchor shares what changes with structures that do not change, its aliases are written out.
+        Where an anchor shares what changes with structures that do not change, its aliases are
+        written out.
         """
         if self._is_expanded:
             return (self._word_edit(changes).edit,)
@@ -91,7 +104,9 @@ class DocumentFixes:
 
     @cached_property
     def _copies(self) -> tuple[ExpandedAliases, TextEditor] | None:
-        """The document with its aliases written out, for changes of what aliases share; None if that cannot be done."""
+        """The document with its aliases written out, for changes of what aliases share; None if
+        that cannot be done.
+        """
         try:
             copies = ExpandedAliases(self.result.document)
         except SharedText:
@@ -100,7 +115,9 @@ class DocumentFixes:
         return (copies, TextEditor(document)) if document is not None else None
 
     def with_edits(self, finding: Finding) -> Finding:
-        """Adds the edits of its fix to a finding of the document. A fix that is only shown or that cannot be made has no edits."""
+        """Adds the edits of its fix to a finding of the document. A fix that is only shown or that
+        cannot be made has no edits.
+        """
         fix = finding.fix
         if fix is None or fix.edits or (fix.shown and not self._is_expanded):
             return finding
@@ -126,10 +143,16 @@ class DocumentFixes:
 
     @cached_property
     def _shorthand(self) -> Shorthand | None:
-        return shorthand(self.result.document, self.result.number, self._requested()) if self._editable else None
+        return (
+            shorthand(self.result.document, self.result.number, self._requested())
+            if self._editable
+            else None
+        )
 
     def _requested(self) -> tuple[list[Change], list[Change]]:
-        """The changes of the document's safe fixes, and of all its fixes except those that are only shown."""
+        """The changes of the document's safe fixes, and of all its fixes except those that are only
+        shown.
+        """
         safe: list[Change] = []
         applicable: list[Change] = []
         for specs in self.result.fix_specs.values():
@@ -143,7 +166,9 @@ class DocumentFixes:
         return safe, applicable
 
     def reread(self, changes: Sequence[Change]) -> Document | None:
-        """The document after the changes are made in its text, or None if they cannot be made or introduce errors."""
+        """The document after the changes are made in its text, or None if they cannot be made or
+        introduce errors.
+        """
         if not self._editable:
             return None
         before = self.result.document.source

@@ -1,4 +1,6 @@
-"""A document with its aliases and merge keys written out: what a fix changes is shared with nothing else there."""
+"""A document with its aliases and merge keys written out: what a fix changes is shared with nothing
+else there.
+"""
 
 from __future__ import annotations
 
@@ -25,7 +27,9 @@ MAX_LENGTH = 1 << 18
 
 
 class _Copy:
-    """An alias, or a mapping with merge keys, at its place: the text that states the same, and the texts that it is a copy of."""
+    """An alias, or a mapping with merge keys, at its place: the text that states the same, and the
+    texts that it is a copy of.
+    """
 
     def __init__(self, span: Span, text: str, sources: Sequence[Span]) -> None:
         self.span = span
@@ -52,7 +56,10 @@ class ExpandedAliases:
         for copy in self._copies:
             copy.start = copy.span.start + shift
             shift += len(copy.text) - (copy.span.end - copy.span.start)
-        self.source = Source(document.source.name, apply(document.source.text, [Edit(copy.span, copy.text) for copy in self._copies]))
+        self.source = Source(
+            document.source.name,
+            apply(document.source.text, [Edit(copy.span, copy.text) for copy in self._copies]),
+        )
 
     def changes(self, changes: Iterable[Change], document: Document) -> list[Change]:
         """The same changes of the records of the document with all copies."""
@@ -68,15 +75,21 @@ class ExpandedAliases:
         return found
 
     def edits(self, edits: Iterable[Edit]) -> tuple[Edit, ...]:
-        """The edits of the document itself that do the same as edits of the document with all copies; other aliases stay."""
+        """The edits of the document itself that do the same as edits of the document with all
+        copies; other aliases stay.
+        """
         inside: dict[int, list[Edit]] = {}
         outside: list[Edit] = []
         for edit in edits:
             start, end = self._original(edit.span.start, False), self._original(edit.span.end, True)
             if isinstance(start, Span) and start == self._original(edit.span.end, False):
-                number = next(number for number, copy in enumerate(self._copies) if copy.span == start)
+                number = next(
+                    number for number, copy in enumerate(self._copies) if copy.span == start
+                )
                 at = self._copies[number].start
-                inside.setdefault(number, []).append(Edit(Span(edit.span.start - at, edit.span.end - at), edit.text))
+                inside.setdefault(number, []).append(
+                    Edit(Span(edit.span.start - at, edit.span.end - at), edit.text)
+                )
             elif isinstance(start, int) and isinstance(end, int):
                 outside.append(Edit(Span(start, end), edit.text))
             else:
@@ -86,7 +99,9 @@ class ExpandedAliases:
             Edit(copy.span, apply(copy.text, inside.get(number, [])))
             for number, copy in enumerate(self._copies)
             if (number in inside or self._reads(copy, outside))
-            and not any(span.start <= copy.span.start and copy.span.end <= span.end for span in removed)
+            and not any(
+                span.start <= copy.span.start and copy.span.end <= span.end for span in removed
+            )
         ]
         found = sorted([*outside, *needed])
         if any(one.span.end > other.span.start for one, other in pairwise(found)):
@@ -94,7 +109,9 @@ class ExpandedAliases:
         return tuple(found)
 
     def _original(self, at: int, is_end: bool) -> int | Span:
-        """The place in the document of a place in that with all copies; the span of a copy for one within it."""
+        """The place in the document of a place in that with all copies; the span of a copy for one
+        within it.
+        """
         shift = 0
         for copy in self._copies:
             end = copy.start + len(copy.text)
@@ -109,11 +126,17 @@ class ExpandedAliases:
         """Whether one of the edits changes a text that a copy is made of."""
         # An insertion after the last entry is at the end of its line.
         ends = [(source.start, self._text.line_end(source.end)) for source in copy.sources]
-        return any(start <= edit.span.end and edit.span.start <= end for edit in edits for start, end in ends)
+        return any(
+            start <= edit.span.end and edit.span.start <= end
+            for edit in edits
+            for start, end in ends
+        )
 
     def _shared(self, node: Node) -> Iterator[Node]:
         """The aliases, and the mappings with merge keys, that are in no other one, in order."""
-        if node.anchor is not None or (node.kind == "mapping" and any(not _is_own(node, key) for key in node.keys.values())):
+        if node.anchor is not None or (
+            node.kind == "mapping" and any(not _is_own(node, key) for key in node.keys.values())
+        ):
             yield node
         elif node.kind != "scalar":
             for each in node.value.values() if node.kind == "mapping" else node.value:
@@ -123,16 +146,25 @@ class ExpandedAliases:
         start = node.start if node.anchor is not None else self._text.content(node)
         if self._text.comments_in(start, node.end):
             raise SharedText("comments stand between merged entries")
-        return _Copy(Span(start, node.end), self._flow(node), list(_sources(node, Span(node.start, node.end))))
+        return _Copy(
+            Span(start, node.end),
+            self._flow(node),
+            list(_sources(node, Span(node.start, node.end))),
+        )
 
     def _flow(self, node: Node) -> str:
         """A node in flow style, on one line."""
         if node.kind == "scalar":
-            text = quote_scalar(node.text, "" if node.plain else '"', node.plain and not isinstance(node.value, str))
+            text = quote_scalar(
+                node.text, "" if node.plain else '"', node.plain and not isinstance(node.value, str)
+            )
         elif node.kind == "sequence":
             text = f"[{', '.join(map(self._flow, node.value))}]"
         else:
-            entries = (f"{self._flow(node.keys[name])}: {self._flow(value)}" for name, value in node.value.items())
+            entries = (
+                f"{self._flow(node.keys[name])}: {self._flow(value)}"
+                for name, value in node.value.items()
+            )
             text = f"{{{', '.join(entries)}}}"
         self._length += len(text)
         if self._length > MAX_LENGTH:

@@ -53,10 +53,14 @@ def _layout(member: str, subject: Subject, _: FixContext) -> list[Source]:
 
 
 def _resolve_mode(subject: Subject, _: FixContext) -> list[Source]:
-    return [present(resolve_mode(resolve_of(subject)), "Vulkan prescribes the mode of this resolve")]
+    return [
+        present(resolve_mode(resolve_of(subject)), "Vulkan prescribes the mode of this resolve")
+    ]
 
 
-def _multisample_state(member: str, dynamic_state: str, subject: Subject, _: FixContext) -> list[Source]:
+def _multisample_state(
+    member: str, dynamic_state: str, subject: Subject, _: FixContext
+) -> list[Source]:
     pipeline = pipeline_of(subject)
     if pipeline.multisampleState is None or dynamic_state in pipeline.dynamicState:
         raise NoFix(f"the pipeline does not state `{member}`")
@@ -76,10 +80,20 @@ def _dependency_member(member: str, subject: Subject, _: FixContext) -> list[Sou
 
 def _clear_values(subject: Subject, context: FixContext) -> list[Source]:
     """The clear value counts of the commands that begin a render pass."""
-    begun = context.frame.render_pass(subject.render_pass.name) if subject.render_pass is not None else None
-    bodies = [context.frame.commands[position].body for position in begun.begun] if begun is not None else []
+    begun = (
+        context.frame.render_pass(subject.render_pass.name)
+        if subject.render_pass is not None
+        else None
+    )
+    bodies = (
+        [context.frame.commands[position].body for position in begun.begun]
+        if begun is not None
+        else []
+    )
     sources: list[Source] = [
-        (body, "clearValueCount") for body in bodies if isinstance(body, BeginRenderPass) and body.clearValueCount is not None
+        (body, "clearValueCount")
+        for body in bodies
+        if isinstance(body, BeginRenderPass) and body.clearValueCount is not None
     ]
     if not sources:
         raise NoFix("no command that begins the pass states `clearValueCount`")
@@ -101,11 +115,17 @@ FACT_SOURCES: dict[str, FindSources] = {
     "attachment.initial_layout": partial(_layout, "initialLayout"),
     "attachment.final_layout": partial(_layout, "finalLayout"),
     "resolve.mode": _resolve_mode,
-    "pipeline.rasterization_samples": partial(_multisample_state, "rasterizationSamples", "RASTERIZATION_SAMPLES_EXT"),
+    "pipeline.rasterization_samples": partial(
+        _multisample_state, "rasterizationSamples", "RASTERIZATION_SAMPLES_EXT"
+    ),
     "pipeline.sample_shading": partial(_multisample_state, "sampleShadingEnable", ""),
     "pipeline.min_sample_shading": partial(_multisample_state, "minSampleShading", ""),
-    "pipeline.alpha_to_one": partial(_multisample_state, "alphaToOneEnable", "ALPHA_TO_ONE_ENABLE_EXT"),
-    "pipeline.alpha_to_coverage": partial(_multisample_state, "alphaToCoverageEnable", "ALPHA_TO_COVERAGE_ENABLE_EXT"),
+    "pipeline.alpha_to_one": partial(
+        _multisample_state, "alphaToOneEnable", "ALPHA_TO_ONE_ENABLE_EXT"
+    ),
+    "pipeline.alpha_to_coverage": partial(
+        _multisample_state, "alphaToCoverageEnable", "ALPHA_TO_COVERAGE_ENABLE_EXT"
+    ),
     "pipeline.dropped_samples": partial(_multisample_state, "sampleMask", "SAMPLE_MASK_EXT"),
     "pipeline.blends_first": _first_blend,
     "dependency.stages": partial(_dependency_member, "srcStageMask"),
@@ -113,7 +133,10 @@ FACT_SOURCES: dict[str, FindSources] = {
 }
 """By fact."""
 
-ONLY_VALUES: dict[str, tuple[object, ...]] = {"pipeline.dropped_samples": (0,), "pipeline.blends_first": (False,)}
+ONLY_VALUES: dict[str, tuple[object, ...]] = {
+    "pipeline.dropped_samples": (0,),
+    "pipeline.blends_first": (False,),
+}
 """The values that a fix may set these facts to."""
 
 SET_BY_UNSET = frozenset({"pipeline.dropped_samples"})

@@ -17,8 +17,8 @@ from .fixer import FailedFix, fix_text
 class FixedText(NamedTuple):
     """An input before and after its fixes.
 
-    `data` is the text after them, encoded like the input, and `result` the result of linting it. If the file could not be written, nothing
-    is fixed, and `write_error` is the reason.
+    `data` is the text after them, encoded like the input, and `result` the result of linting it. If
+    the file could not be written, nothing is fixed, and `write_error` is the reason.
     """
 
     file: str
@@ -37,20 +37,38 @@ class FixedText(NamedTuple):
 
 
 def fix_input(
-    data: bytes, result: FileResult, lint: Callable[[bytes], FileResult], selects: Callable[[Finding], bool], unsafe: bool, path: str | None
+    data: bytes,
+    result: FileResult,
+    lint: Callable[[bytes], FileResult],
+    selects: Callable[[Finding], bool],
+    unsafe: bool,
+    path: str | None,
 ) -> FixedText:
-    """Fixes the findings of an input that `selects` accepts and, if `path` is given, writes the result there.
+    """Fixes the findings of an input that `selects` accepts and, if `path` is given, writes the
+    result there.
 
     `lint` lints other contents of the same input. `unsafe` applies unsafe fixes as well.
     """
-    fixes = fix_text(unmerged(result), lambda text: unmerged(lint(encode(text, data))), unsafe, selects)
+    fixes = fix_text(
+        unmerged(result), lambda text: unmerged(lint(encode(text, data))), unsafe, selects
+    )
     before = result.source.text if result.source is not None else ""
     after = encode(fixes.text, data) if fixes.text != before else data
-    fixed = FixedText(result.file, before, fixes.text, after, merged(fixes.result), fixes.fixed_findings, fixes.failed_fixes)
+    fixed = FixedText(
+        result.file,
+        before,
+        fixes.text,
+        after,
+        merged(fixes.result),
+        fixes.fixed_findings,
+        fixes.failed_fixes,
+    )
     if path is None or not fixed.changed:
         return fixed
     try:
         atomic_write.replace(path, data, after)
     except atomic_write.NotWritten as error:
-        return fixed._replace(after=before, data=data, result=result, fixed_findings=(), write_error=str(error))
+        return fixed._replace(
+            after=before, data=data, result=result, fixed_findings=(), write_error=str(error)
+        )
     return fixed

@@ -22,7 +22,9 @@ from .metal import METAL_ACTIONS, METAL_FACT_SOURCES
 
 
 def problems(rule: Rule) -> list[Finding]:
-    """Unknown actions, facts that fixes cannot change, and values that facts cannot have (MSAA921)."""
+    """Unknown actions, facts that fixes cannot change, and values that facts cannot have
+    (MSAA921).
+    """
     found = (problem for spec in rule.fix_specs for problem in _problems(spec, rule))
     messages = dict.fromkeys(islice(found, MAX_PROBLEMS))
     return [rule.problem(message, span) for span, message in messages]
@@ -39,7 +41,11 @@ def _problems(spec: FixSpec, rule: Rule) -> Iterator[tuple[Span, str]]:
             yield setting.fact_at, unknown_fact(setting.fact, rule.subject)
         elif setting.fact not in sources:
             changeable = [fact for fact in sources if fact in facts]
-            hint = f"; use one of {', '.join(changeable)}" if changeable else f"; no fact of {rule.subject} can be changed"
+            hint = (
+                f"; use one of {', '.join(changeable)}"
+                if changeable
+                else f"; no fact of {rule.subject} can be changed"
+            )
             yield setting.fact_at, f"fixes cannot change `{setting.fact}`{hint}"
         else:
             yield from _value_problems(setting, facts)
@@ -52,10 +58,16 @@ def _value_problems(setting: Setting, facts: set[str]) -> Iterator[tuple[Span, s
         if other is None or other.name not in facts or other.type != fact.type:
             yield setting.at, f"`{value}` does not refer to a fact of type {fact.type}"
     elif setting.fact in ONLY_VALUES and value not in ONLY_VALUES[setting.fact]:
-        yield setting.at, f"fixes can only set `{setting.fact}` to {str(ONLY_VALUES[setting.fact][0]).lower()}"
+        yield (
+            setting.at,
+            f"fixes can only set `{setting.fact}` to {str(ONLY_VALUES[setting.fact][0]).lower()}",
+        )
     elif fact.enum and isinstance(value, str):
         from msaa_lint.frame.vulkan.enums import VALUES
 
         words = WORDS[fact.enum] if fact.enum in WORDS else tuple(VALUES.get(fact.enum, ()))
         if value not in words:
-            yield setting.at, f"`{fact.name}` is never {quoted(value)}{question(nearest_name(value, words))}"
+            yield (
+                setting.at,
+                f"`{fact.name}` is never {quoted(value)}{question(nearest_name(value, words))}",
+            )

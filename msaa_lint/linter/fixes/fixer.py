@@ -1,6 +1,7 @@
 """Fixes one text in rounds: each applies the fixes that do not overlap, then lints the result.
 
-A fix is kept only if the result has no errors, its finding is gone, and no finding appears that was not there before.
+A fix is kept only if the result has no errors, its finding is gone, and no finding appears that was
+not there before.
 """
 
 from __future__ import annotations
@@ -24,14 +25,18 @@ from .document_fixes import DocumentFixes, documents_by_key
 
 MAX_ROUNDS = 10
 MAX_TRIALS = 60
-"""How often a text is linted at most: a hostile text may have thousands of failing fixes, each found by bisection."""
+"""How often a text is linted at most: a hostile text may have thousands of failing fixes, each
+found by bisection.
+"""
 
 MIN_TRIALS = 8
 MAX_TRIAL_SIZE = 4 << 20
 """Characters of all trials together, beyond `MIN_TRIALS`."""
 
 UNUSED_SUPPRESSION = "MSAA911"
-"""A fix may leave a suppression without a finding. That is not the fix's fault, and the next round removes the suppression."""
+"""A fix may leave a suppression without a finding. That is not the fix's fault, and the next round
+removes the suppression.
+"""
 
 Lint = Callable[[str], FileResult]
 """Lints a text."""
@@ -45,7 +50,9 @@ class FailedFix(NamedTuple):
 
 
 class FixResult(NamedTuple):
-    """A fixed text, the result of linting it, the findings that are fixed, and the fixes that failed in the last round."""
+    """A fixed text, the result of linting it, the findings that are fixed, and the fixes that
+    failed in the last round.
+    """
 
     text: str
     result: FileResult
@@ -60,8 +67,14 @@ class _Fix(NamedTuple):
     edits: tuple[Edit, ...]
 
 
-def fix_text(result: FileResult, lint: Lint, unsafe: bool = False, selects: Callable[[Finding], bool] = lambda _: True) -> FixResult:
-    """Fixes the findings of a linted text that `selects` accepts, by safe fixes and, with `unsafe`, by unsafe ones too.
+def fix_text(
+    result: FileResult,
+    lint: Lint,
+    unsafe: bool = False,
+    selects: Callable[[Finding], bool] = lambda _: True,
+) -> FixResult:
+    """Fixes the findings of a linted text that `selects` accepts, by safe fixes and, with `unsafe`,
+    by unsafe ones too.
 
     Suppressed findings are not fixed.
     """
@@ -71,7 +84,9 @@ def fix_text(result: FileResult, lint: Lint, unsafe: bool = False, selects: Call
 class _Fixer:
     """One run. `text` and `result` include the fixes applied so far."""
 
-    def __init__(self, result: FileResult, lint: Lint, unsafe: bool, selects: Callable[[Finding], bool]) -> None:
+    def __init__(
+        self, result: FileResult, lint: Lint, unsafe: bool, selects: Callable[[Finding], bool]
+    ) -> None:
         self.text = result.source.text if result.source is not None else ""
         self.result = result
         self.lint = lint
@@ -99,11 +114,16 @@ class _Fixer:
         return FixResult(self.text, self.result, tuple(fixed_findings), tuple(self.failed_fixes))
 
     def candidates(self) -> list[_Fix]:
-        """The fixes that may be applied, those of the most severe findings first. Fixes that share edits are joined."""
+        """The fixes that may be applied, those of the most severe findings first. Fixes that share
+        edits are joined.
+        """
         if self.result.source is None:
             return []
-        findings = sorted(filter(self.may_fix, self.result.findings), key=lambda finding: -rank(finding.severity))
-        # Fixes of rules are written anew, together with all others of this round; fixes of comments come with their edits.
+        findings = sorted(
+            filter(self.may_fix, self.result.findings), key=lambda finding: -rank(finding.severity)
+        )
+        # Fixes of rules are written anew, together with all others of this round; fixes of comments
+        # come with their edits.
         of_rules = documents_by_key(self.result.documents)
         fixes = [
             _Fix((finding,), finding.fix.edits)
@@ -122,7 +142,12 @@ class _Fixer:
     def may_fix(self, finding: Finding) -> bool:
         """Whether a finding has a fix that may be applied."""
         fix = finding.fix
-        return fix is not None and not fix.shown and (fix.safe or self.unsafe) and self.selects(finding)
+        return (
+            fix is not None
+            and not fix.shown
+            and (fix.safe or self.unsafe)
+            and self.selects(finding)
+        )
 
     def document_candidates(self, fixes: DocumentFixes, findings: Iterable[Finding]) -> list[_Fix]:
         """The fixes of one document's findings."""
@@ -142,10 +167,14 @@ class _Fixer:
                 self.failed_fixes.append(FailedFix(finding, str(error)))
         return candidates
 
-    def apply(self, group: Sequence[_Fix], applied: list[_Fix], text: str, result: FileResult) -> list[_Fix]:
-        """Applies as many fixes of a group as possible, after those already applied in this round. Returns all applied fixes.
+    def apply(
+        self, group: Sequence[_Fix], applied: list[_Fix], text: str, result: FileResult
+    ) -> list[_Fix]:
+        """Applies as many fixes of a group as possible, after those already applied in this round.
+        Returns all applied fixes.
 
-        `text` and `result` are those before the round. Failing fixes are found by what their result has findings about, else by bisection.
+        `text` and `result` are those before the round. Failing fixes are found by what their result
+        has findings about, else by bisection.
         """
         if not group:
             return applied
@@ -162,7 +191,9 @@ class _Fixer:
             pass
         else:
             new_result = self.lint(new_text)
-            objections = _objections(result, new_result, [finding for fix in attempt for finding in fix.findings], edits)
+            objections = _objections(
+                result, new_result, [finding for fix in attempt for finding in fix.findings], edits
+            )
             if not objections:
                 self.text, self.result = new_text, new_result
                 return attempt
@@ -174,40 +205,62 @@ class _Fixer:
             for number, reason in blamed.items():
                 self.fail([group[number]], reason or "")
             return applied
-        certain = [number for number in blamed if len(blamed) < len(group) or blamed[number] is not None]
+        certain = [
+            number for number in blamed if len(blamed) < len(group) or blamed[number] is not None
+        ]
         middle = len(group) // 2
         later = set(certain or range(middle, len(group)))
         # The others first: without them it shows whether it is these that fail.
-        applied = self.apply([fix for number, fix in enumerate(group) if number not in later], applied, text, result)
-        return self.apply([fix for number, fix in enumerate(group) if number in later], applied, text, result)
+        applied = self.apply(
+            [fix for number, fix in enumerate(group) if number not in later], applied, text, result
+        )
+        return self.apply(
+            [fix for number, fix in enumerate(group) if number in later], applied, text, result
+        )
 
     def fail(self, fixes: Iterable[_Fix], reason: str) -> None:
         """Records why fixes are not applied."""
-        self.failed_fixes += (FailedFix(finding, reason) for fix in fixes for finding in fix.findings)
+        self.failed_fixes += (
+            FailedFix(finding, reason) for fix in fixes for finding in fix.findings
+        )
 
 
-def _leaving_an_entry(plans: Iterable[tuple[Finding, tuple[Change, ...]]]) -> list[tuple[Finding, tuple[Change, ...]]]:
-    """The fixes without those that would remove the last entry of a list after others removed the rest.
+def _leaving_an_entry(
+    plans: Iterable[tuple[Finding, tuple[Change, ...]]],
+) -> list[tuple[Finding, tuple[Change, ...]]]:
+    """The fixes without those that would remove the last entry of a list after others removed the
+    rest.
 
-    An empty list may mean something other than no list. In the next round the entry is the only one, and its fix accounts for that.
+    An empty list may mean something other than no list. In the next round the entry is the only
+    one, and its fix accounts for that.
     """
     drop_counts: Counter[Member] = Counter()
     remaining = []
     for finding, changes in plans:
         drops = [change for change in changes if change.action == "drop"]
         counts = Counter((id(change.record), change.member) for change in drops)
-        lengths = {(id(change.record), change.member): len(getattr(change.record, change.member)) for change in drops}
-        if any(drop_counts[member] and drop_counts[member] + count >= lengths[member] for member, count in counts.items()):
+        lengths = {
+            (id(change.record), change.member): len(getattr(change.record, change.member))
+            for change in drops
+        }
+        if any(
+            drop_counts[member] and drop_counts[member] + count >= lengths[member]
+            for member, count in counts.items()
+        ):
             continue
         drop_counts.update(counts)
         remaining.append((finding, changes))
     return remaining
 
 
-def _join(fixes: Sequence[_Fix], shared: Callable[[Finding], Hashable | None] = lambda _: None) -> list[_Fix]:
-    """Joins fixes that have edits in common, or whose findings are about one object, which `shared` returns, at the position of the first.
+def _join(
+    fixes: Sequence[_Fix], shared: Callable[[Finding], Hashable | None] = lambda _: None
+) -> list[_Fix]:
+    """Joins fixes that have edits in common, or whose findings are about one object, which `shared`
+    returns, at the position of the first.
 
-    A fix with edits that overlap others of its group stays apart: it is made after them, or in their place.
+    A fix with edits that overlap others of its group stays apart: it is made after them, or in
+    their place.
     """
     parents = list(range(len(fixes)))
 
@@ -256,11 +309,16 @@ def _without_overlaps(fixes: Iterable[_Fix]) -> list[_Fix]:
 
 
 def _overlaps(edit: Edit, others: Sequence[Edit]) -> bool:
-    """Whether an edit overlaps one of several edits, which are sorted and do not overlap each other."""
+    """Whether an edit overlaps one of several edits, which are sorted and do not overlap each
+    other.
+    """
     at = bisect_left(others, edit)
-    # Between an edit and its neighbor there may be insertions at the edit's ends, which do not overlap it.
+    # Between an edit and its neighbor there may be insertions at the edit's ends, which do not
+    # overlap it.
     for other in others[max(at - 2, 0) : at + 2]:
-        if edit.span == other.span or (edit.span.start < other.span.end and other.span.start < edit.span.end):
+        if edit.span == other.span or (
+            edit.span.start < other.span.end and other.span.start < edit.span.end
+        ):
             return True
     return False
 
@@ -271,7 +329,9 @@ def _with_suppressed(result: FileResult) -> list[Finding]:
 
 
 def _document(finding: Finding) -> str:
-    """The document of a stream that a finding is in, by the start of its subject. What a fix introduces is in its own document."""
+    """The document of a stream that a finding is in, by the start of its subject. What a fix
+    introduces is in its own document.
+    """
     return finding.subject.partition(".")[0] if finding.subject.startswith("documents[") else ""
 
 
@@ -285,16 +345,27 @@ def _images(finding: Finding) -> list[tuple[str, ...]]:
 
 
 class Objection(NamedTuple):
-    """A reason why the result of fixes cannot be kept, and the finding that it is about, if a fix may be told from that."""
+    """A reason why the result of fixes cannot be kept, and the finding that it is about, if a fix
+    may be told from that.
+    """
 
     reason: str
     finding: Finding | None = None
 
 
-def _objections(before: FileResult, after: FileResult, fixed_findings: Sequence[Finding], edits: Iterable[Edit]) -> list[Objection]:
+def _objections(
+    before: FileResult, after: FileResult, fixed_findings: Sequence[Finding], edits: Iterable[Edit]
+) -> list[Objection]:
     """The reasons why the result of fixes cannot be kept."""
     kinds_before = set(map(_kind, before.findings))
-    error = next((finding for finding in after.findings if finding.fatal and _kind(finding) not in kinds_before), None)
+    error = next(
+        (
+            finding
+            for finding in after.findings
+            if finding.fatal and _kind(finding) not in kinds_before
+        ),
+        None,
+    )
     if error is not None:
         return [Objection(f"the result would have an error: {error.message}")]
     name = contradiction(before, after)
@@ -315,19 +386,29 @@ MAX_SUSPECTS = 4
 
 
 def _blamed(group: Sequence[_Fix], objections: Sequence[Objection]) -> dict[int, str | None]:
-    """The fixes of a group, by number, that objections are probably due to: the reason, None where another fix may be at fault.
+    """The fixes of a group, by number, that objections are probably due to: the reason, None where
+    another fix may be at fault.
 
-    A fix is suspected of a finding of its kind, or about one of its images; of several suspects, the last one.
+    A fix is suspected of a finding of its kind, or about one of its images; of several suspects,
+    the last one.
     """
     suspects: dict[object, list[int]] = {}
     for number, fix in enumerate(group):
-        for key in dict.fromkeys(key for finding in fix.findings for key in (_kind(finding), *_images(finding))):
+        for key in dict.fromkeys(
+            key for finding in fix.findings for key in (_kind(finding), *_images(finding))
+        ):
             suspects.setdefault(key, []).append(number)
     blamed: dict[int, str | None] = {}
     for objection in objections:
-        keys = (_kind(objection.finding), *_images(objection.finding)) if objection.finding is not None else ()
+        keys = (
+            (_kind(objection.finding), *_images(objection.finding))
+            if objection.finding is not None
+            else ()
+        )
         lists = [suspects[key] for key in keys if key in suspects]
-        numbers = set[int]().union(*lists) if all(len(each) <= MAX_SUSPECTS for each in lists) else set()
+        numbers = (
+            set[int]().union(*lists) if all(len(each) <= MAX_SUSPECTS for each in lists) else set()
+        )
         if len(numbers) == 1:
             number = numbers.pop()
             blamed[number] = blamed.get(number) or objection.reason
@@ -336,11 +417,14 @@ def _blamed(group: Sequence[_Fix], objections: Sequence[Objection]) -> dict[int,
     return blamed
 
 
-def _additions(before: FileResult, after: FileResult, fixed_findings: Sequence[Finding], edits: Iterable[Edit]) -> Iterator[Finding]:
+def _additions(
+    before: FileResult, after: FileResult, fixed_findings: Sequence[Finding], edits: Iterable[Edit]
+) -> Iterator[Finding]:
     """The findings of `after` that neither were there before nor are one that moved.
 
-    A fix may move a finding: a resolve that becomes part of a pass has the same problem there. It is then by the same rule and about the
-    same image as one in the text that the edits remove or replace.
+    A fix may move a finding: a resolve that becomes part of a pass has the same problem there. It
+    is then by the same rule and about the same image as one in the text that the edits remove or
+    replace.
     """
     expected = Counter(map(_kind, _with_suppressed(before)))
     expected.subtract(map(_kind, fixed_findings))
@@ -359,7 +443,9 @@ def _additions(before: FileResult, after: FileResult, fixed_findings: Sequence[F
         if expected[kind] > 0:
             expected[kind] -= 1
             at = finding.span
-            if at is None or not any(span.start <= at.start and at.end <= span.end for span in spans):
+            if at is None or not any(
+                span.start <= at.start and at.end <= span.end for span in spans
+            ):
                 continue
             for image in _images(finding):
                 gone.setdefault((finding.code, image), []).append(number)

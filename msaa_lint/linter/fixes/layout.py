@@ -1,7 +1,8 @@
 """Edits that insert entries into the collections of a text and remove entries from them.
 
-Block or flow style, commas, comments, indentation and line breaks stay as they are. The comments of a removed entry stay as well, each on a
-line of its own. Raises NoFix for edits that cannot be made cleanly.
+Block or flow style, commas, comments, indentation and line breaks stay as they are. The comments of
+a removed entry stay as well, each on a line of its own. Raises NoFix for edits that cannot be made
+cleanly.
 """
 
 from __future__ import annotations
@@ -24,7 +25,9 @@ _NOT_ON_OWN_LINES = "the entry shares its lines with other text"
 
 
 class CollectionEditor:
-    """A mapping or a sequence. `items` are the places of its entries, for a mapping of each key with its value, without merged entries."""
+    """A mapping or a sequence. `items` are the places of its entries, for a mapping of each key
+    with its value, without merged entries.
+    """
 
     def __init__(self, text: TextScanner, node: Node) -> None:
         self.text = text
@@ -32,9 +35,16 @@ class CollectionEditor:
         self.start = text.content(node)
         self.flow = text.text[self.start : self.start + 1] in ("{", "[")
         if node.kind == "mapping":
-            entries = sorted((key.start, name) for name, key in node.keys.items() if node.start <= key.start < node.end)
+            entries = sorted(
+                (key.start, name)
+                for name, key in node.keys.items()
+                if node.start <= key.start < node.end
+            )
             self._values: list[Node] = [node.value[name] for _, name in entries]
-            self.items = [Span(start, max(node.keys[name].end, node.value[name].end)) for start, name in entries]
+            self.items = [
+                Span(start, max(node.keys[name].end, node.value[name].end))
+                for start, name in entries
+            ]
         else:
             self._values = node.value
             self.items = [item.span for item in node.value]
@@ -52,7 +62,11 @@ class CollectionEditor:
         self._check_keys()
         if after is None and self.items:
             after = len(self.items) - 1
-        return self._insert_in_flow(entries, after) if self.flow else self._insert_in_block(entries, after)
+        return (
+            self._insert_in_flow(entries, after)
+            if self.flow
+            else self._insert_in_block(entries, after)
+        )
 
     def remove(self, indices: Sequence[int], replacements: Sequence[Edit] = ()) -> list[Edit]:
         """Removes some of the entries, and makes the replacements in others."""
@@ -64,11 +78,17 @@ class CollectionEditor:
             return self._keep([n for n in range(len(self.items)) if n not in removed], replacements)
         return [
             *replacements,
-            *(edit for n in indices for edit in (self._remove_from_flow(n) if self.flow else self._remove_from_block(n))),
+            *(
+                edit
+                for n in indices
+                for edit in (self._remove_from_flow(n) if self.flow else self._remove_from_block(n))
+            ),
         ]
 
     def remove_only_item(self, colon: int) -> list[Edit]:
-        """Removes the only item of a sequence that is the value of a key whose `:` ends at `colon`. `[]` remains."""
+        """Removes the only item of a sequence that is the value of a key whose `:` ends at `colon`.
+        `[]` remains.
+        """
         if self.flow:
             return self._remove_from_flow(0)
         end = self.items[0].end
@@ -83,7 +103,9 @@ class CollectionEditor:
     @cached_property
     def _has_question_marks(self) -> bool:
         text = self.text.text
-        return self.node.kind == "mapping" and any(text.startswith("? ", max(0, item.start - 2), item.start) for item in self.items)
+        return self.node.kind == "mapping" and any(
+            text.startswith("? ", max(0, item.start - 2), item.start) for item in self.items
+        )
 
     def _insert_in_flow(self, entries: Sequence[str], after: int | None) -> list[Edit]:
         text = self.text
@@ -91,7 +113,12 @@ class CollectionEditor:
             inner = self.start + 1
             # There may be merge keys, which are not among the items.
             is_empty = text.gap_end(inner) >= self.node.end - 1
-            return [_insertion(inner, ", ".join(entries) if is_empty else "".join(f"{entry}, " for entry in entries))]
+            return [
+                _insertion(
+                    inner,
+                    ", ".join(entries) if is_empty else "".join(f"{entry}, " for entry in entries),
+                )
+            ]
         start, end = self.items[after]
         comma = text.gap_end(end)
         has_comma = text.text[comma] == ","
@@ -117,7 +144,10 @@ class CollectionEditor:
             between = self.text.text[one.end : other.start]
             if between.strip(" \t") == "," and "\n" not in between:
                 return between
-        is_compact = self.node.kind == "mapping" and _COMPACT_JSON.search(self.text.text, self.start, self.node.end) is not None
+        is_compact = (
+            self.node.kind == "mapping"
+            and _COMPACT_JSON.search(self.text.text, self.start, self.node.end) is not None
+        )
         return "," if is_compact else ", "
 
     def _insert_in_block(self, entries: Sequence[str], after: int | None) -> list[Edit]:
@@ -125,12 +155,24 @@ class CollectionEditor:
         if column is None:
             raise NoFix("the indentation of the entries is not supported")
         if after is None:
-            return [_insertion(self.start, "".join(f"{entry}{text.line_break(self.start)}{' ' * column}" for entry in entries))]
+            return [
+                _insertion(
+                    self.start,
+                    "".join(
+                        f"{entry}{text.line_break(self.start)}{' ' * column}" for entry in entries
+                    ),
+                )
+            ]
         end = self.items[after].end
         if not text.ends_line(end) or text.text[text.content(self._values[after])] in "|>":
             raise NoFix("the entry before the insertion does not end with its line")
         dash = "- " if self.node.kind == "sequence" else ""
-        return [_insertion(text.line_end(end), "".join(f"{text.line_break(end)}{' ' * column}{dash}{entry}" for entry in entries))]
+        return [
+            _insertion(
+                text.line_end(end),
+                "".join(f"{text.line_break(end)}{' ' * column}{dash}{entry}" for entry in entries),
+            )
+        ]
 
     def _column(self) -> int | None:
         """The column of the keys or dashes of a block collection."""
@@ -140,7 +182,9 @@ class CollectionEditor:
         return at - start if opening is not None and opening.end() >= at else None
 
     def _keep(self, indices: Sequence[int], replacements: Sequence[Edit]) -> list[Edit]:
-        """Rewrites the collection with the items at the indices, each with the text before it, and with replacements in them."""
+        """Rewrites the collection with the items at the indices, each with the text before it, and
+        with replacements in them.
+        """
         items, text = self.items, self.text.text
         whole = Span(items[0].start, items[-1].end)
         between = (text[one.end : other.start].strip() for one, other in pairwise(items))
@@ -162,9 +206,17 @@ class CollectionEditor:
         if not follows_item or not precedes_item:
             raise NoFix("a merge key stands beside the entry")
         after = comma + 1 if has_comma else end
-        if text.begins_line(start) and text.line_start(start) > self.start and text.ends_line(after):
+        if (
+            text.begins_line(start)
+            and text.line_start(start) > self.start
+            and text.ends_line(after)
+        ):
             lines = text.without_lines(start, after)
-            return [lines] if has_comma or not index else [Edit(Span(comma_before, comma_before + 1), ""), lines]
+            return (
+                [lines]
+                if has_comma or not index
+                else [Edit(Span(comma_before, comma_before + 1), ""), lines]
+            )
         if not is_last:
             removed = Span(start, items[index + 1].start)
         elif index:
@@ -185,9 +237,13 @@ class CollectionEditor:
         if not text.begins_line(start):
             if index or text.line_start(self.items[1].start) <= end:
                 raise NoFix(_NOT_ON_OWN_LINES)
-            # The next key moves up to the dash that stands before the first one, with comments between them.
+            # The next key moves up to the dash that stands before the first one, with comments
+            # between them.
             following = self.items[1].start
-            lines = "".join(f"{comment}{text.line_break(start)}{' ' * column}" for comment in text.comments_in(start, following))
+            lines = "".join(
+                f"{comment}{text.line_break(start)}{' ' * column}"
+                for comment in text.comments_in(start, following)
+            )
             return [Edit(Span(start, following), lines)]
         return [text.without_lines(start, end, " " * column)]
 
@@ -209,5 +265,10 @@ def _insertion(at: int, text: str) -> Edit:
 
 def _replaced(text: str, span: Span, replacements: Sequence[Edit]) -> str:
     """A part of a text with the replacements in it made."""
-    inside = [edit for edit in replacements if span.start <= edit.span.start and edit.span.end <= span.end]
-    return apply(text[slice(*span)], [Edit(Span(*(place - span.start for place in edit.span)), edit.text) for edit in inside])
+    inside = [
+        edit for edit in replacements if span.start <= edit.span.start and edit.span.end <= span.end
+    ]
+    return apply(
+        text[slice(*span)],
+        [Edit(Span(*(place - span.start for place in edit.span)), edit.text) for edit in inside],
+    )

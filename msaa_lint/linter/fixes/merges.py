@@ -1,6 +1,7 @@
 """`do: merge-passes`: what a frame costs where a pass goes on in the one that stored what it loads.
 
-Which draws are recorded where is the program's, so that this fix is only shown: its changes are for the price.
+Which draws are recorded where is the program's, so that this fix is only shown: its changes are for
+the price.
 """
 
 from __future__ import annotations
@@ -12,7 +13,10 @@ from .changes import Change
 from .context import FixContext
 from .subject_parts import aspect_of, present
 
-LOAD_ALONE = "the price is that of the load alone: the pass that stored the samples is not known, or something else may need its store"
+LOAD_ALONE = (
+    "the price is that of the load alone: the pass that stored the samples is not known, "
+    "or something else may need its store"
+)
 
 
 def merge_passes(subject: Subject, context: FixContext) -> list[Change]:
@@ -28,12 +32,27 @@ def merge_passes(subject: Subject, context: FixContext) -> list[Change]:
 
 def merge_price_note(subject: Subject, context: FixContext) -> str | None:
     """What the price of a merge leaves out; None if it includes the store."""
-    return LOAD_ALONE if context.analysis.readers.forced_store(*in_frame(subject, context)) is None else None
+    return (
+        LOAD_ALONE
+        if context.analysis.readers.forced_store(*in_frame(subject, context)) is None
+        else None
+    )
 
 
 def in_frame(subject: Subject, context: FixContext) -> tuple[Pass, Attachment, Aspect]:
     """The aspect that a subject is, with its pass, in the frame of the context."""
     attachment, aspect = aspect_of(subject)
-    candidates = (candidate for target in attachment.targets for candidate in context.attachments.get(id(target.record), ()))
-    found = next(((render_pass, each) for render_pass, each in candidates if each.record is attachment.record), None)
+    candidates = (
+        candidate
+        for target in attachment.targets
+        for candidate in context.attachments.get(id(target.record), ())
+    )
+    found = next(
+        (
+            (render_pass, each)
+            for render_pass, each in candidates
+            if each.record is attachment.record
+        ),
+        None,
+    )
     return *present(found, "the pass of the attachment is not known"), aspect

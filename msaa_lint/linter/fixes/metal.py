@@ -1,4 +1,6 @@
-"""Fixes of Metal descriptions: the members that state the facts that a fix may change, and the fixes that rule pages name by `do`."""
+"""Fixes of Metal descriptions: the members that state the facts that a fix may change, and the
+fixes that rule pages name by `do`.
+"""
 
 from __future__ import annotations
 
@@ -17,7 +19,14 @@ from .context import FixContext
 from .fact_sources import FindSources, Source
 from .handovers import keep_on_tile
 from .merges import merge_passes
-from .subject_parts import aspect_of, copied_images, described_image, images_of, pipeline_of, present
+from .subject_parts import (
+    aspect_of,
+    copied_images,
+    described_image,
+    images_of,
+    pipeline_of,
+    present,
+)
 from .transient import check_unread, drop_stores, is_needed
 
 _VULKAN_USAGES = {"shaderRead": "SAMPLED", "shaderWrite": "STORAGE", "shaderAtomic": "STORAGE"}
@@ -32,7 +41,9 @@ def _texture_member(member: str, subject: Subject, context: FixContext) -> list[
     return sources
 
 
-def _attachment_member(members: tuple[str, ...], subject: Subject, context: FixContext) -> list[Source]:
+def _attachment_member(
+    members: tuple[str, ...], subject: Subject, context: FixContext
+) -> list[Source]:
     """The first of the members that exists for the attachment."""
     record = _attachment_record(subject, context)
     sources: list[Source] = [(record, member) for member in members if member in record.SHAPE]
@@ -53,8 +64,13 @@ def _attachment_record(subject: Subject, context: FixContext) -> Record:
 
 
 def _pipeline_member(names: tuple[str, ...], subject: Subject, context: FixContext) -> list[Source]:
-    """A property of a pipeline, by the name that the description uses, or by the first name if the property is not stated."""
-    record = present(context.metal.renderPipelines.get(pipeline_of(subject).key), "the description does not declare the pipeline")
+    """A property of a pipeline, by the name that the description uses, or by the first name if the
+    property is not stated.
+    """
+    record = present(
+        context.metal.renderPipelines.get(pipeline_of(subject).key),
+        "the description does not declare the pipeline",
+    )
     return [(record, next((name for name in names if record.states(name)), names[0]))]
 
 
@@ -66,18 +82,28 @@ METAL_FACT_SOURCES: dict[str, FindSources] = {
     "image.mip_levels": partial(_texture_member, "mipmapLevelCount"),
     "aspect.load_action": partial(_attachment_member, ("loadAction",)),
     "aspect.store_action": partial(_attachment_member, ("storeAction",)),
-    "aspect.resolve_filter": partial(_attachment_member, ("depthResolveFilter", "stencilResolveFilter")),
+    "aspect.resolve_filter": partial(
+        _attachment_member, ("depthResolveFilter", "stencilResolveFilter")
+    ),
     "resolve.filter": partial(_attachment_member, ("depthResolveFilter", "stencilResolveFilter")),
-    "pipeline.rasterization_samples": partial(_pipeline_member, ("rasterSampleCount", "sampleCount")),
-    "pipeline.alpha_to_coverage": partial(_pipeline_member, ("isAlphaToCoverageEnabled", "alphaToCoverageEnabled")),
+    "pipeline.rasterization_samples": partial(
+        _pipeline_member, ("rasterSampleCount", "sampleCount")
+    ),
+    "pipeline.alpha_to_coverage": partial(
+        _pipeline_member, ("isAlphaToCoverageEnabled", "alphaToCoverageEnabled")
+    ),
 }
 """By fact."""
 
 
 def make_memoryless(subject: Subject, context: FixContext) -> list[Change]:
-    """Makes storage memoryless and drops the usages that nothing needs and the stores that nothing reads."""
+    """Makes storage memoryless and drops the usages that nothing needs and the stores that nothing
+    reads.
+    """
     image = described_image(subject)
-    texture = present(context.metal.textures.get(image.key), "the description does not declare the texture")
+    texture = present(
+        context.metal.textures.get(image.key), "the description does not declare the texture"
+    )
     check_unread(subject)
     if texture.drawable:
         raise NoFix("the texture is a drawable")
@@ -91,7 +117,9 @@ def make_memoryless(subject: Subject, context: FixContext) -> list[Change]:
 
 
 def _render_target_usage(texture: MetalTexture, context: FixContext) -> list[Change]:
-    """Reduces the usage of a texture to renderTarget. Raises NoFix if a command may need another usage."""
+    """Reduces the usage of a texture to renderTarget. Raises NoFix if a command may need another
+    usage.
+    """
     changes: list[Change] = []
     for usage in texture.usage or ():
         if usage == "renderTarget":
@@ -111,7 +139,12 @@ def _dont_store(context: FixContext, attachment: Attachment, aspect: Aspect) -> 
     action = getattr(record, "storeAction", None)
     if record is None or action not in KEEPING:
         return None
-    return Change(record, "storeAction", "set", "multisampleResolve" if action in MULTISAMPLE_RESOLVES else "dontCare")
+    return Change(
+        record,
+        "storeAction",
+        "set",
+        "multisampleResolve" if action in MULTISAMPLE_RESOLVES else "dontCare",
+    )
 
 
 def drop_resolve_texture(subject: Subject, context: FixContext) -> list[Change]:
@@ -126,7 +159,9 @@ def drop_resolve_texture(subject: Subject, context: FixContext) -> list[Change]:
 
 
 def resolve_to_copy(subject: Subject, context: FixContext) -> list[Change]:
-    """Resolves to the texture that the result is copied to, and removes the copy and, if nothing else uses it, the texture in between."""
+    """Resolves to the texture that the result is copied to, and removes the copy and, if nothing
+    else uses it, the texture in between.
+    """
     metal, record = context.metal, _attachment_record(subject, context)
     between, target = copied_images(subject)
     if between not in metal.textures or target not in metal.textures:
@@ -138,10 +173,21 @@ def resolve_to_copy(subject: Subject, context: FixContext) -> list[Change]:
     ]
     if len(copies) != 1:
         raise NoFix("the texture is copied more than once")
-    position = next(n for n, command in enumerate(metal.commands or ()) if command is not None and command.body is copies[0])
+    position = next(
+        n
+        for n, command in enumerate(metal.commands or ())
+        if command is not None and command.body is copies[0]
+    )
     texture = metal.textures[target]
-    changes = [Change(record, "resolveTexture", "set", target), Change(metal, "commands", "drop", position)]
-    if texture.usage is not None and "renderTarget" not in texture.usage and "unknown" not in texture.usage:
+    changes = [
+        Change(record, "resolveTexture", "set", target),
+        Change(metal, "commands", "drop", position),
+    ]
+    if (
+        texture.usage is not None
+        and "renderTarget" not in texture.usage
+        and "unknown" not in texture.usage
+    ):
         changes.append(Change(texture, "usage", "add", "renderTarget"))
     if not context.references.has_others(between, [record, copies[0]]):
         changes.append(Change(metal, "textures", "drop", list(metal.textures).index(between)))

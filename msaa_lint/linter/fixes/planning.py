@@ -16,7 +16,9 @@ _FACT_REFERENCE = re.compile(r"\{([a-z_.0-9]+)\}")
 
 
 def plan(spec: FixSpec, subject: Subject, context: FixContext) -> tuple[Change, ...]:
-    """The changes that a fix makes for a subject. Raises NoFix if it cannot be made or changes nothing."""
+    """The changes that a fix makes for a subject. Raises NoFix if it cannot be made or changes
+    nothing.
+    """
     actions, sources = _tables(context)
     api = "Vulkan" if context.document.metal is None else "Metal"
     changes: list[Change] = []
@@ -54,7 +56,9 @@ def _tables(context: FixContext) -> tuple[dict[str, Action], dict[str, FindSourc
 
 
 def _values(setting: Setting, subject: Subject) -> list[Value]:
-    """The value of a setting, or the values of the fact that it refers to, one per item of a list."""
+    """The value of a setting, or the values of the fact that it refers to, one per item of a
+    list.
+    """
     reference = _FACT_REFERENCE.fullmatch(setting.value) if isinstance(setting.value, str) else None
     if reference is None:
         return [setting.value]

@@ -23,7 +23,9 @@ def nested_records(value: object) -> Iterator[Record]:
 
 
 class References:
-    """The records below `root` that name entries of a section, such as `images` or `metal.textures`."""
+    """The records below `root` that name entries of a section, such as `images` or
+    `metal.textures`.
+    """
 
     def __init__(self, root: Record, section: str) -> None:
         self._section = section
@@ -36,13 +38,19 @@ class References:
     def _names(self, record: Record) -> Iterator[str]:
         kind = type(record)
         if kind not in self._members:
-            self._members[kind] = [member for member, shape in kind.SHAPE.items() if _holds_names(shape, self._section)]
+            self._members[kind] = [
+                member for member, shape in kind.SHAPE.items() if _holds_names(shape, self._section)
+            ]
         for member in self._members[kind]:
             if isinstance(record, Command):
                 value = record.body if record.kind == member else None
             else:
                 value = getattr(record, member)
-            yield from (name for name in (value if isinstance(value, tuple) else (value,)) if isinstance(name, str))
+            yield from (
+                name
+                for name in (value if isinstance(value, tuple) else (value,))
+                if isinstance(name, str)
+            )
 
     def records(self, name: str) -> list[Record]:
         """The records that name an entry, one item per reference."""

@@ -1,7 +1,8 @@
-"""Fixes of render targets: replaces a word if another one expands to what the fix changes, and to nothing else.
+"""Fixes of render targets: replaces a word if another one expands to what the fix changes, and to
+nothing else.
 
-A word of a render target stands for several members of several structures. This module does not repeat which: it tries each alternative,
-expands it, and compares the result.
+A word of a render target stands for several members of several structures. This module does not
+repeat which: it tries each alternative, expands it, and compares the result.
 """
 
 from __future__ import annotations
@@ -14,7 +15,12 @@ from msaa_lint.core.text.node_builder import scalar
 from msaa_lint.core.text.span import Edit, Span
 from msaa_lint.core.text.tree import Limits, parse
 from msaa_lint.frame.description.document import Document
-from msaa_lint.frame.description.models import AttachmentConfig, AttachmentConfigMSAA, Description, RenderTarget
+from msaa_lint.frame.description.models import (
+    AttachmentConfig,
+    AttachmentConfigMSAA,
+    Description,
+    RenderTarget,
+)
 from msaa_lint.frame.description.record import Record
 
 from .changes import Change, NoFix
@@ -23,7 +29,10 @@ from .references import nested_records
 MAX_WORDS = 4
 """How many words of one fix are tried. A fix that concerns more cannot be made by a single word."""
 
-_CONFIGS = {"colorAttachmentConfig": AttachmentConfigMSAA, "stencilAttachmentConfig": AttachmentConfig}
+_CONFIGS = {
+    "colorAttachmentConfig": AttachmentConfigMSAA,
+    "stencilAttachmentConfig": AttachmentConfig,
+}
 
 Place = tuple[str, str, int]
 """The path of a structure, a member, and the structure's number among those of the same path."""
@@ -40,19 +49,24 @@ class WordEdit(NamedTuple):
 
 
 class _Word(NamedTuple):
-    """A word of a render target: the keys that lead to it, from the target's name on, and the words that may replace it."""
+    """A word of a render target: the keys that lead to it, from the target's name on, and the words
+    that may replace it.
+    """
 
     keys: tuple[str, ...]
     alternatives: tuple[str, ...]
 
 
 class Shorthand:
-    """One description with render targets. Each target is expanded by itself, because a word only affects its own target.
+    """One description with render targets. Each target is expanded by itself, because a word only
+    affects its own target.
 
     `requested` are all changes that the document's safe fixes make, and all that its fixes make.
     """
 
-    def __init__(self, document: Document, root: Node, requested: tuple[Sequence[Change], Sequence[Change]]) -> None:
+    def __init__(
+        self, document: Document, root: Node, requested: tuple[Sequence[Change], Sequence[Change]]
+    ) -> None:
         self._source = document.source
         self._root = root
         self._words = _words(root, self._source.text)
@@ -67,21 +81,32 @@ class Shorthand:
     def edit(self, changes: Sequence[Change]) -> WordEdit:
         """The edit of one word that makes the changes.
 
-        The word may also make changes that other fixes request: safe fixes if those request all of the given changes. Raises NoFix if no
-        word does that.
+        The word may also make changes that other fixes request: safe fixes if those request all of
+        the given changes. Raises NoFix if no word does that.
         """
         after = self._values_after(changes)
-        if not after or len(after) < len({(id(change.record), change.member) for change in changes}):
+        if not after or len(after) < len(
+            {(id(change.record), change.member) for change in changes}
+        ):
             raise NoFix("render targets cannot express the change")
-        allowed = next((values for values in self._requested if after.items() <= values.items()), after)
-        spans = {change.record.spelled[change.member][1].span for change in changes if change.record.states(change.member)}
+        allowed = next(
+            (values for values in self._requested if after.items() <= values.items()), after
+        )
+        spans = {
+            change.record.spelled[change.member][1].span
+            for change in changes
+            if change.record.states(change.member)
+        }
         for span in sorted(spans)[:MAX_WORDS]:
             word = self._words.get(span)
             if word is None:
                 continue
             for alternative in word.alternatives:
                 difference = self._difference(word, alternative)
-                if difference is not None and after.items() <= difference.items() <= allowed.items():
+                if (
+                    difference is not None
+                    and after.items() <= difference.items() <= allowed.items()
+                ):
                     return WordEdit(Edit(span, alternative), f"{word.keys[-1]}: {alternative}")
         raise NoFix("no other word of the render target makes only this change")
 
@@ -97,7 +122,9 @@ class Shorthand:
                 values[place] = change.value
                 continue
             flags = values.get(place, self._members[place]) or frozenset()
-            values[place] = flags | {change.value} if change.action == "add" else flags - {change.value}
+            values[place] = (
+                flags | {change.value} if change.action == "add" else flags - {change.value}
+            )
         return values
 
     def _difference(self, word: _Word, alternative: str) -> Values | None:
@@ -105,7 +132,10 @@ class Shorthand:
         name = word.keys[0]
         if name not in self._before:
             self._before[name] = self._expanded(_only_target(self._root, name))
-        before, after = self._before[name], self._expanded(_only_target(self._root, name, word, alternative))
+        before, after = (
+            self._before[name],
+            self._expanded(_only_target(self._root, name, word, alternative)),
+        )
         if after.keys() != before.keys():
             return None
         return {place: value for place, value in after.items() if value != before[place]}
@@ -114,13 +144,19 @@ class Shorthand:
         from msaa_lint.input.readers import description
 
         values: Values = {}
-        for path, number, record in _compared_records(description.read(self._source, root).description):
+        for path, number, record in _compared_records(
+            description.read(self._source, root).description
+        ):
             values |= _members(path, number, record)
         return values
 
 
-def shorthand(document: Document, number: int, requested: tuple[Sequence[Change], Sequence[Change]]) -> Shorthand | None:
-    """The render targets that a document is expanded from, by its number in the text, or None if it comes from source code."""
+def shorthand(
+    document: Document, number: int, requested: tuple[Sequence[Change], Sequence[Change]]
+) -> Shorthand | None:
+    """The render targets that a document is expanded from, by its number in the text, or None if it
+    comes from source code.
+    """
     documents = parse(document.source, Limits()).documents
     root = documents[number] if number < len(documents) else None
     if root is None or root.kind != "mapping" or "renderTargets" not in root.value:
@@ -129,9 +165,13 @@ def shorthand(document: Document, number: int, requested: tuple[Sequence[Change]
 
 
 def _compared_records(description: Description) -> Iterator[tuple[str, int, Record]]:
-    """The records of a description, each with its path and its number among those of the path; Metal's alone if there are any."""
+    """The records of a description, each with its path and its number among those of the path;
+    Metal's alone if there are any.
+    """
     counts: dict[str, int] = {}
-    for record in nested_records(description.metal if description.metal is not None else description):
+    for record in nested_records(
+        description.metal if description.metal is not None else description
+    ):
         counts[record.path] = number = counts.get(record.path, -1) + 1
         yield record.path, number, record
 
@@ -149,25 +189,41 @@ def _members(path: str, number: int, record: Record) -> Values:
 
 
 def _words(root: Node, text: str) -> dict[Span, _Word]:
-    """The words of a description's render targets by place, without those that have an anchor or that several targets share."""
+    """The words of a description's render targets by place, without those that have an anchor or
+    that several targets share.
+    """
     words: dict[Span, _Word] = {}
     repeated_places: set[Span] = set()
     for name, target in root.value["renderTargets"].value.items():
-        structures: list[tuple[tuple[str, ...], type[Record], Node]] = [((name,), RenderTarget, target)]
-        structures += [((name, member), _CONFIGS[member], node) for member, node in target.value.items() if member in _CONFIGS]
+        structures: list[tuple[tuple[str, ...], type[Record], Node]] = [
+            ((name,), RenderTarget, target)
+        ]
+        structures += [
+            ((name, member), _CONFIGS[member], node)
+            for member, node in target.value.items()
+            if member in _CONFIGS
+        ]
         for keys, kind, node in structures:
             for member, value in node.value.items():
                 shape = kind.SHAPE[member]
-                if shape[0] != "word" or not member.endswith(("Mode", "Action")) or text[value.start : value.end] != value.text:
+                if (
+                    shape[0] != "word"
+                    or not member.endswith(("Mode", "Action"))
+                    or text[value.start : value.end] != value.text
+                ):
                     continue
                 if value.span in words:
                     repeated_places.add(value.span)
-                words[value.span] = _Word((*keys, member), tuple(word for word in shape[1] if word != value.value))
+                words[value.span] = _Word(
+                    (*keys, member), tuple(word for word in shape[1] if word != value.value)
+                )
     return {span: word for span, word in words.items() if span not in repeated_places}
 
 
 def _only_target(root: Node, name: str, word: _Word | None = None, alternative: str = "") -> Node:
-    """A description with one of its render targets, and with an alternative in place of a word of it."""
+    """A description with one of its render targets, and with an alternative in place of a word of
+    it.
+    """
     targets = root.value["renderTargets"]
     target = targets.value[name]
     if word is not None:
@@ -181,4 +237,10 @@ def _with_word(node: Node, keys: tuple[str, ...], word: str) -> Node:
     if not keys:
         return scalar(word, node.span)
     key, *rest = keys
-    return Node("mapping", node.start, node.end, {**node.value, key: _with_word(node.value[key], tuple(rest), word)}, node.keys)
+    return Node(
+        "mapping",
+        node.start,
+        node.end,
+        {**node.value, key: _with_word(node.value[key], tuple(rest), word)},
+        node.keys,
+    )

@@ -1,4 +1,6 @@
-"""How a document spells its scalars: enumerants with or without prefix and `_BIT`, sample counts, `VK_TRUE` or `true`."""
+"""How a document spells its scalars: enumerants with or without prefix and `_BIT`, sample counts,
+`VK_TRUE` or `true`.
+"""
 
 from __future__ import annotations
 
@@ -22,8 +24,9 @@ _TRUE = {false: true for true, false in _FALSE.items()}
 class Form(NamedTuple):
     """The form of an enumerant's spelling.
 
-    `start` is where the enum's full prefix is cut off: 0 for all of it, 3 for it without `VK_`, None for no prefix. `bit` says whether the
-    spelling has `_BIT`, `second` whether a stage or an access has the prefix of the 64-bit enums, as in `VK_PIPELINE_STAGE_2_`.
+    `start` is where the enum's full prefix is cut off: 0 for all of it, 3 for it without `VK_`,
+    None for no prefix. `bit` says whether the spelling has `_BIT`, `second` whether a stage or an
+    access has the prefix of the 64-bit enums, as in `VK_PIPELINE_STAGE_2_`.
     """
 
     start: int | None
@@ -79,7 +82,9 @@ class Spelling:
         return str(value)
 
     def name(self, enum: str, name: str, model: str, record: Record) -> str:
-        """An enumerant in the form of the spelling `model`; without one in the form of the record, else of the document."""
+        """An enumerant in the form of the spelling `model`; without one in the form of the record,
+        else of the document.
+        """
         if enum.startswith("MTL"):
             from msaa_lint.frame.metal.names import spelled
 
@@ -89,7 +94,9 @@ class Spelling:
             return str(VALUES[enum][name])
         form = form_of(enum, model) if model else None
         default = Form(0 if self.is_dump else None, self.is_dump)
-        return in_form(enum, name, form or _form(record, is_flag) or self._document_form(is_flag) or default)
+        return in_form(
+            enum, name, form or _form(record, is_flag) or self._document_form(is_flag) or default
+        )
 
     @cached_property
     def _metal_model(self) -> str:
@@ -112,7 +119,12 @@ def _enumerants(record: Record) -> Iterator[tuple[Shape, str]]:
     for member, (_, value) in record.spelled.items():
         shape = record.SHAPE[member]
         first = (value.value or [None])[0] if value.kind == "sequence" else value
-        if shape[0] in ("enum", "flags") and first is not None and first.kind == "scalar" and first.value is not None:
+        if (
+            shape[0] in ("enum", "flags")
+            and first is not None
+            and first.kind == "scalar"
+            and first.value is not None
+        ):
             yield shape, first.text.partition("|")[0].strip()
 
 
@@ -122,7 +134,9 @@ def _metal_model(record: Record) -> str:
 
 
 def _form(record: Record, is_flag: bool) -> Form | None:
-    """The form of the first enumerant of a record, preferably of a flag if `is_flag`, else of another one."""
+    """The form of the first enumerant of a record, preferably of a flag if `is_flag`, else of
+    another one.
+    """
     fallback = None
     for shape, text in _enumerants(record):
         form = form_of(_enum(shape), text)

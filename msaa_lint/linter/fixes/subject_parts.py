@@ -1,4 +1,6 @@
-"""The parts of a frame that a fix's subject stands for. Each function raises NoFix for a subject of another kind."""
+"""The parts of a frame that a fix's subject stands for. Each function raises NoFix for a subject of
+another kind.
+"""
 
 from __future__ import annotations
 
@@ -22,7 +24,10 @@ def present(part: T | None, problem: str) -> T:
 
 def described_image(subject: Subject) -> Image:
     """The record of an image that the description declares."""
-    return present(subject.image.image if subject.image is not None else None, "the description does not declare the image")
+    return present(
+        subject.image.image if subject.image is not None else None,
+        "the description does not declare the image",
+    )
 
 
 def attachment_of(subject: Subject) -> Attachment:
@@ -37,7 +42,9 @@ def aspect_of(subject: Subject) -> tuple[Attachment, Aspect]:
 
 
 def images_of(subject: Subject) -> list[Target]:
-    """The images of an image, attachment or aspect: several if framebuffers alternate between them."""
+    """The images of an image, attachment or aspect: several if framebuffers alternate between
+    them.
+    """
     if subject.image is not None:
         return [subject.image]
     return list({id(target.record): target for target in attachment_of(subject).targets}.values())
@@ -62,7 +69,9 @@ def read_of(subject: Subject) -> tuple[int, str]:
 def copied_images(subject: Subject) -> tuple[str, str]:
     """The names of the image that a resolve writes and of the one that its result is copied to."""
     problem = "the result of the resolve is not copied exactly once"
-    return present(text_fact(subject, "resolve.copied_from"), problem), present(text_fact(subject, "resolve.copied_to"), problem)
+    return present(text_fact(subject, "resolve.copied_from"), problem), present(
+        text_fact(subject, "resolve.copied_to"), problem
+    )
 
 
 def text_fact(subject: Subject, name: str) -> str | None:

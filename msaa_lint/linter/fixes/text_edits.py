@@ -41,7 +41,8 @@ class TextEditor:
 
     @cached_property
     def _records(self) -> list[Record]:
-        # The Vulkan records of a Metal description have places in the text, but are not written there.
+        # The Vulkan records of a Metal description have places in the text, but are not written
+        # there.
         return list(nested_records(self.document.description.metal or self.document.description))
 
     @cached_property
@@ -63,11 +64,15 @@ class TextEditor:
             self._collections[id(node)] = CollectionEditor(self.text, node)
         return self._collections[id(node)]
 
-    def edits(self, changes: Sequence[Change], requested: Requests | None = None) -> tuple[Edit, ...]:
-        """The edits that make the changes, in the order of the text. Raises NoFix if the text does not allow one of them.
+    def edits(
+        self, changes: Sequence[Change], requested: Requests | None = None
+    ) -> tuple[Edit, ...]:
+        """The edits that make the changes, in the order of the text. Raises NoFix if the text does
+        not allow one of them.
 
-        `requested` is what all fixes that are made together request, by default these changes. A text that several members share through
-        an anchor is only edited if the same is requested of all of them.
+        `requested` is what all fixes that are made together request, by default these changes. A
+        text that several members share through an anchor is only edited if the same is requested of
+        all of them.
         """
         requested = requests(changes) if requested is None else requested
         groups: dict[Member, list[Change]] = {}
@@ -82,21 +87,35 @@ class TextEditor:
             else:
                 edits += new
         for members in insertions.values():
-            edits += self._insert(members[0][0].record, [(change.member, value) for change, value in members], requested)
+            edits += self._insert(
+                members[0][0].record,
+                [(change.member, value) for change, value in members],
+                requested,
+            )
         return tuple(sorted(set(self._on_remaining_lines(edits))))
 
     def _on_remaining_lines(self, edits: Sequence[Edit]) -> Iterator[Edit]:
-        """The edits, with insertions at the end of a line that another edit removes moved to the end of the line before."""
-        removals = sorted((edit.span for edit in edits if edit.span.start < edit.span.end), reverse=True)
+        """The edits, with insertions at the end of a line that another edit removes moved to the
+        end of the line before.
+        """
+        removals = sorted(
+            (edit.span for edit in edits if edit.span.start < edit.span.end), reverse=True
+        )
         for edit in edits:
             at = edit.span.start
             for start, end in removals if edit.text and at == edit.span.end else ():
-                if start < at < end and self.text.begins_line(start) and self.text.line_start(start) > 0:
+                if (
+                    start < at < end
+                    and self.text.begins_line(start)
+                    and self.text.line_start(start) > 0
+                ):
                     at = self.text.line_end(self.text.line_start(self.text.line_start(start) - 1))
             yield edit if at == edit.span.start else Edit(Span(at, at), edit.text)
 
     def _member_edits(self, group: Sequence[Change], requested: Requests) -> list[Edit] | str:
-        """The edits for the changes of one member, or the member's new value if it has to be inserted."""
+        """The edits for the changes of one member, or the member's new value if it has to be
+        inserted.
+        """
         record, member, action, value = group[-1]
         if self.document.metal is not None and not isinstance(record, MetalRecord):
             raise NoFix("the fix does not apply to Metal descriptions")
@@ -113,7 +132,9 @@ class TextEditor:
                 return self._new_value(group)
             if not all_request(self._aliases.of_value(record, member), group, requested):
                 if node.anchor is None:
-                    raise SharedText(f"an anchor shares the value of this `{member}` with other members")
+                    raise SharedText(
+                        f"an anchor shares the value of this `{member}` with other members"
+                    )
                 if action != "unset":
                     return [Edit(node.span, self._new_value(group))]
         node = node.anchor or node
@@ -126,7 +147,9 @@ class TextEditor:
     def _unset(self, record: Record, member: str, key: Node, node: Node) -> list[Edit]:
         if self.is_dump:
             return [Edit(node.span, '"NULL"')]
-        if self._aliases is not None and _MERGE.search(self.text.text, record.node.start, record.node.end):
+        if self._aliases is not None and _MERGE.search(
+            self.text.text, record.node.start, record.node.end
+        ):
             raise SharedText(f"a merge key may state `{member}` as well")
         if self._is_aliased_outside(node):
             raise SharedText(f"an anchor shares the value of this `{member}` with other members")
@@ -137,14 +160,22 @@ class TextEditor:
         return collection.remove([index])
 
     def _is_aliased_outside(self, node: Node) -> bool:
-        """Whether an alias outside of a node may name an anchor in it, as far as the names in the text tell."""
-        names = set(_ANCHOR.findall(self.text.text, node.start, node.end)) if self._aliases is not None else set()
+        """Whether an alias outside of a node may name an anchor in it, as far as the names in the
+        text tell.
+        """
+        names = (
+            set(_ANCHOR.findall(self.text.text, node.start, node.end))
+            if self._aliases is not None
+            else set()
+        )
         places = [place for name in names if (place := self._alias_places.get(name)) is not None]
         return any(first < node.start or last >= node.end for first, last in places)
 
     @cached_property
     def _alias_places(self) -> dict[str, tuple[int, int]]:
-        """By name: where the first and the last alias of an anchor begin, as far as the names in the text tell."""
+        """By name: where the first and the last alias of an anchor begin, as far as the names in
+        the text tell.
+        """
         places: dict[str, tuple[int, int]] = {}
         for match in _ALIAS.finditer(self.text.text):
             first, _ = places.get(match[1], (match.start(), 0))
@@ -171,7 +202,9 @@ class TextEditor:
         return self.text.text[self.text.content(node) : node.end][:1] in ("|", ">")
 
     def _flags(self, group: Sequence[Change], key: Node, node: Node) -> list[Edit]:
-        """Adds flags to a list and removes flags from it. Added flags replace removed ones where possible."""
+        """Adds flags to a list and removes flags from it. Added flags replace removed ones where
+        possible.
+        """
         record, member = group[0].record, group[0].member
         shape = record.SHAPE[member]
         enum = shape[1]
@@ -179,7 +212,9 @@ class TextEditor:
         additions = [change.value for change in group if change.action == "add"]
         if node.kind != "sequence":
             return [self._flags_text(enum, removals, additions, node, record)]
-        names = [enumerant(enum, item.text) if item.kind == "scalar" else None for item in node.value]
+        names = [
+            enumerant(enum, item.text) if item.kind == "scalar" else None for item in node.value
+        ]
         indices = [n for n, name in enumerate(names) if name in removals]
         if any(self._is_aliased_outside(node.value[n]) for n in indices):
             raise SharedText("an anchor shares one of the flags with other members")
@@ -200,13 +235,30 @@ class TextEditor:
         elif missing:
             model = node.value[0].text if node.value and node.value[0].kind == "scalar" else ""
             quote = self._writer.item_quote(node)
-            edits += collection.insert([quote_scalar(self._spelling.name(enum, name, model, record), quote) for name in missing])
+            edits += collection.insert(
+                [
+                    quote_scalar(self._spelling.name(enum, name, model, record), quote)
+                    for name in missing
+                ]
+            )
         return edits
 
-    def _flags_text(self, enum: str, removals: Sequence[str], additions: Sequence[str], node: Node, record: Record) -> Edit:
+    def _flags_text(
+        self,
+        enum: str,
+        removals: Sequence[str],
+        additions: Sequence[str],
+        node: Node,
+        record: Record,
+    ) -> Edit:
         """Changes flags that are one text, `A | B` or a number."""
         start, text = self.text.content(node), node.text.strip()
-        if node.kind != "scalar" or start >= node.end or self._is_block_scalar(node) or text.endswith(")"):
+        if (
+            node.kind != "scalar"
+            or start >= node.end
+            or self._is_block_scalar(node)
+            or text.endswith(")")
+        ):
             raise NoFix("the form of the flags is not supported")
         span, quote = Span(start, node.end), self.text.quote(node)
         if _NUMBER.fullmatch(text):
@@ -217,7 +269,10 @@ class TextEditor:
                 mask &= ~VALUES[enum][name]
             for name in additions:
                 mask |= VALUES[enum][name]
-            return Edit(span, quote_scalar(hex(mask) if text[:2] in ("0x", "0X") else str(mask), quote, True))
+            return Edit(
+                span,
+                quote_scalar(hex(mask) if text[:2] in ("0x", "0X") else str(mask), quote, True),
+            )
         parts = [part.strip() for part in text.split("|")]
         new = [self._spelling.name(enum, name, parts[0], record) for name in additions]
         remaining = []
@@ -246,21 +301,34 @@ class TextEditor:
         return self._writer.flags(shape[1], flags or (), record)
 
     def insertion(self, record: Record, member: str, value: str) -> tuple[Edit, ...]:
-        """The edits that add a member with the text of its value to a record. Raises NoFix if the text does not allow it."""
+        """The edits that add a member with the text of its value to a record. Raises NoFix if the
+        text does not allow it.
+        """
         return tuple(self._insert(record, [(member, value)], {}))
 
     def addition(self, record: Record, member: str, item: str) -> tuple[Edit, ...]:
-        """The edits that add an entry, `key: value`, to the end of a list of mappings. Raises NoFix if the text does not allow it."""
+        """The edits that add an entry, `key: value`, to the end of a list of mappings. Raises NoFix
+        if the text does not allow it.
+        """
         key, node = record.spelled[member]
-        if self.is_dump or node.kind != "sequence" or node.anchor is not None or not _has_own(record, key):
+        if (
+            self.is_dump
+            or node.kind != "sequence"
+            or node.anchor is not None
+            or not _has_own(record, key)
+        ):
             raise SharedText(f"`{member}` is not written as a list of its own")
         collection = self._collection(node)
         return tuple(collection.insert([f"{{{item}}}" if collection.flow else item]))
 
-    def _insert(self, record: Record, members: Sequence[tuple[str, str]], requested: Requests) -> list[Edit]:
+    def _insert(
+        self, record: Record, members: Sequence[tuple[str, str]], requested: Requests
+    ) -> list[Edit]:
         """Inserts members, with the text of their values, into a record's own mapping."""
         node = record.node
-        if node.kind != "mapping" or (self.is_dump and any(record.SHAPE[member][0] == "list" for member, _ in members)):
+        if node.kind != "mapping" or (
+            self.is_dump and any(record.SHAPE[member][0] == "list" for member, _ in members)
+        ):
             raise NoFix("the structure is not written as a mapping of its own")
         order = list(record.SHAPE)
         members = sorted(members, key=lambda entry: order.index(entry[0]))
@@ -278,10 +346,14 @@ class TextEditor:
         # After the member that precedes it in the API's structure, else at the end.
         first = order.index(members[0][0])
         preceding = record.spelled.get(order[first - 1]) if first else None
-        return collection.insert(entries, collection.index(preceding[0].start) if preceding is not None else None)
+        return collection.insert(
+            entries, collection.index(preceding[0].start) if preceding is not None else None
+        )
 
     def _entry_edits(self, group: Sequence[Change]) -> list[Edit] | str:
-        """The edits for structural changes of one member, or the member's new value if it has to be inserted."""
+        """The edits for structural changes of one member, or the member's new value if it has to be
+        inserted.
+        """
         record, member = group[0].record, group[0].member
         shape = record.SHAPE[member]
         if self.is_dump:
@@ -289,10 +361,12 @@ class TextEditor:
         if not record.states(member):
             if any(change.action != "append" for change in group):
                 raise NoFix(f"there is no `{member}`")
-            return f"[{', '.join(self._writer.value(shape[1], change.value, record) for change in group)}]"
+            return f"[{', '.join(self._writer.value(shape[1], change.value, record) for change in group)}]"  # noqa: E501
         key, node = record.spelled[member]
         aliases = self._aliases
-        is_shared = aliases is not None and (aliases.of_key(record, member) or aliases.of_value(record, member))
+        is_shared = aliases is not None and (
+            aliases.of_key(record, member) or aliases.of_value(record, member)
+        )
         if is_shared or not _has_own(record, key) or node.anchor is not None:
             raise SharedText(f"an anchor shares `{member}` with other structures")
         edits: list[Edit] = []
@@ -307,11 +381,17 @@ class TextEditor:
             elif change.action == "entry":
                 name, data = change.value
                 entry = self._writer.value(shape[1], data, record)
-                new.append(self._writer.entry(node, name, entry) if node.kind == "mapping" else entry)
+                new.append(
+                    self._writer.entry(node, name, entry) if node.kind == "mapping" else entry
+                )
             else:
                 index, data = change.value
                 text = self._writer.value(shape[1], data, record)
-                edits += collection.insert([text], index) if change.action == "insert-after" else [Edit(node.value[index].span, text)]
+                edits += (
+                    collection.insert([text], index)
+                    if change.action == "insert-after"
+                    else [Edit(node.value[index].span, text)]
+                )
         if drops:
             edits += collection.remove(drops)
         if new:

@@ -12,7 +12,9 @@ from msaa_lint.core.text.source import Source
 from msaa_lint.core.text.span import Edit, Span
 
 _GAP = re.compile(r"(?:[ \t\r\n]|(?<=[ \t\r\n,\[{])#[^\r\n]*)*")
-_PROPERTIES = re.compile(r"(?:[ \t\r\n]|(?<=[ \t\r\n])#[^\r\n]*|&[^\s,\[\]{}]+|!<[^>\s]*>|![^\s,\[\]{}]*)*")
+_PROPERTIES = re.compile(
+    r"(?:[ \t\r\n]|(?<=[ \t\r\n])#[^\r\n]*|&[^\s,\[\]{}]+|!<[^>\s]*>|![^\s,\[\]{}]*)*"
+)
 _COLON = re.compile(r"(?:[ \t\r\n]|(?<=[ \t\r\n])#[^\r\n]*)*:")
 
 
@@ -28,7 +30,9 @@ class TextScanner:
     def _comments(self) -> list[tuple[Span, str]]:
         start, end = self._root.start, self.line_end(self._root.end)
         first = self.line_start(start) if self.begins_line(start) else start
-        return [(comment.span, comment.text) for comment in comments_within(self.source, first, end)]
+        return [
+            (comment.span, comment.text) for comment in comments_within(self.source, first, end)
+        ]
 
     def _break_after(self, at: int) -> Span | None:
         starts = self.source.starts
@@ -92,12 +96,16 @@ class TextScanner:
         return match.end() if match is not None else None
 
     def without_lines(self, first: int, last: int, indent: str | None = None) -> Edit:
-        """Removes the lines from that of one place to that of another. Their comments stay, with an indent, by default the first line's."""
+        """Removes the lines from that of one place to that of another. Their comments stay, with an
+        indent, by default the first line's.
+        """
         start = self.line_start(first)
         line_break = self._break_after(last)
         end = line_break.end if line_break is not None else len(self.text)
         indent = self.indent(first) if indent is None else indent
-        lines = "".join(f"{indent}{comment}{self.line_break(start)}" for comment in self.comments_in(start, end))
+        lines = "".join(
+            f"{indent}{comment}{self.line_break(start)}" for comment in self.comments_in(start, end)
+        )
         if line_break is None:
             # The text ends without a line break, and so does what remains.
             lines = lines.removesuffix(self.line_break(start))

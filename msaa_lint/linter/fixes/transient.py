@@ -19,7 +19,9 @@ from .subject_parts import described_image
 
 
 def make_transient(subject: Subject, context: FixContext) -> list[Change]:
-    """Replaces usages that nothing needs by TRANSIENT_ATTACHMENT, drops stores, and uses lazily allocated memory if available."""
+    """Replaces usages that nothing needs by TRANSIENT_ATTACHMENT, drops stores, and uses lazily
+    allocated memory if available.
+    """
     image = described_image(subject)
     check_unread(subject)
     return [
@@ -31,18 +33,30 @@ def make_transient(subject: Subject, context: FixContext) -> list[Change]:
 
 def check_unread(subject: Subject) -> None:
     """Raises NoFix unless it is known that nothing reads or loads the image."""
-    if subject.facts.values.get("image.read") is not False or subject.facts.values.get("image.loaded") is not False:
+    if (
+        subject.facts.values.get("image.read") is not False
+        or subject.facts.values.get("image.loaded") is not False
+    ):
         raise NoFix("something reads or loads the image, or may do so")
 
 
-def is_needed(usage: str | None, name: str, context: FixContext, without: Command | None = None) -> bool:
-    """Whether a command, other than `without`, may need a usage of an image. True also for usages that commands do not reveal."""
+def is_needed(
+    usage: str | None, name: str, context: FixContext, without: Command | None = None
+) -> bool:
+    """Whether a command, other than `without`, may need a usage of an image. True also for usages
+    that commands do not reveal.
+    """
     complete = context.frame.has_commands and context.uses.complete
-    return not complete or usage not in COMMAND_USAGES or usage in context.uses.needed_usages(name, without)
+    return (
+        not complete
+        or usage not in COMMAND_USAGES
+        or usage in context.uses.needed_usages(name, without)
+    )
 
 
 def transient_usage(image: Image, context: FixContext, without: Command | None) -> list[Change]:
-    """Adds TRANSIENT_ATTACHMENT and removes the usages that exclude it (VUID-VkImageCreateInfo-usage-00963).
+    """Adds TRANSIENT_ATTACHMENT and removes the usages that exclude it
+    (VUID-VkImageCreateInfo-usage-00963).
 
     Raises NoFix if a command, other than `without`, may need one of those usages.
     """
@@ -50,11 +64,16 @@ def transient_usage(image: Image, context: FixContext, without: Command | None) 
     for usage in conflicts:
         if is_needed(usage, image.key, context, without):
             raise NoFix(f"`{image.key}` may need its usage {usage}")
-    return [*(Change(image, "usage", "remove", usage) for usage in conflicts), Change(image, "usage", "add", "TRANSIENT_ATTACHMENT")]
+    return [
+        *(Change(image, "usage", "remove", usage) for usage in conflicts),
+        Change(image, "usage", "add", "TRANSIENT_ATTACHMENT"),
+    ]
 
 
 def lazy_memory(image: Image, subject: Subject) -> list[Change]:
-    """Adds LAZILY_ALLOCATED to the stated memory properties, unless the device offers no such memory."""
+    """Adds LAZILY_ALLOCATED to the stated memory properties, unless the device offers no such
+    memory.
+    """
     if image.memory is None or subject.facts.values.get("device.lazy_memory") is False:
         return []
     return [Change(image, "memory", "add", "LAZILY_ALLOCATED")]
@@ -73,7 +92,9 @@ def drop_stores(image: Image, context: FixContext, store_change: StoreChange) ->
             if change is None or context.frame.whether_begun(render_pass) == "NO":
                 continue
             if context.analysis.readers.read_later(render_pass, attachment, aspect) is not False:
-                raise NoFix(f"something may read what `{render_pass.name}` stores in {attachment.title}")
+                raise NoFix(
+                    f"something may read what `{render_pass.name}` stores in {attachment.title}"
+                )
             changes.append(change)
     return changes
 

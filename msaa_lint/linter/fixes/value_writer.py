@@ -1,4 +1,6 @@
-"""New values in the style of the text around them: quotes, spelling and the separator after keys."""
+"""New values in the style of the text around them: quotes, spelling and the separator after
+keys.
+"""
 
 from __future__ import annotations
 
@@ -35,13 +37,16 @@ class ValueWriter:
         if isinstance(data, dict):
             shapes = shape[1].SHAPE if shape[0] == "record" else {}
             entries = [
-                f"{quote_scalar(key, self._default_quote)}: {self.value(shapes.get(key, ('text',)), item, record)}"
+                f"{quote_scalar(key, self._default_quote)}: "
+                f"{self.value(shapes.get(key, ('text',)), item, record)}"
                 for key, item in data.items()
             ]
             return "{" + ", ".join(entries) + "}"
         if isinstance(data, (list, tuple)):
             return f"[{', '.join(self.value(shape[1], item, record) for item in data)}]"
-        return self._scalar(self.spelling.scalar(shape, data, None, record), record, not isinstance(data, str))
+        return self._scalar(
+            self.spelling.scalar(shape, data, None, record), record, not isinstance(data, str)
+        )
 
     def flags(self, enum: str, names: Sequence[str], record: Record) -> str:
         """A list of flags, or a single text in a tool's dump."""
@@ -51,19 +56,29 @@ class ValueWriter:
         return f"[{', '.join(self._scalar(name, record, False) for name in names)}]"
 
     def _scalar(self, text: str, record: Record, is_literal: bool) -> str:
-        """A scalar in the quotes of the record's other texts. A literal is a number or a boolean."""
+        """A scalar in the quotes of the record's other texts. A literal is a number or a
+        boolean.
+        """
         if self._is_json:
             return text if is_literal and not self.spelling.is_dump else quote_scalar(text, '"')
-        values = [value for _, value in record.spelled.values() if value.kind == "scalar" and isinstance(value.value, str)]
+        values = [
+            value
+            for _, value in record.spelled.values()
+            if value.kind == "scalar" and isinstance(value.value, str)
+        ]
         all_quoted = bool(values) and not any(value.plain for value in values)
-        return quote_scalar(text, self._text.quote(values[0]) if all_quoted and not is_literal else "", is_literal)
+        return quote_scalar(
+            text, self._text.quote(values[0]) if all_quoted and not is_literal else "", is_literal
+        )
 
     def item_quote(self, sequence: Node) -> str:
         """The quote of a sequence's items."""
         return self._text.quote(sequence.value[0]) if sequence.value else self._default_quote
 
     def entry(self, mapping: Node, key: str, value: str) -> str:
-        """An entry of a mapping: its key in the quotes of the other keys, and its value after their separator."""
+        """An entry of a mapping: its key in the quotes of the other keys, and its value after their
+        separator.
+        """
         first = next(iter(mapping.keys.values()), None)
         quote = self._text.quote(first) if first is not None else self._default_quote
         return f"{quote_scalar(key, quote)}{self._separator(mapping)}{value}"
@@ -77,10 +92,14 @@ class ValueWriter:
 
 
 def quote_scalar(text: str, quote: str, is_literal: bool = False) -> str:
-    """A scalar in quotes. With an empty `quote` it gets quotes only if it needs them; a literal, such as a number, never does."""
+    """A scalar in quotes. With an empty `quote` it gets quotes only if it needs them; a literal,
+    such as a number, never does.
+    """
     if quote == "'":
         return "'" + text.replace("'", "''") + "'"
-    if not quote and (is_literal or (_PLAIN.fullmatch(text) is not None and isinstance(resolve(text), str))):
+    if not quote and (
+        is_literal or (_PLAIN.fullmatch(text) is not None and isinstance(resolve(text), str))
+    ):
         return text
     return '"' + "".join(_escaped(character) for character in text) + '"'
 

@@ -1,7 +1,9 @@
-"""Conditions of rules: expressions in CEL, the Common Expression Language, over the facts of one subject.
+"""Conditions of rules: expressions in CEL, the Common Expression Language, over the facts of one
+subject.
 
-CEL's `&&` and `||` absorb an error if their other operand decides the result. An absent fact is such an error: it behaves like the
-unknown of three-valued logic (CEL specification, "Logical operators").
+CEL's `&&` and `||` absorb an error if their other operand decides the result. An absent fact is
+such an error: it behaves like the unknown of three-valued logic (CEL specification, "Logical
+operators").
 """
 
 from __future__ import annotations
@@ -22,9 +24,13 @@ if TYPE_CHECKING:
     from .condition_cost import ConditionCost
 
 # A string literal, or a comment, which may contain quotes.
-_STRING = re.compile(r'''//[^\n]*|(?:\b[rR])?(?P<quote>"""|\'{3}|"|')(?P<text>(?:[^\\]|\\.)*?)(?P=quote)''', re.DOTALL)
+_STRING = re.compile(
+    r'''//[^\n]*|(?:\b[rR])?(?P<quote>"""|\'{3}|"|')(?P<text>(?:[^\\]|\\.)*?)(?P=quote)''',
+    re.DOTALL,
+)
 _FACT = re.compile(r"\b[a-z]+\.[a-z_0-9]+\b(?!\s*\()")
-# Only `check` needs these, and it does not run on the built-in pages at startup: they are compiled on first use.
+# Only `check` needs these, and it does not run on the built-in pages at startup: they are compiled
+# on first use.
 _MACRO = r"\.\s*(?:all|exists|exists_one|map|filter)\s*\("
 _MEETS = (
     r"(?P<fact>\b[a-z]+\.[a-z_0-9]+)\s*(?:==|!=)\s*(?P<one>\x00\d+\x00)"
@@ -49,8 +55,9 @@ class ConditionError(ValueError):
 class Condition:
     """A compiled condition. `facts` are the facts that it names.
 
-    With a `subject` it may only name the facts of that kind of subject. Without one it may name any fact: conditions that were checked
-    before share one environment, which is faster to create than one for each kind.
+    With a `subject` it may only name the facts of that kind of subject. Without one it may name any
+    fact: conditions that were checked before share one environment, which is faster to create than
+    one for each kind.
     """
 
     def __init__(self, text: str, subject: str | None = None) -> None:
@@ -70,14 +77,21 @@ class Condition:
         return ConditionCost(self._program.serialize())
 
     def must_decide(self) -> None:
-        """Raises `ConditionError` if the condition is not a boolean, or takes an unknown pattern."""
+        """Raises `ConditionError` if the condition is not a boolean, or takes an unknown
+        pattern.
+        """
         if "matches" in self.text and not self.cost.literal_patterns:
             raise ConditionError("the pattern of `matches` must be a text in quotes")
         if str(self._program.return_type()) != "BOOL":
-            raise ConditionError(f"the condition must be a boolean expression, found {str(self._program.return_type()).lower()}")
+            raise ConditionError(
+                f"the condition must be a boolean expression, found "
+                f"{str(self._program.return_type()).lower()}"
+            )
 
     def holds(self, activation: Any) -> bool | None:
-        """True or false; None if that depends on an absent fact. Raises ArithmeticError if the evaluation fails."""
+        """True or false; None if that depends on an absent fact. Raises ArithmeticError if the
+        evaluation fails.
+        """
         try:
             with HELD:
                 value = self._program.eval(activation).plain_value()
@@ -105,28 +119,49 @@ class Condition:
             return False
 
     def trials(self, fact: str) -> list[Value]:
-        """Values of a fact, so that the condition takes every value that it can if only this fact changes."""
+        """Values of a fact, so that the condition takes every value that it can if only this fact
+        changes.
+        """
         kind = FACTS[fact].type
         if kind == "BOOL":
             return [True, False]
         if kind in ("INT", "DOUBLE", "INTS"):
-            numbers = [float(number) for number in re.findall(r"(?<![\w.])-?\d+(?:\.\d+)?", self.text)]
-            near = sorted({number + step for number in (*numbers, 1.0) for step in (-1.0, 0.0, 1.0)})
-            return [*near] if kind == "DOUBLE" else [[], *([int(n)] for n in near)] if kind == "INTS" else [int(n) for n in near]
-        words = [match["text"] for match in _STRING.finditer(self.text) if match["quote"] is not None]
+            numbers = [
+                float(number) for number in re.findall(r"(?<![\w.])-?\d+(?:\.\d+)?", self.text)
+            ]
+            near = sorted(
+                {number + step for number in (*numbers, 1.0) for step in (-1.0, 0.0, 1.0)}
+            )
+            return (
+                [*near]
+                if kind == "DOUBLE"
+                else [[], *([int(n)] for n in near)]
+                if kind == "INTS"
+                else [int(n) for n in near]
+            )
+        words = [
+            match["text"] for match in _STRING.finditer(self.text) if match["quote"] is not None
+        ]
         return ["", *words] if kind == "STRING" else [[], *([word] for word in words), ["?"]]
 
 
 def activation(subject: str | None, facts: Mapping[str, Any]) -> Any:
-    """The facts of one subject, prepared for conditions that were compiled with the same `subject`."""
+    """The facts of one subject, prepared for conditions that were compiled with the same
+    `subject`.
+    """
     with HELD:
         return _environment(subject).Activation(facts)
 
 
 def check(text: str, subject: str) -> None:
-    """Raises `ConditionError` for an invalid condition: an unknown fact, a wrong type, or a string that its fact never equals."""
+    """Raises `ConditionError` for an invalid condition: an unknown fact, a wrong type, or a string
+    that its fact never equals.
+    """
     if len(re.findall(_MACRO, _STRING.sub(" ", text))) > _MAX_MACROS:
-        raise ConditionError(f"the condition uses all, exists, exists_one, map and filter more than {_MAX_MACROS} times")
+        raise ConditionError(
+            f"the condition uses all, exists, exists_one, map and filter more than {_MAX_MACROS} "
+            f"times"
+        )
     Condition(text, subject).must_decide()
     for fact, literal, offset, length in literals(text):
         words = _words(fact)
@@ -140,11 +175,15 @@ def check(text: str, subject: str) -> None:
 
 def named(text: str) -> tuple[str, ...]:
     """The facts that a condition names, in order."""
-    return tuple(dict.fromkeys(name for name in _FACT.findall(_STRING.sub(" ", text)) if name in FACTS))
+    return tuple(
+        dict.fromkeys(name for name in _FACT.findall(_STRING.sub(" ", text)) if name in FACTS)
+    )
 
 
 def literals(text: str) -> list[tuple[str, str, int, int]]:
-    """The string literals that a condition compares facts with: the fact, the string, and the offset and length of the quoted literal."""
+    """The string literals that a condition compares facts with: the fact, the string, and the
+    offset and length of the quoted literal.
+    """
     found: list[tuple[str, int, int]] = []
 
     def mark(match: re.Match[str]) -> str:
@@ -157,7 +196,10 @@ def literals(text: str) -> list[tuple[str, str, int, int]]:
     out = []
     for match in re.finditer(_MEETS, marked):
         fact = match["fact"] or match["of"] or match["among"]
-        out += [(fact, *found[int(index)]) for index in re.findall(_MARK, match["one"] or match["left"] or match["many"])]
+        out += [
+            (fact, *found[int(index)])
+            for index in re.findall(_MARK, match["one"] or match["left"] or match["many"])
+        ]
     return out
 
 
@@ -188,7 +230,9 @@ def _environment(subject: str | None) -> Any:
             "INTS": cel.Type.List(cel.Type.INT),
         }
         with HELD:
-            _environments[subject] = cel.NewEnv(variables={fact.name: types[fact.type] for fact in _facts_of(subject)})
+            _environments[subject] = cel.NewEnv(
+                variables={fact.name: types[fact.type] for fact in _facts_of(subject)}
+            )
     return _environments[subject]
 
 
@@ -225,7 +269,11 @@ def unknown_fact(name: str, subject: str | None) -> str:
     if name.isupper():
         return f'{message}; a text is written in quotes: "{name}"'
     close = nearest(name, [fact.name for fact in _facts_of(subject)])
-    return f"{message}; did you mean {close}?" if close else f"{message}; `msaa-lint facts` lists the facts"
+    return (
+        f"{message}; did you mean {close}?"
+        if close
+        else f"{message}; `msaa-lint facts` lists the facts"
+    )
 
 
 _OPERATORS = {"and": "&&", "or": "||", "not": "!", "&": "&&", "|": "||", "=": "=="}
@@ -237,7 +285,9 @@ def _plain_error(message: str, text: str, offset: int) -> ConditionError:
     overload = re.match(r"found no matching overload for '([^']*)' applied to '\((.*)\)'", message)
     if overload is not None:
         types = re.split(r", (?![^(]*\))", overload[2])
-        return ConditionError(f"`{overload[1].strip('_@')}` cannot be applied to {' and '.join(types)}", offset)
+        return ConditionError(
+            f"`{overload[1].strip('_@')}` cannot be applied to {' and '.join(types)}", offset
+        )
     if not message.startswith("Syntax error"):
         return ConditionError(message, offset)
     word = re.match(r"\s*(\w+|[^\w\s]{1,3}|$)", text[offset:], re.DOTALL)
@@ -245,7 +295,9 @@ def _plain_error(message: str, text: str, offset: int) -> ConditionError:
     if not token:
         return ConditionError("the condition is incomplete")
     if token[0] in "\"'":
-        return ConditionError("the quote of a text is not closed", offset + text[offset:].index(token))
+        return ConditionError(
+            "the quote of a text is not closed", offset + text[offset:].index(token)
+        )
     hint = f": write `{_OPERATORS[token]}`" if token in _OPERATORS else ""
     start = offset + text[offset:].index(token)
     return ConditionError(f"unexpected `{token}` in the condition{hint}", start, len(token))

@@ -1,8 +1,10 @@
-"""An upper bound of what evaluating a condition takes, from its checked expression and the sizes of the facts.
+"""An upper bound of what evaluating a condition takes, from its checked expression and the sizes of
+the facts.
 
-CEL's runtime limits the iterations of an evaluation, but neither the sizes of its values nor what a regular expression takes: a list that
-`map` builds is copied in every iteration, sums of strings are kept until the end, and a pattern is compiled at every call. A step takes
-about 50 ns and 100 bytes at most.
+CEL's runtime limits the iterations of an evaluation, but neither the sizes of its values nor what a
+regular expression takes: a list that `map` builds is copied in every iteration, sums of strings are
+kept until the end, and a pattern is compiled at every call. A step takes about 50 ns and 100 bytes
+at most.
 """
 
 from __future__ import annotations
@@ -30,14 +32,19 @@ _COMPILE = 8
 _REPETITION = re.compile(r"\{(\d{1,9})(?:,(\d{0,9}))?\}")
 
 _PLAIN = frozenset({
-    "_==_", "_!=_", "_<_", "_<=_", "_>_", "_>=_", "_&&_", "_||_", "!_", "-_", "_-_", "_*_", "_/_", "_%_", "_?_:_", "@in", "size",
+    "_==_", "_!=_", "_<_", "_<=_", "_>_", "_>=_", "_&&_", "_||_", "!_", "-_", "_-_", "_*_", "_/_",
+    "_%_", "_?_:_", "@in", "size",
     "contains", "startsWith", "endsWith", "double", "int", "uint",
 })  # fmt: skip
-"""Functions that use each operand at most once, and whose results are no larger than one of them."""
+"""Functions that use each operand at most once, and whose results are no larger than one of
+them.
+"""
 
 
 class Size(NamedTuple):
-    """The size of a value: what it takes to copy, in steps; its characters or elements; the size of its largest element."""
+    """The size of a value: what it takes to copy, in steps; its characters or elements; the size of
+    its largest element.
+    """
 
     steps: int = 1
     length: int = 1
@@ -65,7 +72,11 @@ def _largest(sizes: Sequence[Size]) -> Size:
     """A size that none of the sizes exceeds."""
     elements = [each.element for each in sizes if each.element is not None]
     largest = _largest(elements) if elements else None
-    return Size(max((each.steps for each in sizes), default=1), max((each.length for each in sizes), default=1), largest)
+    return Size(
+        max((each.steps for each in sizes), default=1),
+        max((each.length for each in sizes), default=1),
+        largest,
+    )
 
 
 def pattern_instructions(pattern: str) -> int:
@@ -73,11 +84,15 @@ def pattern_instructions(pattern: str) -> int:
     repetitions = 1
     for least, most in _REPETITION.findall(pattern):
         repetitions = min(repetitions * max(int(least), int(most or 0), 1), MAX_REPETITIONS)
-    return (len(pattern) + 1) * repetitions * (_UNICODE_CLASS if re.search(r"\\[pP]", pattern) else 1)
+    return (
+        (len(pattern) + 1) * repetitions * (_UNICODE_CLASS if re.search(r"\\[pP]", pattern) else 1)
+    )
 
 
 class ConditionCost:
-    """The cost of one condition, from the serialized expression that `cel.Expression.serialize` returns."""
+    """The cost of one condition, from the serialized expression that `cel.Expression.serialize`
+    returns.
+    """
 
     def __init__(self, checked: bytes) -> None:
         self.functions: set[str] = set()
@@ -98,12 +113,15 @@ class ConditionCost:
     def steps(self, facts: Mapping[str, object]) -> int:
         """At most how many steps an evaluation with these facts takes."""
         if self._is_plain:
-            return 2 * self._nodes + sum(2 * count * size_of(facts.get(name)).steps for name, count in self._mentions.items())
+            return 2 * self._nodes + sum(
+                2 * count * size_of(facts.get(name)).steps for name, count in self._mentions.items()
+            )
         estimate = _Estimate({name: size_of(facts.get(name)) for name in self._mentions})
         self._measure(estimate)
         return estimate.steps
 
-    # The parts of the message `cel.expr.Expr`: const 3, ident 4, select 5, call 6, list 7, struct 8, comprehension 9.
+    # The parts of the message `cel.expr.Expr`: const 3, ident 4, select 5, call 6, list 7, struct
+    # 8, comprehension 9.
 
     def _expression(self, data: bytes) -> _Measure:
         self._nodes += 1
@@ -144,8 +162,12 @@ class ConditionCost:
             pattern = _text(constants[-1], 6) if constants else ""
             self.literal_patterns = self.literal_patterns and bool(constants and constants[-1])
             instructions = pattern_instructions(pattern)
-            return lambda estimate: estimate.matched([operand(estimate) for operand in operands], instructions)
-        return lambda estimate: estimate.called(function, [operand(estimate) for operand in operands])
+            return lambda estimate: estimate.matched(
+                [operand(estimate) for operand in operands], instructions
+            )
+        return lambda estimate: estimate.called(
+            function, [operand(estimate) for operand in operands]
+        )
 
     def _list(self, data: bytes) -> _Measure:
         return self._collection([_bytes(part) for number, part in _fields(data) if number == 1])
@@ -153,22 +175,30 @@ class ConditionCost:
     def _struct(self, data: bytes) -> _Measure:
         self.functions.add("struct")
         entries = [_bytes(part) for number, part in _fields(data) if number == 2]
-        return self._collection([_last(entry, number) for entry in entries for number in (3, 4) if _last(entry, number)])
+        return self._collection(
+            [_last(entry, number) for entry in entries for number in (3, 4) if _last(entry, number)]
+        )
 
     def _collection(self, parts: list[bytes]) -> _Measure:
         elements = [self._expression(part) for part in parts]
 
         def measure(estimate: _Estimate) -> Size:
             sizes = [element(estimate) for element in elements]
-            return estimate.taken(Size(1 + sum(each.steps + 1 for each in sizes), len(sizes), _largest(sizes)))
+            return estimate.taken(
+                Size(1 + sum(each.steps + 1 for each in sizes), len(sizes), _largest(sizes))
+            )
 
         return measure
 
     def _comprehension(self, data: bytes) -> _Measure:
-        """A macro: variable 1 takes the elements of range 2; result 3 begins as 4, and becomes 6 in each iteration while 5 holds."""
+        """A macro: variable 1 takes the elements of range 2; result 3 begins as 4, and becomes 6 in
+        each iteration while 5 holds.
+        """
         self.functions.add("comprehension")
         variable, result = _text(data, 1), _text(data, 3)
-        source, initial, condition, step, last = (self._expression(_last(data, number)) for number in (2, 4, 5, 6, 7))
+        source, initial, condition, step, last = (
+            self._expression(_last(data, number)) for number in (2, 4, 5, 6, 7)
+        )
 
         def measure(estimate: _Estimate) -> Size:
             elements, begin = source(estimate), initial(estimate)
@@ -182,7 +212,11 @@ class ConditionCost:
             if added.element is not None:
                 # The list so far is copied.
                 estimate.steps += count * count
-            grown = Size(begin.steps + added.steps * count, begin.length + added.length * count, added.element)
+            grown = Size(
+                begin.steps + added.steps * count,
+                begin.length + added.length * count,
+                added.element,
+            )
             estimate.sizes = {**before, result: grown}
             size = last(estimate)
             estimate.sizes = before
@@ -210,9 +244,19 @@ class _Estimate:
         if function == "_[_]":
             return _element(operands[0])
         if function == "_+_":
-            return Size(sum(each.steps for each in operands), sum(each.length for each in operands), _largest(operands).element)
+            return Size(
+                sum(each.steps for each in operands),
+                sum(each.length for each in operands),
+                _largest(operands).element,
+            )
         # A number has at most 24 characters.
-        return SCALAR if function in _PLAIN else operands[0]._replace(steps=operands[0].steps + 6) if operands else SCALAR
+        return (
+            SCALAR
+            if function in _PLAIN
+            else operands[0]._replace(steps=operands[0].steps + 6)
+            if operands
+            else SCALAR
+        )
 
     def matched(self, operands: list[Size], instructions: int) -> Size:
         """A pattern is compiled, and may be in all states at every character."""
@@ -238,7 +282,8 @@ _READERS: dict[int, Callable[[ConditionCost, bytes], _Measure]] = {
 }
 
 
-# Protocol buffers: fields of a number and a value, which is an integer, or bytes that may be a message.
+# Protocol buffers: fields of a number and a value, which is an integer, or bytes that may be a
+# message.
 
 
 def _fields(data: int | bytes) -> Iterator[tuple[int, int | bytes]]:
@@ -271,11 +316,15 @@ def _bytes(value: int | bytes) -> bytes:
 
 def _last(data: int | bytes, number: int) -> bytes:
     """The last value of a field; empty if there is none."""
-    return next((_bytes(value) for each, value in reversed([*_fields(data)]) if each == number), b"")
+    return next(
+        (_bytes(value) for each, value in reversed([*_fields(data)]) if each == number), b""
+    )
 
 
 def _number(data: int | bytes, number: int) -> int:
-    return next((value for each, value in _fields(data) if each == number and isinstance(value, int)), 0)
+    return next(
+        (value for each, value in _fields(data) if each == number and isinstance(value, int)), 0
+    )
 
 
 def _text(data: int | bytes, number: int) -> str:

@@ -13,7 +13,9 @@ _LIKE_A_FENCE = r"^[-.=+~]{2,}[ \t]*$"
 
 
 def split(text: str) -> tuple[str | None, str]:
-    """The front matter, padded with blanks so that offsets are those of the page, and the Markdown after it."""
+    """The front matter, padded with blanks so that offsets are those of the page, and the Markdown
+    after it.
+    """
     first = text.find("\n") + 1
     if text[:first].rstrip() != FENCE:
         return None, text
@@ -39,7 +41,10 @@ def mistake(text: str) -> tuple[str, Span]:
         return f"{expected}: remove what precedes the first one", Span(start, start + len(FENCE))
     second = re.compile(_LIKE_A_FENCE, re.MULTILINE).search(text, len(FENCE))
     if second is not None:
-        return f"{expected}: the second one must be `---`, found {quoted(second[0].rstrip())}", Span(*second.span())
+        return (
+            f"{expected}: the second one must be `---`, found {quoted(second[0].rstrip())}",
+            Span(*second.span()),
+        )
     return f"{expected}: the second one is missing", Span(0, len(FENCE))
 
 

@@ -30,7 +30,9 @@ class BrokenPage(NamedTuple):
 
 
 class Registry(NamedTuple):
-    """Rules in order of code, the problems of unusable pages, the texts they point into, by name, and these pages."""
+    """Rules in order of code, the problems of unusable pages, the texts they point into, by name,
+    and these pages.
+    """
 
     rules: tuple[Rule, ...]
     problems: tuple[Finding, ...]
@@ -39,7 +41,9 @@ class Registry(NamedTuple):
 
     @property
     def names(self) -> tuple[Rule | BrokenPage, ...]:
-        """What a selector or a suppression may name: a rule whose page is broken is not unknown. A usable one of that name is last."""
+        """What a selector or a suppression may name: a rule whose page is broken is not unknown. A
+        usable one of that name is last.
+        """
         return (*self.broken, *self.rules)
 
 
@@ -52,7 +56,9 @@ def _name(path: str) -> str:
 def built_in() -> Registry:
     """The built-in rules, which are read once in a process."""
     read = [read_page(path, f"rules/{os.path.basename(path)}", None) for path in pages(folder())]
-    rules = sorted((page.rule for page in read if page.rule is not None), key=lambda rule: rule.code)
+    rules = sorted(
+        (page.rule for page in read if page.rule is not None), key=lambda rule: rule.code
+    )
     return Registry(tuple(rules), tuple(problem for page in read for problem in page.problems))
 
 
@@ -69,9 +75,11 @@ def load(
 ) -> Registry:
     """The built-in rules, and the rules of the given rule pages and folders of rule pages.
 
-    `projects` has the projects of the paths that a configuration names. The pages of a folder must be in its project. Only the user's own
-    rules are checked here, fixes with `check_fixes`, within the `budget` of the run; the test suite checks the built-in rules. A rule with
-    a problem is left out. `traceback` raises an exception that reading one of the user's pages causes, instead of reporting it.
+    `projects` has the projects of the paths that a configuration names. The pages of a folder must
+    be in its project. Only the user's own rules are checked here, fixes with `check_fixes`, within
+    the `budget` of the run; the test suite checks the built-in rules. A rule with a problem is left
+    out. `traceback` raises an exception that reading one of the user's pages causes, instead of
+    reporting it.
     """
     if not paths:
         return built_in()
@@ -94,7 +102,9 @@ def load(
         shown = os.path.relpath(path).replace(os.sep, "/")
         try:
             if budget.left:
-                page = _checked(read_page(path, shown, project), path, others, names, check_fixes, budget)
+                page = _checked(
+                    read_page(path, shown, project), path, others, names, check_fixes, budget
+                )
             else:
                 page = _unread(path, shown, budget)
         except Exception as error:
@@ -110,16 +120,28 @@ def load(
         else:
             broken.append(BrokenPage(page.code, _name(path), shown))
         problems.extend(sorted(page.problems, key=lambda found: found.span or Span(0, 0)))
-    return Registry(tuple(sorted(rules, key=lambda rule: rule.code)), tuple(problems), sources, tuple(broken))
+    return Registry(
+        tuple(sorted(rules, key=lambda rule: rule.code)), tuple(problems), sources, tuple(broken)
+    )
 
 
 def _unread(path: str, shown: str, budget: Budget) -> Page:
     """A page for which nothing of the budget is left."""
-    message = f"it was not read: the pages before it took the {budget.steps} steps that the custom rules of a run may take"
+    message = (
+        f"it was not read: the pages before it took the {budget.steps} steps that the custom "
+        f"rules of a run may take"
+    )
     return Page(None, (page_problem(_name(path), shown, message, Span(0, 0)),))
 
 
-def _checked(page: Page, path: str, others: Mapping[str, Rule], names: Collection[str], check_fixes: CheckFixes, budget: Budget) -> Page:
+def _checked(
+    page: Page,
+    path: str,
+    others: Mapping[str, Rule],
+    names: Collection[str],
+    check_fixes: CheckFixes,
+    budget: Budget,
+) -> Page:
     """One of the user's pages with all its problems; without its rule if it has any."""
     rule, found = page.rule, [*page.problems]
     if rule is not None:
@@ -131,7 +153,9 @@ def _checked(page: Page, path: str, others: Mapping[str, Rule], names: Collectio
             budget.charge(path, READ * texts + COMPILE * sum(map(len, conditions)))
             found += [*check_names(rule, others, names), *check_rule(rule), *check_fixes(rule)]
         except OverBudget as error:
-            found.append(rule.problem(f"{error}; it was not checked, and is not used", rule.condition_at))
+            found.append(
+                rule.problem(f"{error}; it was not checked, and is not used", rule.condition_at)
+            )
     budget.spend(path, MISTAKE * len(found))
     return page._replace(rule=None if found else rule, problems=tuple(found))
 
@@ -145,4 +169,13 @@ def info(rule: Rule, severity: str | None = None, full: bool = True) -> RuleInfo
     """A rule as reports describe it; `full` includes its page."""
     text = markdown(rule) if full else ""
     severity = severity or rule.severity
-    return RuleInfo(rule.code, rule.name, severity, rule.confidence, rule.summary, text, rule.references, bool(rule.fix_specs))
+    return RuleInfo(
+        rule.code,
+        rule.name,
+        severity,
+        rule.confidence,
+        rule.summary,
+        text,
+        rule.references,
+        bool(rule.fix_specs),
+    )

@@ -9,13 +9,16 @@ from msaa_lint.core.text.source import Source
 from msaa_lint.core.text.span import Span
 
 SAFETIES = ("safe", "unsafe", "shown")
-"""Of a fix: it cannot change the picture; it may change the picture or needs a decision; it is shown with its price, but never applied."""
+"""Of a fix: it cannot change the picture; it may change the picture or needs a decision; it is
+shown with its price, but never applied.
+"""
 
 
 class Setting(NamedTuple):
     """One change of a fix: a fact, the value to set, add or remove, and its location on the page.
 
-    A value in braces names another fact of the subject, whose value is used. `fact_at` is the location of the fact's name.
+    A value in braces names another fact of the subject, whose value is used. `fact_at` is the
+    location of the fact's name.
     """
 
     fact: str
@@ -25,8 +28,10 @@ class Setting(NamedTuple):
 
 
 class FixSpec(NamedTuple):
-    """A fix in terms of facts: `set` sets the member that a fact comes from, `add` and `remove` change a list, and `do` names an action of
-    `linter.fixes`. `at` is the location of that name, or of the fix."""
+    """A fix in terms of facts: `set` sets the member that a fact comes from, `add` and `remove`
+    change a list, and `do` names an action of `linter.fixes`. `at` is the location of that name, or
+    of the fix.
+    """
 
     title: str
     safety: str
@@ -48,11 +53,15 @@ APIS = ("vulkan", "metal")
 """The APIs whose frames a rule may be about."""
 
 PASSES = ("begun", "all")
-"""The passes that a rule about parts of passes applies to: those that the frame begins, or also those that are only created."""
+"""The passes that a rule about parts of passes applies to: those that the frame begins, or also
+those that are only created.
+"""
 
 
 class Case(NamedTuple):
-    """What differs if a rule fires and `when` is true as well. The first such case applies; its `fix` replaces the rule's."""
+    """What differs if a rule fires and `when` is true as well. The first such case applies; its
+    `fix` replaces the rule's.
+    """
 
     when: str
     severity: str | None
@@ -66,8 +75,8 @@ class Case(NamedTuple):
 class Rule(NamedTuple):
     """A rule as stated by the front matter of its page.
 
-    `when` is a CEL condition. `at` and `labels` name facts and refer to their locations. `apis` are those whose frames the rule applies to,
-    `passes` the passes (one of PASSES).
+    `when` is a CEL condition. `at` and `labels` name facts and refer to their locations. `apis` are
+    those whose frames the rule applies to, `passes` the passes (one of PASSES).
     """
 
     code: str
@@ -107,7 +116,11 @@ class Rule(NamedTuple):
     @property
     def fix_specs(self) -> "tuple[FixSpec, ...]":
         """The fixes of the rule and of its cases."""
-        return tuple(dict.fromkeys(fix for fix in (self.fix, *(case.fix for case in self.cases)) if fix is not None))
+        return tuple(
+            dict.fromkeys(
+                fix for fix in (self.fix, *(case.fix for case in self.cases)) if fix is not None
+            )
+        )
 
     def problem(self, message: str, span: Span) -> Finding:
         """A finding about the rule's page (MSAA921)."""

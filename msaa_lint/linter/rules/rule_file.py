@@ -18,10 +18,14 @@ from .rule import APIS, PASSES, SAFETIES, Case, FixSpec, Rule, Setting, page_pro
 
 MAX_PAGE_BYTES = 1 << 20
 MAX_CONDITION = 2000
-"""Characters of a condition. A page may come from an untrusted branch, and the cost of a CEL expression grows with its length."""
+"""Characters of a condition. A page may come from an untrusted branch, and the cost of a CEL
+expression grows with its length.
+"""
 
 MAX_TEXT = 2000
-"""Characters of any other text of the front matter: every finding has a copy of it, with its facts filled in."""
+"""Characters of any other text of the front matter: every finding has a copy of it, with its facts
+filled in.
+"""
 
 MAX_ITEMS = 100
 """Of each list and mapping: cases, labels, references, the facts that a fix changes."""
@@ -34,12 +38,20 @@ FRONT_MATTER = Limits(depth=20, nodes=10_000)
 
 
 def _in_front_matter(message: str) -> str:
-    """The message of a YAML error, for a page: what begins with an exclamation mark there is a condition."""
-    return f"{message}; put a condition that begins with `!` in quotes" if message.startswith("the tag `!") else message
+    """The message of a YAML error, for a page: what begins with an exclamation mark there is a
+    condition.
+    """
+    return (
+        f"{message}; put a condition that begins with `!` in quotes"
+        if message.startswith("the tag `!")
+        else message
+    )
 
 
 class Page(NamedTuple):
-    """The result of reading a page: the rule if it is valid, the problems, the text if it could be read, and the code if it is stated."""
+    """The result of reading a page: the rule if it is valid, the problems, the text if it could be
+    read, and the code if it is stated.
+    """
 
     rule: Rule | None
     problems: tuple[Finding, ...]
@@ -48,19 +60,31 @@ class Page(NamedTuple):
 
 
 KEYS = (
-    "code", "severity", "confidence", "subject", "when", "message", "at", "labels", "cases", "help", "fix", "vendors", "edition",
+    "code", "severity", "confidence", "subject", "when", "message", "at", "labels", "cases",
+    "help", "fix", "vendors", "edition",
     "references", "supersedes", "apis", "passes",
 )  # fmt: skip
 REQUIRED = ("code", "severity", "subject", "when", "message")
 
 
 def read_page(path: str, shown: str, project: str | None) -> Page:
-    """Reads a rule page. `shown` is the path in messages; `project` is None for a built-in page, and for a page of the command line."""
+    """Reads a rule page. `shown` is the path in messages; `project` is None for a built-in page,
+    and for a page of the command line.
+    """
     name = os.path.basename(path).removesuffix(".md")
     try:
         text = decode(read(path, MAX_PAGE_BYTES, project))
     except Outside as error:
-        return Page(None, (diagnostic("MSAA921", f"cannot read the rule page: {error}; only `--rules` can name such a page", shown),))
+        return Page(
+            None,
+            (
+                diagnostic(
+                    "MSAA921",
+                    f"cannot read the rule page: {error}; only `--rules` can name such a page",
+                    shown,
+                ),
+            ),
+        )
     except (OSError, Unreadable) as error:
         reason = (error.strerror if isinstance(error, OSError) else None) or str(error)
         return Page(None, (diagnostic("MSAA921", f"cannot read the rule page: {reason}", shown),))
@@ -71,14 +95,20 @@ def read_page(path: str, shown: str, project: str | None) -> Page:
     parsed = parse(Source(shown, front), FRONT_MATTER)
     if parsed.problems:
         problems = [
-            page_problem(name, shown, _in_front_matter(p.message), p.span)._replace(labels=tuple(p.labels)) for p in parsed.problems
+            page_problem(name, shown, _in_front_matter(p.message), p.span)._replace(
+                labels=tuple(p.labels)
+            )
+            for p in parsed.problems
         ]
         return Page(None, tuple(problems), source)
     reader = _PageReader(shown, name, source)
     root = parsed.documents[0] if parsed.documents else None
     if root is None or root.kind != "mapping":
         stated = f"found {_kind(root)}" if root is not None else "it is empty"
-        reader.problem(root.span if root is not None else Span(0, len(FENCE)), f"the front matter must be a mapping of keys, {stated}")
+        reader.problem(
+            root.span if root is not None else Span(0, len(FENCE)),
+            f"the front matter must be a mapping of keys, {stated}",
+        )
         return Page(None, tuple(reader.problems), source)
     rule = reader.rule(root, body, path)
     code = root.value["code"].text.strip() if "code" in root.value else ""
@@ -110,9 +140,16 @@ class _PageReader:
         if missing:
             unmentioned = [f"`{key}`" for key in missing if key not in meant]
             if unmentioned:
-                self.problem(Span(0, len(FENCE)), f"missing {', '.join(unmentioned)} in the front matter")
+                self.problem(
+                    Span(0, len(FENCE)), f"missing {', '.join(unmentioned)} in the front matter"
+                )
             return None
-        for key, words in (("subject", tuple(SUBJECTS)), ("severity", SEVERITIES), ("confidence", CONFIDENCES), ("passes", PASSES)):
+        for key, words in (
+            ("subject", tuple(SUBJECTS)),
+            ("severity", SEVERITIES),
+            ("confidence", CONFIDENCES),
+            ("passes", PASSES),
+        ):
             if key in members:
                 self.one_of(members[key], words, key)
         for vendor in self.items(members.get("vendors"), "vendors"):
@@ -121,7 +158,11 @@ class _PageReader:
         for api in apis:
             self.one_of(api, APIS, "apis")
         for key in ("code", "when", "message"):
-            if members[key].kind == "scalar" and members[key].value is not None and not members[key].text.strip():
+            if (
+                members[key].kind == "scalar"
+                and members[key].value is not None
+                and not members[key].text.strip()
+            ):
                 self.problem(members[key].span, f"`{key}` must not be empty")
         when = members["when"]
         at = self.items(members.get("at"), "at", scalar=True)
@@ -156,12 +197,18 @@ class _PageReader:
         )
 
     def unknown(self, mapping: Node, known: Sequence[str]) -> set[str]:
-        """Reports the keys of a mapping that are not known; returns the known ones that are likely meant by them."""
+        """Reports the keys of a mapping that are not known; returns the known ones that are likely
+        meant by them.
+        """
         from msaa_lint.core.suggestions import near_or_all, nearest
 
-        keys = [key for key in mapping.value if key not in known][: MAX_PROBLEMS - len(self.problems)]
+        keys = [key for key in mapping.value if key not in known][
+            : MAX_PROBLEMS - len(self.problems)
+        ]
         for key in keys:
-            self.problem(mapping.keys[key].span, f"unknown key {quoted(key)}: {near_or_all(key, known)}")
+            self.problem(
+                mapping.keys[key].span, f"unknown key {quoted(key)}: {near_or_all(key, known)}"
+            )
         return {meant for key in keys if (meant := nearest(key, known)) is not None}
 
     def prose(self, node: Node, key: str) -> str:
@@ -187,7 +234,9 @@ class _PageReader:
             from msaa_lint.core.suggestions import did_you_mean
 
             hint = did_you_mean(node.text, words) if node.kind == "scalar" else ""
-            self.problem(node.span, f"`{key}`: expected one of {', '.join(words)}, found {_kind(node)}{hint}")
+            self.problem(
+                node.span, f"`{key}`: expected one of {', '.join(words)}, found {_kind(node)}{hint}"
+            )
 
     def items(self, node: Node | None, key: str, scalar: bool = False) -> list[Node]:
         """The items of a list; `scalar` allows one item instead of a list of it."""
@@ -197,14 +246,18 @@ class _PageReader:
             return list(node.value) if self.at_most(node, key) else []
         if scalar:
             return [node]
-        example = f"; write `[{node.text}]`" if node.kind == "scalar" and node.value is not None else ""
+        example = (
+            f"; write `[{node.text}]`" if node.kind == "scalar" and node.value is not None else ""
+        )
         self.problem(node.span, f"{_of(key)}expected a list, found {_kind(node)}{example}")
         return []
 
     def at_most(self, node: Node, key: str) -> bool:
         """Whether a list or mapping has no more items than the limit."""
         if len(node.value) > MAX_ITEMS:
-            self.problem(node.span, f"`{key}`: expected at most {MAX_ITEMS} items, found {len(node.value)}")
+            self.problem(
+                node.span, f"`{key}`: expected at most {MAX_ITEMS} items, found {len(node.value)}"
+            )
         return len(node.value) <= MAX_ITEMS
 
     def strings(self, members: Mapping[str, Node], key: str) -> tuple[str, ...]:
@@ -222,14 +275,20 @@ class _PageReader:
         return tuple((key, self.prose(value, key)) for key, value in node.value.items())
 
     def case(self, node: Node, fix: FixSpec | None) -> Case:
-        """A case. Without a `fix`, or with one that only states its safety, it has the fix of the rule."""
+        """A case. Without a `fix`, or with one that only states its safety, it has the fix of the
+        rule.
+        """
         known = ("when", "severity", "confidence", "message", "help", "fix")
         meant = self.unknown(node, known) if node.kind == "mapping" else set()
         if node.kind != "mapping" or "when" not in node.value:
             if "when" not in meant:
                 self.problem(node.span, "a case must be a mapping with `when` and what differs")
             return Case("true", None, None, None)
-        texts = {key: self.prose(value, key) for key, value in node.value.items() if key in ("message", "help")}
+        texts = {
+            key: self.prose(value, key)
+            for key, value in node.value.items()
+            if key in ("message", "help")
+        }
         for key, words in (("severity", SEVERITIES), ("confidence", CONFIDENCES)):
             if key in node.value:
                 self.one_of(node.value[key], words, key)
@@ -237,12 +296,18 @@ class _PageReader:
         when = node.value["when"]
         case_fix = node.value.get("fix")
         if case_fix is not None:
-            fix = None if case_fix.kind == "scalar" and case_fix.value is None else self.fix(case_fix, fix)
+            fix = (
+                None
+                if case_fix.kind == "scalar" and case_fix.value is None
+                else self.fix(case_fix, fix)
+            )
         changed = (texts.get("severity"), texts.get("confidence"), texts.get("message"))
         return Case(self.condition(when), *changed, when.span, fix, texts.get("help"))
 
     def fix(self, node: Node, of_rule: FixSpec | None) -> FixSpec | None:
-        """A fix. In a case, one that only states its safety is the fix of the rule with that safety."""
+        """A fix. In a case, one that only states its safety is the fix of the rule with that
+        safety.
+        """
         known = ("title", "safety", "set", "add", "remove", "do")
         members = node.value if node.kind == "mapping" else {}
         inherits = of_rule is not None and list(members) == ["safety"]
@@ -252,7 +317,9 @@ class _PageReader:
             if meant.isdisjoint(missing):
                 stated = f"; missing {', '.join(f'`{key}`' for key in missing)}" if members else ""
                 self.problem(
-                    node.span, f"a fix must be a mapping with `title`, `safety` ({', '.join(SAFETIES)}) and what it changes{stated}"
+                    node.span,
+                    f"a fix must be a mapping with `title`, `safety` ({', '.join(SAFETIES)}) and "
+                    f"what it changes{stated}",
                 )
             return None
         self.one_of(members["safety"], SAFETIES, "safety")
@@ -260,13 +327,27 @@ class _PageReader:
         if inherits and of_rule is not None:
             return of_rule._replace(safety=safety)
         if _CHANGES.isdisjoint(members) and _CHANGES.isdisjoint(meant):
-            self.problem(node.span, "a fix must state what it changes: `set`, `add`, `remove` or `do`")
-        set_, added, removed = (self.changes(members.get(key), key) for key in ("set", "add", "remove"))
+            self.problem(
+                node.span, "a fix must state what it changes: `set`, `add`, `remove` or `do`"
+            )
+        set_, added, removed = (
+            self.changes(members.get(key), key) for key in ("set", "add", "remove")
+        )
         do = self.text(members["do"], "do") if "do" in members else ""
-        return FixSpec(self.prose(members["title"], "title"), safety, set_, added, removed, do, members.get("do", node).span)
+        return FixSpec(
+            self.prose(members["title"], "title"),
+            safety,
+            set_,
+            added,
+            removed,
+            do,
+            members.get("do", node).span,
+        )
 
     def changes(self, node: Node | None, action: str) -> tuple[Setting, ...]:
-        """The facts that a fix changes with their values; a list of values gives one change for each."""
+        """The facts that a fix changes with their values; a list of values gives one change for
+        each.
+        """
         if node is None:
             return ()
         if node.kind != "mapping":
@@ -276,7 +357,9 @@ class _PageReader:
             return ()
         found = []
         for fact, value in node.value.items():
-            items = self.items(value, fact) if value.kind == "sequence" and action != "set" else [value]
+            items = (
+                self.items(value, fact) if value.kind == "sequence" and action != "set" else [value]
+            )
             found += [self.setting(node.keys[fact], item, action) for item in items]
         return tuple(found)
 
@@ -287,13 +370,26 @@ class _PageReader:
         if fact is None:
             from msaa_lint.core.suggestions import did_you_mean
 
-            self.problem(key.span, f"unknown fact {quoted(key.text)}{did_you_mean(key.text, FACTS, ': ')}")
+            self.problem(
+                key.span, f"unknown fact {quoted(key.text)}{did_you_mean(key.text, FACTS, ': ')}"
+            )
         elif (fact.type == "LIST") != (action != "set"):
-            kind, instead = ("a list", "`add` or `remove`") if fact.type == "LIST" else ("not a list", "`set`")
-            self.problem(key.span, f"{fact.name} is {kind}: it cannot be changed with `{action}`; use {instead}")
-        elif value.kind != "scalar" or not (_names_fact(value) or type(value.value) in _TYPES.get(fact.type, ())):
-            self.problem(value.span, f"expected a value of {fact.name} ({fact.type}), found {_kind(value)}")
-        return Setting(key.text, value.value if value.kind == "scalar" else "", value.span, key.span)
+            kind, instead = (
+                ("a list", "`add` or `remove`") if fact.type == "LIST" else ("not a list", "`set`")
+            )
+            self.problem(
+                key.span,
+                f"{fact.name} is {kind}: it cannot be changed with `{action}`; use {instead}",
+            )
+        elif value.kind != "scalar" or not (
+            _names_fact(value) or type(value.value) in _TYPES.get(fact.type, ())
+        ):
+            self.problem(
+                value.span, f"expected a value of {fact.name} ({fact.type}), found {_kind(value)}"
+            )
+        return Setting(
+            key.text, value.value if value.kind == "scalar" else "", value.span, key.span
+        )
 
 
 _CHANGES = frozenset({"set", "add", "remove", "do"})

@@ -25,7 +25,9 @@ Key = tuple[str, Span | None, str]
 """The code, location and message of a finding, which identify it in its file."""
 
 FixSpecs = dict[Key, list[tuple[FixSpec, Subject]]]
-"""By finding: the fix on its rule's page and the subject it applies to; several if the finding stands for several subjects."""
+"""By finding: the fix on its rule's page and the subject it applies to; several if the finding
+stands for several subjects.
+"""
 
 Qualify = Callable[[Finding, Subject], Finding]
 """A finding about a subject with the confidence that what is known of the subject allows."""
@@ -36,7 +38,9 @@ FindKeys = Callable[[Subject, str], Sequence[MissingKey]]
 Rules = list[tuple[Rule, Condition]]
 
 Severity = Callable[[Rule, str, str | None], str | None]
-"""`severity(rule, suggested, vendor)`: the severity of a rule's finding in one file; None where the rule is off."""
+"""`severity(rule, suggested, vendor)`: the severity of a rule's finding in one file; None where the
+rule is off.
+"""
 
 RuleResult = tuple[Rule, "bool | ArithmeticError | None", tuple[str, ...]]
 """A rule, the value of its condition, and the facts that were missing if that is None."""
@@ -58,7 +62,9 @@ MAX_VALUE = 500
 
 
 class Verdicts(NamedTuple):
-    """The results of all rules for a document; `checked` is false if problems of the document kept them from running."""
+    """The results of all rules for a document; `checked` is false if problems of the document kept
+    them from running.
+    """
 
     findings: list[Finding]
     undecided: list[Undecided]
@@ -67,7 +73,8 @@ class Verdicts(NamedTuple):
 
 
 class RuleRunner:
-    """A set of rules. Each condition is compiled once, when it is first needed, and evaluated once for the same facts.
+    """A set of rules. Each condition is compiled once, when it is first needed, and evaluated once
+    for the same facts.
 
     Most attachments of a frame are alike, and evaluating conditions takes most of the time.
     """
@@ -78,21 +85,36 @@ class RuleRunner:
         """By API, then by kind of subject."""
         for rule in rules:
             for api in rule.apis:
-                self._by_subject.setdefault(api.upper(), {}).setdefault(rule.subject, []).append(rule)
+                self._by_subject.setdefault(api.upper(), {}).setdefault(rule.subject, []).append(
+                    rule
+                )
         self._conditions: dict[str, Condition] = {}
-        self._fact_names: dict[tuple[str, str], tuple[tuple[str, ...], tuple[str, ...], tuple[str, ...]]] = {}
+        self._fact_names: dict[
+            tuple[str, str], tuple[tuple[str, ...], tuple[str, ...], tuple[str, ...]]
+        ] = {}
         self._cache: dict[tuple[object, ...], _Cached] = {}
         self._cached_characters = 0
         self._severity: object = None
         self._enabled: dict[tuple[str, str, bool], Rules] = {}
-        """The rules that the last `severity` enables, by API, kind of subject, and whether it is of a pass that is only created."""
+        """The rules that the last `severity` enables, by API, kind of subject, and whether it is of
+        a pass that is only created.
+        """
         self._off = 0
         """The number of pages that were turned off when these rules were determined."""
 
     def turned_off(self) -> set[str]:
         """The names of the rules whose pages the budget of the run has turned off."""
         off = self._budget.off
-        every = (rule for kinds in self._by_subject.values() for rules in kinds.values() for rule in rules) if off else ()
+        every = (
+            (
+                rule
+                for kinds in self._by_subject.values()
+                for rules in kinds.values()
+                for rule in rules
+            )
+            if off
+            else ()
+        )
         return {rule.name for rule in every if rule.path in off}
 
     def run(
@@ -106,10 +128,12 @@ class RuleRunner:
         key_budget: Allowance | None = None,
         qualify: Qualify | None = None,
     ) -> Verdicts:
-        """The findings and undecided rules for the subjects of a document, from the rules for its API.
+        """The findings and undecided rules for the subjects of a document, from the rules for its
+        API.
 
-        `missing_keys` finds the keys that undecided rules name: those of one fact that it takes, or with `all_keys` of all facts. It is
-        asked for as many of them as `key_budget` has left (None: for all). `qualify` may lower the confidence of findings.
+        `missing_keys` finds the keys that undecided rules name: those of one fact that it takes, or
+        with `all_keys` of all facts. It is asked for as many of them as `key_budget` has left
+        (None: for all). `qualify` may lower the confidence of findings.
         """
         findings: list[Finding] = []
         undecided: list[Undecided] = []
@@ -134,9 +158,24 @@ class RuleRunner:
                         self._charge(rule, UNDECIDED)
                         keys: Mapping[str, MissingKey] = {}
                         if missing_keys is not None and (key_budget is None or key_budget.take()):
-                            blocking = evaluation.blocking(rule, self._condition(rule.when), missing, all_keys)
-                            keys = {key.path: key for fact in blocking for key in missing_keys(subject, fact)}
-                        undecided.append(Undecided(rule.code, rule.name, file, subject.path, missing, tuple(keys.values())))
+                            blocking = evaluation.blocking(
+                                rule, self._condition(rule.when), missing, all_keys
+                            )
+                            keys = {
+                                key.path: key
+                                for fact in blocking
+                                for key in missing_keys(subject, fact)
+                            }
+                        undecided.append(
+                            Undecided(
+                                rule.code,
+                                rule.name,
+                                file,
+                                subject.path,
+                                missing,
+                                tuple(keys.values()),
+                            )
+                        )
                         continue
                     if isinstance(value, ArithmeticError):
                         raise value
@@ -145,28 +184,51 @@ class RuleRunner:
                         if evaluation.value(rule, self._condition(each.when)):
                             case = each
                             break
-                    suggested = case.severity or rule.severity if case is not None else rule.severity
+                    suggested = (
+                        case.severity or rule.severity if case is not None else rule.severity
+                    )
                     level = severity(rule, suggested, vendor if isinstance(vendor, str) else None)
                     if level is not None:
                         at = rule.places.get("message", at)
                         found = finding(rule, case, subject, file, level)
                         found = qualify(found, subject) if qualify is not None else found
-                        self._charge(rule, REPORT + len(found.message) + len(found.help) + sum(len(each.text) for each in found.labels))
+                        self._charge(
+                            rule,
+                            REPORT
+                            + len(found.message)
+                            + len(found.help)
+                            + sum(len(each.text) for each in found.labels),
+                        )
                 except OverBudget as error:
-                    findings.append(rule.problem(f"{error}; it was turned off at {shortened(file, 200)}, and not run from there on", at))
+                    findings.append(
+                        rule.problem(
+                            f"{error}; it was turned off at {shortened(file, 200)}, and not run "
+                            f"from there on",
+                            at,
+                        )
+                    )
                     continue
                 except ArithmeticError as error:
                     findings.append(_failed(rule, error, file, at))
                     continue
                 if found is not None:
-                    fired.append((rule, _if_begun(found) if begun == "NOT_STATED" and rule.passes == PASSES[0] else found))
+                    fired.append(
+                        (
+                            rule,
+                            _if_begun(found)
+                            if begun == "NOT_STATED" and rule.passes == PASSES[0]
+                            else found,
+                        )
+                    )
                     spec = rule.fix if case is None else case.fix
                     if spec is not None:
                         fixes[rule.code] = spec
             for found in _without_superseded(fired):
                 findings.append(found)
                 if found.code in fixes:
-                    fix_specs.setdefault(finding_key(found), []).append((fixes[found.code], subject))
+                    fix_specs.setdefault(finding_key(found), []).append(
+                        (fixes[found.code], subject)
+                    )
         return Verdicts(distinct(findings), undecided, fix_specs)
 
     def _charge(self, rule: Rule, steps: int) -> None:
@@ -179,8 +241,16 @@ class RuleRunner:
         if self._off != len(off):
             self._off, self._enabled = len(off), {}
         if key not in self._enabled:
-            rules = [rule for rule in self._by_subject.get(api, {}).get(kind, ()) if not only_created or rule.passes != PASSES[0]]
-            enabled = [rule for rule in rules if rule.path not in off and severity(rule, rule.severity, None) is not None]
+            rules = [
+                rule
+                for rule in self._by_subject.get(api, {}).get(kind, ())
+                if not only_created or rule.passes != PASSES[0]
+            ]
+            enabled = [
+                rule
+                for rule in rules
+                if rule.path not in off and severity(rule, rule.severity, None) is not None
+            ]
             self._enabled[key] = [(rule, self._condition(rule.when)) for rule in enabled]
         return self._enabled[key]
 
@@ -192,8 +262,11 @@ class RuleRunner:
     def _evaluation(self, subject: Subject, api: str) -> _Evaluation:
         names, single, lists = self._facts_used(api, subject.kind)
         values = subject.facts.values
-        # A fact has one type and is never None: values that are equal here are equal in a condition.
-        of_lists = [tuple(value) if isinstance(value, list) else None for value in map(values.get, lists)]
+        # A fact has one type and is never None: values that are equal here are equal in a
+        # condition.
+        of_lists = [
+            tuple(value) if isinstance(value, list) else None for value in map(values.get, lists)
+        ]
         facts = (api, subject.kind, *map(values.get, single), *of_lists)
         cached = self._cache.get(facts)
         if cached is None:
@@ -204,20 +277,32 @@ class RuleRunner:
             cached = self._cache[facts] = _Cached()
         return _Evaluation(names, values, cached, self._budget)
 
-    def _facts_used(self, api: str, kind: str) -> tuple[tuple[str, ...], tuple[str, ...], tuple[str, ...]]:
-        """The facts that the rules for a kind of subject name: all of them, those with single values, and those with lists."""
+    def _facts_used(
+        self, api: str, kind: str
+    ) -> tuple[tuple[str, ...], tuple[str, ...], tuple[str, ...]]:
+        """The facts that the rules for a kind of subject name: all of them, those with single
+        values, and those with lists.
+        """
         found = self._fact_names.get((api, kind))
         if found is None:
             rules = self._by_subject.get(api, {}).get(kind, ())
-            conditions = [text for rule in rules for text in (rule.when, *(case.when for case in rule.cases))]
+            conditions = [
+                text for rule in rules for text in (rule.when, *(case.when for case in rule.cases))
+            ]
             names = tuple(dict.fromkeys(name for text in conditions for name in named(text)))
             lists = tuple(name for name in names if FACTS[name].type in ("LIST", "INTS"))
-            found = self._fact_names[api, kind] = (names, tuple(name for name in names if name not in lists), lists)
+            found = self._fact_names[api, kind] = (
+                names,
+                tuple(name for name in names if name not in lists),
+                lists,
+            )
         return found
 
 
 class _Cached:
-    """The values of conditions for one set of facts, and the results of the rules that do not simply pass."""
+    """The values of conditions for one set of facts, and the results of the rules that do not
+    simply pass.
+    """
 
     __slots__ = ("blocking", "results", "values")
 
@@ -228,11 +313,15 @@ class _Cached:
 
 
 class _Evaluation:
-    """Evaluates conditions for one subject; `cached` is shared by the subjects with the same facts."""
+    """Evaluates conditions for one subject; `cached` is shared by the subjects with the same
+    facts.
+    """
 
     __slots__ = ("_activation", "_budget", "_cached", "_facts", "_names")
 
-    def __init__(self, names: Sequence[str], facts: Mapping[str, Value], cached: _Cached, budget: Budget) -> None:
+    def __init__(
+        self, names: Sequence[str], facts: Mapping[str, Value], cached: _Cached, budget: Budget
+    ) -> None:
         self._budget = budget
         self._names = names
         self._facts = facts
@@ -245,7 +334,9 @@ class _Evaluation:
         if condition.text not in values:
             self._charge(rule, condition, self._facts)
             if self._activation is None:
-                self._activation = activation(None, {name: self._facts[name] for name in self._names if name in self._facts})
+                self._activation = activation(
+                    None, {name: self._facts[name] for name in self._names if name in self._facts}
+                )
             values[condition.text] = condition.holds(self._activation)
         return values[condition.text]
 
@@ -253,22 +344,32 @@ class _Evaluation:
         if rule.is_custom:
             self._budget.charge_evaluation(rule.path, condition.cost.steps(facts))
 
-    def blocking(self, rule: Rule, condition: Condition, missing: Sequence[str], every: bool) -> tuple[str, ...]:
-        """A missing fact that an undecided condition depends on; if `every`, all that can decide it alone, or all if none can."""
+    def blocking(
+        self, rule: Rule, condition: Condition, missing: Sequence[str], every: bool
+    ) -> tuple[str, ...]:
+        """A missing fact that an undecided condition depends on; if `every`, all that can decide it
+        alone, or all if none can.
+        """
         if len(missing) < 2:
             return tuple(missing)
         key = (condition.text, every)
         if key not in self._cached.blocking:
             known = {name: self._facts[name] for name in self._names if name in self._facts}
             if every:
-                decisive = [name for name in missing if self._is_decisive(rule, condition, name, known)]
+                decisive = [
+                    name for name in missing if self._is_decisive(rule, condition, name, known)
+                ]
                 self._cached.blocking[key] = tuple(decisive or missing)
             else:
                 self._cached.blocking[key] = (condition.first_absent(activation(None, known)),)
         return self._cached.blocking[key]
 
-    def _is_decisive(self, rule: Rule, condition: Condition, fact: str, known: Mapping[str, Value]) -> bool:
-        """Whether one of the values of a fact that a condition tells apart decides it, with what is known."""
+    def _is_decisive(
+        self, rule: Rule, condition: Condition, fact: str, known: Mapping[str, Value]
+    ) -> bool:
+        """Whether one of the values of a fact that a condition tells apart decides it, with what is
+        known.
+        """
         for value in condition.trials(fact):
             facts = {**known, fact: value}
             self._charge(rule, condition, facts)
@@ -288,7 +389,11 @@ class _Evaluation:
                 except ArithmeticError as error:
                     value = error
                 if value is not False:
-                    missing = tuple(name for name in condition.facts if name not in self._facts) if value is None else ()
+                    missing = (
+                        tuple(name for name in condition.facts if name not in self._facts)
+                        if value is None
+                        else ()
+                    )
                     results.append((rule, value, missing))
             cached = self._cached.results = (rules, results)
         return cached[1]
@@ -300,15 +405,21 @@ def finding_key(finding: Finding) -> Key:
 
 
 def finding(rule: Rule, case: Case | None, subject: Subject, file: str, severity: str) -> Finding:
-    """The finding of a rule, or a case of it, for a subject. Its texts have their facts filled in."""
+    """The finding of a rule, or a case of it, for a subject. Its texts have their facts filled
+    in.
+    """
     facts = subject.facts
     message = case.message if case is not None and case.message is not None else rule.message
-    confidence = case.confidence if case is not None and case.confidence is not None else rule.confidence
+    confidence = (
+        case.confidence if case is not None and case.confidence is not None else rule.confidence
+    )
     help = case.help if case is not None and case.help is not None else rule.help
     spec = rule.fix if case is None else case.fix
     # Without `at`, the finding is at the first fact of the condition that has a location.
     names = rule.at or named(rule.when)
-    span = next((facts.places[name] for name in names if name in facts.places), None) or subject.head
+    span = (
+        next((facts.places[name] for name in names if name in facts.places), None) or subject.head
+    )
     # A pipeline may be used in other passes than the one that it is created for.
     context = _within(facts.values.get("pass.labels")) if subject.kind != "pipeline" else ""
     labels = []
@@ -328,14 +439,24 @@ def finding(rule: Rule, case: Case | None, subject: Subject, file: str, severity
         tuple(labels),
         (),
         fill_in(help, facts),
-        Fix(fill_in(spec.title, facts), spec.safe, (), spec.safety == "shown", spec.safety == "shown") if spec is not None else None,
+        Fix(
+            fill_in(spec.title, facts),
+            spec.safe,
+            (),
+            spec.safety == "shown",
+            spec.safety == "shown",
+        )
+        if spec is not None
+        else None,
         images=subject.images,
         context=context,
     )
 
 
 def _within(labels: object) -> str:
-    """The beginning of a message about a pass: ``in `Shadow / cascade 2`, ``; empty without debug labels."""
+    """The beginning of a message about a pass: ``in `Shadow / cascade 2`, ``; empty without debug
+    labels.
+    """
     if not isinstance(labels, list) or not labels:
         return ""
     names = [quoted(str(label), MAX_LABEL) for label in labels[:MAX_LABELS]]
@@ -348,7 +469,9 @@ def fill_in(text: str, facts: Facts) -> str:
     """A page's text with the facts in braces replaced by their values."""
     if "{" not in text:
         return text
-    return _PLACEHOLDER.sub(lambda match: shortened(_format(facts.values.get(match[1])), MAX_VALUE), text)
+    return _PLACEHOLDER.sub(
+        lambda match: shortened(_format(facts.values.get(match[1])), MAX_VALUE), text
+    )
 
 
 def _format(value: object) -> str:
@@ -363,12 +486,17 @@ def _format(value: object) -> str:
 
 def _if_begun(found: Finding) -> Finding:
     """A finding about what a pass does, if the input does not state that a command begins it."""
-    note = "the input does not state whether a command begins this render pass, or it only serves to create pipelines"
+    note = (
+        "the input does not state whether a command begins this render pass, or it only serves "
+        "to create pipelines"
+    )
     return found._replace(confidence=CONFIDENCES[0], notes=(*found.notes, note))
 
 
 def _without_superseded(fired: list[tuple[Rule, Finding]]) -> list[Finding]:
-    """The findings of one subject without those that a more specific one supersedes, which says so in a note."""
+    """The findings of one subject without those that a more specific one supersedes, which says so
+    in a note.
+    """
     if len(fired) < 2:
         return [found for _, found in fired]
     by_name = {rule.name: found for rule, found in fired}
@@ -376,14 +504,19 @@ def _without_superseded(fired: list[tuple[Rule, Finding]]) -> list[Finding]:
     findings = []
     for rule, found in fired:
         if rule.name not in superseded:
-            others = sorted((by_name[name] for name in {*rule.supersedes} if name in by_name), key=lambda other: other.code)
+            others = sorted(
+                (by_name[name] for name in {*rule.supersedes} if name in by_name),
+                key=lambda other: other.code,
+            )
             notes = tuple(f"covers {other.rule} ({other.code}) too" for other in others)
             findings.append(found._replace(notes=(*found.notes, *notes)) if notes else found)
     return findings
 
 
 def distinct(findings: Iterable[Finding]) -> list[Finding]:
-    """The first of the findings with the same code, location and message: a structure that two subjects share is one mistake."""
+    """The first of the findings with the same code, location and message: a structure that two
+    subjects share is one mistake.
+    """
     by_key: dict[Key, Finding] = {}
     for found in findings:
         by_key.setdefault(finding_key(found), found)

@@ -1,11 +1,13 @@
 """Finds and reads the configuration that applies to a file, and the files that it extends.
 
-The nearest folder upward with a `msaa-lint.toml`, or a `pyproject.toml` with `[tool.msaa-lint]`, applies; in a folder with both, the
-former. Configurations of outer folders are not merged in. `extends` names another file of the same project: its keys are the defaults of
-the file that extends it, and the tables `severity`, `limits` and `per-file-ignores` are merged key by key.
+The nearest folder upward with a `msaa-lint.toml`, or a `pyproject.toml` with `[tool.msaa-lint]`,
+applies; in a folder with both, the former. Configurations of outer folders are not merged in.
+`extends` names another file of the same project: its keys are the defaults of the file that extends
+it, and the tables `severity`, `limits` and `per-file-ignores` are merged key by key.
 
-A configuration may come from an untrusted branch. The files that it names (`extends`, `rules`, `baseline`, `profile`) must be in its
-project (`project.project_root`), and so must the file itself unless the user named it.
+A configuration may come from an untrusted branch. The files that it names (`extends`, `rules`,
+`baseline`, `profile`) must be in its project (`project.project_root`), and so must the file itself
+unless the user named it.
 """
 
 from __future__ import annotations
@@ -39,7 +41,8 @@ _TABLE = r"""(?m)^[ \t]*\[?[ \t]*["']?tool["']?[ \t]*(?:\.[ \t]*["']?msaa-lint|\
 class Loaded(NamedTuple):
     """The settings of a configuration file without its invalid values.
 
-    `path` is absolute, None without a file. `findings` are the problems of the file, `sources` the texts they point into, by name.
+    `path` is absolute, None without a file. `findings` are the problems of the file, `sources` the
+    texts they point into, by name.
     """
 
     settings: Settings
@@ -51,7 +54,8 @@ class Loaded(NamedTuple):
 class Configurations:
     """The configuration files of one run. Each folder is searched once and each file is read once.
 
-    `explicit`, or else MSAA_LINT_CONFIG, is the path of the only configuration file to use; `isolated` uses none.
+    `explicit`, or else MSAA_LINT_CONFIG, is the path of the only configuration file to use;
+    `isolated` uses none.
     """
 
     def __init__(self, explicit: str | None = None, isolated: bool = False) -> None:
@@ -65,7 +69,9 @@ class Configurations:
             self._only = _read_named(os.path.abspath(path))
 
     def load(self, path: str) -> Loaded:
-        """The configuration that applies to a file or folder; that of the current folder to a URL."""
+        """The configuration that applies to a file or folder; that of the current folder to a
+        URL.
+        """
         if self._only is not None:
             return self._only
         start = os.path.abspath(os.curdir if is_url(path) else path)
@@ -84,7 +90,9 @@ class Configurations:
         return loaded or self._default
 
     def candidates(self, path: str) -> Iterator[str]:
-        """The files of its project that apply to a file or folder, or would in place of the one that does if they existed."""
+        """The files of its project that apply to a file or folder, or would in place of the one
+        that does if they existed.
+        """
         if self._only is not None:
             return
         start = os.path.abspath(path)
@@ -93,7 +101,11 @@ class Configurations:
         while True:
             yield from (os.path.join(folder, name) for name in NAMES)
             above = os.path.dirname(folder)
-            if above == folder or os.path.realpath(folder) == root or (applies is not None and folder == os.path.dirname(applies)):
+            if (
+                above == folder
+                or os.path.realpath(folder) == root
+                or (applies is not None and folder == os.path.dirname(applies))
+            ):
                 return
             folder = above
 
@@ -148,7 +160,9 @@ def _has_table(text: str, table: Mapping[str, Any] | Finding) -> bool:
 
 
 def _text(path: str, project: str | None) -> str | Finding:
-    """The text of a configuration file, or a finding that says why it cannot be read. `project` is None for one that the user named."""
+    """The text of a configuration file, or a finding that says why it cannot be read. `project` is
+    None for one that the user named.
+    """
     from msaa_lint.core.text.files import read
     from msaa_lint.core.text.source import decode
 
@@ -189,7 +203,9 @@ def _read(path: str, text: str, table: dict[str, Any] | Finding) -> Loaded:
         if isinstance(table, Finding):
             findings.append(table)
             break
-        origin = Origin(source, ("tool", "msaa-lint") if os.path.basename(current) == NAMES[1] else ())
+        origin = Origin(
+            source, ("tool", "msaa-lint") if os.path.basename(current) == NAMES[1] else ()
+        )
         keys = _tool(table).get("msaa-lint") if origin.table else table
         if not isinstance(keys, dict):
             message = (
@@ -207,7 +223,9 @@ def _read(path: str, text: str, table: dict[str, Any] | Finding) -> Loaded:
         if current is not None:
             extended = _text(current, root)
             if isinstance(extended, Finding):
-                findings.append(origin.finding(("extends",), f"{extended.message}: {shown(current)}"))
+                findings.append(
+                    origin.finding(("extends",), f"{extended.message}: {shown(current)}")
+                )
                 break
             text = extended
             table = parsed(text, shown(current))
@@ -222,7 +240,9 @@ def _extended(reader: TableReader, table: Mapping[str, Any], chain: list[str]) -
     if text is None:
         return None
     if not text.endswith(".toml"):
-        reader.problem(("extends",), f"{quoted(text)} is not a .toml file", "write a name that ends in .toml")
+        reader.problem(
+            ("extends",), f"{quoted(text)} is not a .toml file", "write a name that ends in .toml"
+        )
         return None
     path = reader.project_path(("extends",), text)
     if path is None:
@@ -234,14 +254,20 @@ def _extended(reader: TableReader, table: Mapping[str, Any], chain: list[str]) -
     elif len(chain) >= MAX_CHAIN:
         reader.problem(("extends",), f"chain of more than {MAX_CHAIN} files")
     elif not os.path.lexists(path):
-        reader.problem(("extends",), f"no such file {quoted(text)}", "write a path relative to the folder of the configuration")
+        reader.problem(
+            ("extends",),
+            f"no such file {quoted(text)}",
+            "write a path relative to the folder of the configuration",
+        )
     else:
         return path
     return None
 
 
 def _merged(layers: Sequence[tuple[dict[str, Any], Origin]], folder: str) -> Settings:
-    """The settings of a chain of files, from their values; a file comes before the one that it extends."""
+    """The settings of a chain of files, from their values; a file comes before the one that it
+    extends.
+    """
     values: dict[str, Any] = {}
     origins: dict[tuple[str, ...], Origin] = {}
     for layer, origin in reversed(layers):
@@ -254,4 +280,8 @@ def _merged(layers: Sequence[tuple[dict[str, Any], Origin]], folder: str) -> Set
                 values[key] = value
     if "per-file-ignores" in values:
         values["per-file-ignores"] = tuple(values["per-file-ignores"].values())
-    return Settings(**{key.replace("-", "_"): value for key, value in values.items()}, root=folder, origin=origins)
+    return Settings(
+        **{key.replace("-", "_"): value for key, value in values.items()},
+        root=folder,
+        origin=origins,
+    )

@@ -29,17 +29,27 @@ MAX_FINDINGS = 50
 """Of one file."""
 
 SELECTOR = re.compile(r"[A-Za-z][A-Za-z0-9-]{0,99}\Z")
-WEB_ADDRESS = re.compile(r"https?://[A-Za-z0-9][A-Za-z0-9.-]*(:[0-9]{1,5})?(/[A-Za-z0-9._~!$&'()*+,;=:@%-]*)*")
+WEB_ADDRESS = re.compile(
+    r"https?://[A-Za-z0-9][A-Za-z0-9.-]*(:[0-9]{1,5})?(/[A-Za-z0-9._~!$&'()*+,;=:@%-]*)*"
+)
 """Of a site or folder: no user name, query, or fragment, so that a page's path can follow it."""
 
 MAX_ADDRESS = 500
-_TYPE_NAMES = {str: "a string", bool: "a boolean", int: "a number", float: "a number", list: "a list", dict: "a table"}
+_TYPE_NAMES = {
+    str: "a string",
+    bool: "a boolean",
+    int: "a number",
+    float: "a number",
+    list: "a list",
+    dict: "a table",
+}
 
 Path = tuple[str | int, ...]
 
 
 class TableReader:
-    """Reads the table of one configuration file: valid values go to `values` by key, and problems to `findings`.
+    """Reads the table of one configuration file: valid values go to `values` by key, and problems
+    to `findings`.
 
     `root` is the folder that paths are relative to, and `project` the one that they must stay in.
     """
@@ -77,14 +87,23 @@ class TableReader:
             return
         hint = near_or_all(path[-1], known)
         if path == ("tool",) and not self.origin.table:
-            hint = "in this file the keys are at the top level, without [tool.msaa-lint]; remove that line"
-        self.findings.append(self.origin.finding(path, f"unknown key {quoted(path[-1])} in {where}: {hint}", at_key=True))
+            hint = (
+                "in this file the keys are at the top level, without [tool.msaa-lint]; remove "
+                "that line"
+            )
+        self.findings.append(
+            self.origin.finding(
+                path, f"unknown key {quoted(path[-1])} in {where}: {hint}", at_key=True
+            )
+        )
 
     def has_type(self, path: Path, value: object, type_: type, expected: str) -> bool:
         """Whether a value has a type; a boolean is not a number."""
         if isinstance(value, type_) and not (type_ is int and isinstance(value, bool)):
             return True
-        self.problem(path, f"expected {expected}, found {_TYPE_NAMES.get(type(value), 'a date or time')}")
+        self.problem(
+            path, f"expected {expected}, found {_TYPE_NAMES.get(type(value), 'a date or time')}"
+        )
         return False
 
     def string(self, path: Path, value: Any, expected: str) -> str | None:
@@ -101,14 +120,23 @@ class TableReader:
 
     def strings(self, path: Path, value: Any, expected: str) -> list[tuple[Path, str]] | None:
         """The strings of a list, each with its path."""
-        if not self.has_type(path, value, list, f"a list of {expected}s") or not self.at_most(path, len(value), MAX_ITEMS):
+        if not self.has_type(path, value, list, f"a list of {expected}s") or not self.at_most(
+            path, len(value), MAX_ITEMS
+        ):
             return None
         article = "an" if expected[0] in "aeiou" else "a"
-        items = [((*path, i), self.string((*path, i), item, f"{article} {expected}")) for i, item in enumerate(value)]
+        items = [
+            ((*path, i), self.string((*path, i), item, f"{article} {expected}"))
+            for i, item in enumerate(value)
+        ]
         return [(at, item) for at, item in items if item is not None]
 
-    def table(self, path: Path, value: Any, expected: str, limit: int = MAX_ITEMS) -> dict[str, Any]:
-        if not self.has_type(path, value, dict, expected) or not self.at_most(path, len(value), limit):
+    def table(
+        self, path: Path, value: Any, expected: str, limit: int = MAX_ITEMS
+    ) -> dict[str, Any]:
+        if not self.has_type(path, value, dict, expected) or not self.at_most(
+            path, len(value), limit
+        ):
             return {}
         return dict(value)
 
@@ -128,7 +156,11 @@ class TableReader:
 
     def selectors(self, path: Path, value: Any) -> tuple[str, ...] | None:
         items = self.strings(path, value, "rule")
-        return None if items is None else tuple(item for at, item in items if self.is_selector(at, item))
+        return (
+            None
+            if items is None
+            else tuple(item for at, item in items if self.is_selector(at, item))
+        )
 
     def is_selector(self, path: Path, item: str, at_key: bool = False) -> bool:
         if SELECTOR.match(item):
@@ -159,9 +191,17 @@ class TableReader:
         try:
             real_path(os.path.join(self.root, item), self.project)
         except Outside:
-            self.problem(path, f"{quoted(item)} is outside the project", "only the command line can name such a file")
+            self.problem(
+                path,
+                f"{quoted(item)} is outside the project",
+                "only the command line can name such a file",
+            )
         except OSError as error:
-            self.problem(path, f"{quoted(item)} cannot be read: {error}", "write a path relative to the folder of the configuration")
+            self.problem(
+                path,
+                f"{quoted(item)} cannot be read: {error}",
+                "write a path relative to the folder of the configuration",
+            )
         else:
             return os.path.normpath(os.path.join(self.root, item))
         return None
@@ -170,14 +210,21 @@ class TableReader:
         table = self.table(path, value, 'a table such as {MSAA2 = "note"}')
         words = (*LEVELS, "off")
         levels = {
-            name: self.word((*path, name), level, words) for name, level in table.items() if self.is_selector((*path, name), name, True)
+            name: self.word((*path, name), level, words)
+            for name, level in table.items()
+            if self.is_selector((*path, name), name, True)
         }
         return {name: level for name, level in levels.items() if level is not None}
 
     def per_file_ignores(self, path: Path, value: Any) -> dict[str, tuple[Glob, tuple[str, ...]]]:
         ignores: dict[str, tuple[Glob, tuple[str, ...]]] = {}
-        for name, rules in self.table(path, value, 'a table such as {"tests/**" = ["MSAA2"]}', MAX_GLOBS).items():
-            glob, selectors = self.glob((*path, name), name, True), self.selectors((*path, name), rules)
+        for name, rules in self.table(
+            path, value, 'a table such as {"tests/**" = ["MSAA2"]}', MAX_GLOBS
+        ).items():
+            glob, selectors = (
+                self.glob((*path, name), name, True),
+                self.selectors((*path, name), rules),
+            )
             if glob is not None and selectors is not None:
                 ignores[name] = (glob, selectors)
         return ignores
@@ -204,7 +251,9 @@ class TableReader:
     def profile(self, path: Path, value: Any) -> str | None:
         from msaa_lint.frame.devices.paths import is_path, split
 
-        text = self.string(path, value, "a device class, a device name, or the path of a device report")
+        text = self.string(
+            path, value, "a device class, a device name, or the path of a device report"
+        )
         if text is None or not is_path(text):
             return text
         report, device = split(text)
@@ -221,7 +270,11 @@ class TableReader:
             if full is not None and os.path.exists(full):
                 paths.append(full)
             elif full is not None:
-                self.problem(at, f"no such file or folder {quoted(item)}", "write a path relative to the folder of the configuration")
+                self.problem(
+                    at,
+                    f"no such file or folder {quoted(item)}",
+                    "write a path relative to the folder of the configuration",
+                )
         return tuple(paths)
 
     def baseline(self, path: Path, value: Any) -> str | None:
@@ -229,7 +282,9 @@ class TableReader:
         if text is None:
             return None
         if not text.endswith(".json"):
-            self.problem(path, f"{quoted(text)} is not a .json file", "write a name that ends in .json")
+            self.problem(
+                path, f"{quoted(text)} is not a .json file", "write a name that ends in .json"
+            )
             return None
         return self.project_path(path, text)
 
@@ -241,7 +296,10 @@ class TableReader:
         text = self.string(path, value, expected)
         if text is None or (len(text) <= MAX_ADDRESS and WEB_ADDRESS.fullmatch(text)):
             return text and text.rstrip("/")
-        hint = f"expected {expected}, of at most {MAX_ADDRESS} characters, without user name, query, and fragment; or an empty string"
+        hint = (
+            f"expected {expected}, of at most {MAX_ADDRESS} characters, without user name, "
+            f"query, and fragment; or an empty string"
+        )
         self.problem(path, f"{quoted(text)} is not an http or https address", hint)
         return None
 
@@ -252,32 +310,44 @@ class TableReader:
         limits = {}
         for name, number in self.table(path, value, "a table such as {depth = 50}").items():
             if name not in MAX_LIMITS:
-                self.unknown_key(("limits", name), list(MAX_LIMITS), f"`limits` of {self.origin.source.name}")
+                self.unknown_key(
+                    ("limits", name), list(MAX_LIMITS), f"`limits` of {self.origin.source.name}"
+                )
             elif self.has_type((*path, name), number, int, "an integer"):
                 if 1 <= number <= MAX_LIMITS[name]:
                     limits[name] = number
                 else:
                     # Python converts no integer of more than 4300 digits to decimal.
                     shown = f"`{number}`" if abs(number) < 1 << 64 else "a longer number"
-                    message = f"`{name}` must be an integer from 1 to {MAX_LIMITS[name]}, found {shown}"
-                    self.problem((*path, name), message, "a configuration file can only lower limits")
+                    message = (
+                        f"`{name}` must be an integer from 1 to {MAX_LIMITS[name]}, found {shown}"
+                    )
+                    self.problem(
+                        (*path, name), message, "a configuration file can only lower limits"
+                    )
         return limits
 
     def source(self, path: Path, value: Any) -> dict[str, bool | int | str] | None:
         """The table `[source]`, whose only key is `assume`."""
         assumptions: dict[str, bool | int | str] | None = None
-        for name, table in self.table(path, value, 'a table such as {assume = {"settings.samples" = 4}}').items():
+        for name, table in self.table(
+            path, value, 'a table such as {assume = {"settings.samples" = 4}}'
+        ).items():
             if name == "assume":
                 assumptions = self.assumptions((*path, name), table)
             else:
-                self.unknown_key(("source", name), ["assume"], f"`source` of {self.origin.source.name}")
+                self.unknown_key(
+                    ("source", name), ["assume"], f"`source` of {self.origin.source.name}"
+                )
         return assumptions
 
     def assumptions(self, path: Path, value: Any) -> dict[str, bool | int | str]:
         from msaa_lint.input.code.assumptions import problem_of, value_of
 
         assumptions: dict[str, bool | int | str] = {}
-        for name, entry in self.table(path, value, 'a table such as {"settings.samples" = 4}').items():
+        for name, entry in self.table(
+            path, value, 'a table such as {"settings.samples" = 4}'
+        ).items():
             is_scalar = isinstance(entry, (bool, int, str))
             text = str(entry).lower() if isinstance(entry, bool) else str(entry)[:200]
             stated = value_of(text) if is_scalar else None
@@ -285,7 +355,10 @@ class TableReader:
             problem = problem_of(known, stated, text)
             if problem or stated is None:
                 self.problem(
-                    (*path, name), problem, 'write a table such as {"settings.samples" = 4, ENGINE_MSAA = true}', "not a name" in problem
+                    (*path, name),
+                    problem,
+                    'write a table such as {"settings.samples" = 4, ENGINE_MSAA = true}',
+                    "not a name" in problem,
                 )
             else:
                 assumptions[known] = stated
@@ -298,7 +371,11 @@ class TableReader:
         outputs = []
         for at, item in items:
             if "=" in item:
-                self.problem(at, f"{quoted(item)} names a file", "only the command line can name output files")
+                self.problem(
+                    at,
+                    f"{quoted(item)} names a file",
+                    "only the command line can name output files",
+                )
             elif self.word(at, item, OUTPUT_FORMATS):
                 outputs.append(item)
         return tuple(outputs)

@@ -22,7 +22,9 @@ _NUMBER = re.compile(r"([0-9]{1,9}(?:\.[0-9]{1,6})?) ?")
 
 
 class Budget(NamedTuple):
-    """The limit of what fixes may save of one input, in MB/s read and written, MiB or mW (`unit`); `text` is the limit as written."""
+    """The limit of what fixes may save of one input, in MB/s read and written, MiB or mW (`unit`);
+    `text` is the limit as written.
+    """
 
     measures: str
     most: float
@@ -31,15 +33,24 @@ class Budget(NamedTuple):
 
 
 def budget(text: str, quantities: Sequence[str] = ("traffic", "memory", "power")) -> Budget:
-    """Parses a budget of one of the quantities. ValueError, with what to write, unless the text is a number above 0 and a unit."""
+    """Parses a budget of one of the quantities. ValueError, with what to write, unless the text is
+    a number above 0 and a unit.
+    """
     units = {unit: factor for unit, (quantity, factor) in UNITS.items() if quantity in quantities}
     number = _NUMBER.match(text)
     if number is None or float(number[1]) == 0:
-        raise ValueError(f"expected a number above 0 with one of the units {', '.join(units)}, as in 50{next(iter(units))}")
+        raise ValueError(
+            f"expected a number above 0 with one of the units {', '.join(units)}, as in "
+            f"50{next(iter(units))}"
+        )
     unit = text[number.end() :]
     if not unit:
         same = len(quantities) == 1
-        examples = [f"{float(number[1]) / factor:g}{unit}" for unit, factor in units.items() if same or factor == 1]
+        examples = [
+            f"{float(number[1]) / factor:g}{unit}"
+            for unit, factor in units.items()
+            if same or factor == 1
+        ]
         raise ValueError(f"a unit is missing; write {', '.join(examples[:-1])} or {examples[-1]}")
     if unit not in units:
         raise ValueError(f"unknown unit {quoted(unit)}; {near_or_all(unit, list(units))}")

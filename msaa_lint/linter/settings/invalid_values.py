@@ -12,7 +12,9 @@ from .settings import COMMAND_LINE, Settings
 
 
 def invalid_values(settings: Settings) -> list[Finding]:
-    """A finding for each setting with the right form that names nothing: an unknown edition or profile, a missing rule page."""
+    """A finding for each setting with the right form that names nothing: an unknown edition or
+    profile, a missing rule page.
+    """
     findings = []
     if settings.fail_on_cost is not None:
         from .cost_limit import budget
@@ -20,9 +22,15 @@ def invalid_values(settings: Settings) -> list[Finding]:
         try:
             budget(settings.fail_on_cost)
         except ValueError as error:
-            findings.append(settings.problem("fail-on-cost", f"invalid cost {quoted(settings.fail_on_cost)}", str(error)))
+            findings.append(
+                settings.problem(
+                    "fail-on-cost", f"invalid cost {quoted(settings.fail_on_cost)}", str(error)
+                )
+            )
     if settings.edition is not None and settings.edition not in EDITIONS:
-        message = f"unknown edition {quoted(settings.edition)}: expected one of {', '.join(EDITIONS)}"
+        message = (
+            f"unknown edition {quoted(settings.edition)}: expected one of {', '.join(EDITIONS)}"
+        )
         findings.append(settings.problem("edition", message))
     if settings.profile is not None:
         from msaa_lint.frame.profiles import Problem, profile_of
@@ -32,4 +40,7 @@ def invalid_values(settings: Settings) -> list[Finding]:
             findings.append(settings.problem("profile", profile.message, profile.help))
     # Those of a configuration are checked where it is read.
     missing = [quoted(os.path.relpath(path), 200) for path in settings.rules if not is_there(path)]
-    return findings + [diagnostic("MSAA921", f"no such file or folder {path} in `--rules`", COMMAND_LINE) for path in missing]
+    return findings + [
+        diagnostic("MSAA921", f"no such file or folder {path} in `--rules`", COMMAND_LINE)
+        for path in missing
+    ]

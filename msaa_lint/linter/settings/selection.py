@@ -1,8 +1,9 @@
 """Which rules are enabled for a file, and the severity of their findings.
 
-If two selectors name the same rule, the more specific one wins: a name or code, then a longer code prefix, then a shorter one, then ALL;
-between equals, `ignore` wins. The command line takes precedence over a file, and its `--select` replaces everything a file selects.
-`per-file-ignores` takes precedence over both.
+If two selectors name the same rule, the more specific one wins: a name or code, then a longer code
+prefix, then a shorter one, then ALL; between equals, `ignore` wins. The command line takes
+precedence over a file, and its `--select` replaces everything a file selects. `per-file-ignores`
+takes precedence over both.
 """
 
 from __future__ import annotations
@@ -18,17 +19,22 @@ from .selectors import EXACT, Named, Weighed, max_specificity, specificity
 from .settings import Settings
 
 ABOUT_TEXT = ("MSAA911", "MSAA912", "MSAA913", "MSAA915", HIDDEN_CHARACTER)
-"""Diagnostics of suppression comments and of characters: `select` leaves them enabled, everything else can disable them."""
+"""Diagnostics of suppression comments and of characters: `select` leaves them enabled, everything
+else can disable them.
+"""
 
 Severity = Callable[[Weighed, str, str | None], str | None]
-"""`severity(rule, suggested, vendor)`: the severity of a rule's finding in one file; None where the rule is off."""
+"""`severity(rule, suggested, vendor)`: the severity of a rule's finding in one file; None where the
+rule is off.
+"""
 
 
 class Selection:
     """The rules that one configuration enables.
 
-    A rule of an edition later than the pinned one is enabled only by its name or code. A user's own rules have no edition and are among
-    the defaults of every edition. 9xx errors are always enabled.
+    A rule of an edition later than the pinned one is enabled only by its name or code. A user's own
+    rules have no edition and are among the defaults of every edition. 9xx errors are always
+    enabled.
     """
 
     def __init__(self, settings: Settings, rules: Callable[[], Iterable[Weighed]]) -> None:
@@ -60,9 +66,17 @@ class Selection:
             return file is None or rule.code not in self._ignored_in(file)
         return rule.code in DIAGNOSTICS and DIAGNOSTICS[rule.code].severity == "error"
 
-    def severity(self, rule: Weighed, file: str | None = None, suggested: str | None = None) -> str | None:
-        """The severity of a rule's finding in a file; None if the rule is off. `suggested` is the rule's own severity in this case."""
-        return (self._severities.get(rule.code) or suggested or rule.severity) if self.enabled(rule, file) else None
+    def severity(
+        self, rule: Weighed, file: str | None = None, suggested: str | None = None
+    ) -> str | None:
+        """The severity of a rule's finding in a file; None if the rule is off. `suggested` is the
+        rule's own severity in this case.
+        """
+        return (
+            (self._severities.get(rule.code) or suggested or rule.severity)
+            if self.enabled(rule, file)
+            else None
+        )
 
     def names(self, file: str | None = None) -> frozenset[str]:
         """The names of the rules that are enabled for a file (None: for any file)."""
@@ -71,7 +85,8 @@ class Selection:
     def for_file(self, file: str, vendor: str | None = None) -> Severity:
         """The severities of one file, for the engine. `vendor` is that of the profile.
 
-        A rule about one vendor's devices gives a note if the device is not known to be that vendor's, unless a severity is configured.
+        A rule about one vendor's devices gives a note if the device is not known to be that
+        vendor's, unless a severity is configured.
         """
         shared = not self._settings.per_file_ignores
         if shared and vendor in self._for_all:
@@ -89,7 +104,9 @@ class Selection:
         return severity
 
     def settle(self, finding: Finding) -> Finding | None:
-        """A finding with the severity that is configured for it if it is in ABOUT_TEXT; None if that is off for its file."""
+        """A finding with the severity that is configured for it if it is in ABOUT_TEXT; None if
+        that is off for its file.
+        """
         if finding.code not in ABOUT_TEXT:
             return finding
         if not self.enabled(DIAGNOSTICS[finding.code], finding.file):
@@ -101,8 +118,15 @@ class Selection:
         if not self._settings.per_file_ignores:
             return frozenset()
         if file not in self._ignored:
-            selectors = [each for glob, ignored in self._settings.per_file_ignores if matches(file, glob) for each in ignored]
-            self._ignored[file] = frozenset(rule.code for rule in self._rules if max_specificity(selectors, rule))
+            selectors = [
+                each
+                for glob, ignored in self._settings.per_file_ignores
+                if matches(file, glob)
+                for each in ignored
+            ]
+            self._ignored[file] = frozenset(
+                rule.code for rule in self._rules if max_specificity(selectors, rule)
+            )
         return self._ignored[file]
 
 
@@ -111,7 +135,9 @@ def _edition(text: str) -> tuple[int, ...]:
 
 
 def _enabled(settings: Settings, rule: Named, later: bool, always: bool) -> tuple[bool, str | None]:
-    """Whether a configuration enables a rule, `per-file-ignores` aside, and the severity that it gives it."""
+    """Whether a configuration enables a rule, `per-file-ignores` aside, and the severity that it
+    gives it.
+    """
     choice = settings.command_line
     off, severity = _severity(settings.severity, rule)
     ignored = max(max_specificity(settings.ignore, rule), off)
@@ -127,7 +153,14 @@ def _enabled(settings: Settings, rule: Named, later: bool, always: bool) -> tupl
     return is_on, chosen_severity or severity
 
 
-def _is_selected(select: Iterable[str] | None, extend: Iterable[str], ignored: int, rule: Named, later: bool, always: bool) -> bool:
+def _is_selected(
+    select: Iterable[str] | None,
+    extend: Iterable[str],
+    ignored: int,
+    rule: Named,
+    later: bool,
+    always: bool,
+) -> bool:
     """Whether a rule is selected more specifically than it is ignored (0: not at all)."""
     selected = max(_specificity(select or (), rule, later), _specificity(extend, rule, later))
     by_default = not later if select is None else always
@@ -143,10 +176,13 @@ def _specificity(selectors: Iterable[str], rule: Named, later: bool) -> int:
 def _severity(severities: Mapping[str, str], rule: Named) -> tuple[int, str | None]:
     """How specifically a rule is turned off (0: it is not), and the severity it is given otherwise.
 
-    That is the severity of the most specific selector; if a name and a code disagree, the higher one.
+    That is the severity of the most specific selector; if a name and a code disagree, the higher
+    one.
     """
     selected = [(specificity(selector, rule), level) for selector, level in severities.items()]
-    levels = [(found, SEVERITIES.index(level)) for found, level in selected if found and level != "off"]
+    levels = [
+        (found, SEVERITIES.index(level)) for found, level in selected if found and level != "off"
+    ]
     off = max((found for found, level in selected if level == "off"), default=0)
     most_specific = max(levels, default=None)
     if most_specific is None:

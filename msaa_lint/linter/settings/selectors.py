@@ -42,14 +42,20 @@ class Weighed(Named, Protocol):
 
 
 def specificity(selector: str, rule: Named) -> int:
-    """How specifically a selector names a rule: EXACT for its name or code, the prefix length plus 1 for a code prefix, 1 for ALL, and
-    0 if it does not. A code prefix has all letters of the code: MSAA, MSAA2, but not MS."""
+    """How specifically a selector names a rule: EXACT for its name or code, the prefix length plus
+    1 for a code prefix, 1 for ALL, and 0 if it does not. A code prefix has all letters of the code:
+    MSAA, MSAA2, but not MS.
+    """
     if selector in (rule.code, rule.name):
         return EXACT
     if selector == ALL:
         return 1
     prefix = _PREFIX.match(selector)
-    if prefix is not None and rule.code.startswith(selector) and not rule.code[len(prefix[1]) : len(prefix[1]) + 1].isalpha():
+    if (
+        prefix is not None
+        and rule.code.startswith(selector)
+        and not rule.code[len(prefix[1]) : len(prefix[1]) + 1].isalpha()
+    ):
         return len(selector) + 1
     return 0
 
@@ -60,11 +66,15 @@ def max_specificity(selectors: Iterable[str], rule: Named) -> int:
 
 
 class RuleNames:
-    """The names and codes of rules, to find unknown selectors and suggest the intended ones. A rule with a broken page may have no code."""
+    """The names and codes of rules, to find unknown selectors and suggest the intended ones. A rule
+    with a broken page may have no code.
+    """
 
     def __init__(self, rules: Iterable[Named]) -> None:
         self.rules: list[Named] = [*rules, *DIAGNOSTICS.values()]
-        self.by_word = {word: rule for rule in self.rules for word in (rule.name, rule.code) if word}
+        self.by_word = {
+            word: rule for rule in self.rules for word in (rule.name, rule.code) if word
+        }
         self.suggestions = Suggestions(self.by_word)
         self._code_missing = not all(rule.code for rule in self.rules)
 
@@ -74,11 +84,17 @@ class RuleNames:
 
     def selects_any(self, selector: str) -> bool:
         """Whether a selector names at least one rule, or may name one."""
-        return selector in self.by_word or self.may_be_missing(selector) or any(specificity(selector, rule) for rule in self.rules)
+        return (
+            selector in self.by_word
+            or self.may_be_missing(selector)
+            or any(specificity(selector, rule) for rule in self.rules)
+        )
 
 
 def unknown_selectors(settings: Settings, rules: Callable[[], Iterable[Named]]) -> list[Finding]:
-    """A finding for each selector that names no rule, at its place in the configuration file if it has one."""
+    """A finding for each selector that names no rule, at its place in the configuration file if it
+    has one.
+    """
     uses = list(_uses(settings))
     if not uses:
         return []
@@ -100,20 +116,35 @@ def unknown_selectors(settings: Settings, rules: Callable[[], Iterable[Named]]) 
 
 
 def _uses(settings: Settings) -> Iterator[tuple[str, str, tuple[str | int, ...], Origin | None]]:
-    """The selectors, each with the key that has it, its path in the file, and the file; None for the command line."""
+    """The selectors, each with the key that has it, its path in the file, and the file; None for
+    the command line.
+    """
     lists: dict[tuple[str, ...], Sequence[str]] = {
         ("select",): settings.select or (),
         ("extend-select",): settings.extend_select,
         ("ignore",): settings.ignore,
-        **{("per-file-ignores", glob.pattern): selectors for glob, selectors in settings.per_file_ignores},
+        **{
+            ("per-file-ignores", glob.pattern): selectors
+            for glob, selectors in settings.per_file_ignores
+        },
     }
     for path, selectors in lists.items():
         for i, selector in enumerate(selectors):
             yield selector, path[0], (*path, i), settings.origin.get(path)
     for selector in settings.severity:
-        yield selector, "severity", ("severity", selector), settings.origin.get(("severity", selector))
+        yield (
+            selector,
+            "severity",
+            ("severity", selector),
+            settings.origin.get(("severity", selector)),
+        )
     choice = settings.command_line
-    by_option = {"select": choice.select or (), "extend-select": choice.extend_select, "ignore": choice.ignore, "severity": choice.severity}
+    by_option = {
+        "select": choice.select or (),
+        "extend-select": choice.extend_select,
+        "ignore": choice.ignore,
+        "severity": choice.severity,
+    }
     for key, selected in by_option.items():
         for selector in selected:
             yield selector, f"--{key}", (), None

@@ -1,4 +1,6 @@
-"""Parses TOML with tomllib, and finds the locations of its keys and values, which tomllib does not give."""
+"""Parses TOML with tomllib, and finds the locations of its keys and values, which tomllib does not
+give.
+"""
 
 from __future__ import annotations
 
@@ -11,7 +13,9 @@ from msaa_lint.core.finding import Finding
 from msaa_lint.core.text.span import Span
 
 MAX_DOTS = 4_000_000
-"""The limit on the sum of the squared number of dots of all lines: tomllib takes quadratic time for a dotted key."""
+"""The limit on the sum of the squared number of dots of all lines: tomllib takes quadratic time for
+a dotted key.
+"""
 _AT = re.compile(r" \(at (?:line (\d+), column (\d+)|end of document)\)\Z")
 
 _BLANK = re.compile(r"(?:[ \t\r\n]+|#[^\n]*)*")
@@ -29,7 +33,9 @@ _STEP = re.compile(r"[ \t]*\.[ \t]*")
 
 
 class Location(NamedTuple):
-    """The locations of a key and its value. Both are the element for array elements, and the last name of the header for tables."""
+    """The locations of a key and its value. Both are the element for array elements, and the last
+    name of the header for tables.
+    """
 
     key: Span
     value: Span
@@ -53,7 +59,9 @@ def parsed(text: str, name: str) -> dict[str, Any] | Finding:
         start = len(text)
         if at is not None and at[1]:
             lines = text.split("\n")
-            start = min(len(text), sum(len(line) + 1 for line in lines[: int(at[1]) - 1]) + int(at[2]) - 1)
+            start = min(
+                len(text), sum(len(line) + 1 for line in lines[: int(at[1]) - 1]) + int(at[2]) - 1
+            )
         from .toml_errors import mistake
 
         message, span = mistake(text, start, str(error))
@@ -62,9 +70,11 @@ def parsed(text: str, name: str) -> dict[str, Any] | Finding:
 
 @lru_cache(maxsize=4)
 def places(text: str) -> dict[Path, Location]:
-    """The first location of each key by its path, with the index for array elements. Arrays of tables are treated as tables.
+    """The first location of each key by its path, with the index for array elements. Arrays of
+    tables are treated as tables.
 
-    The text must be one that tomllib accepts: nothing is validated here, and the search stops at what it does not understand.
+    The text must be one that tomllib accepts: nothing is validated here, and the search stops at
+    what it does not understand.
     """
     found: dict[Path, Location] = {}
     table: Path = ()
@@ -118,7 +128,14 @@ def places(text: str) -> dict[Path, Location]:
             return found
 
 
-def _value(text: str, at: int, path: Path, key: Span | None, found: dict[Path, Location], open_: list[tuple[Path, Span, int, int]]) -> int:
+def _value(
+    text: str,
+    at: int,
+    path: Path,
+    key: Span | None,
+    found: dict[Path, Location],
+    open_: list[tuple[Path, Span, int, int]],
+) -> int:
     """Reads a scalar, or opens an array or an inline table. Returns the offset after it, or -1."""
     if text[at : at + 1] in ("[", "{"):
         open_.append((path, key or Span(at, at + 1), at, 0 if text[at] == "[" else -1))

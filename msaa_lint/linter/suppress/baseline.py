@@ -1,8 +1,9 @@
 """The baseline: the findings that a project accepts for now, as counts by file and rule.
 
-It is a JSON file, `{"schema": "msaa-lint/baseline-v1", "entries": {file: {rule: count}}}`, sorted so that diffs are small. Files are
-relative to its folder. Up to `count` findings are suppressed; if there are more, all of them are reported, since nothing says which are
-new. 9xx errors are never counted.
+It is a JSON file, `{"schema": "msaa-lint/baseline-v1", "entries": {file: {rule: count}}}`, sorted
+so that diffs are small. Files are relative to its folder. Up to `count` findings are suppressed; if
+there are more, all of them are reported, since nothing says which are new. 9xx errors are never
+counted.
 """
 
 from __future__ import annotations
@@ -28,7 +29,9 @@ Counts = Mapping[str, Mapping[str, int]]
 
 
 class Baseline(NamedTuple):
-    """The accepted findings. `root` is the absolute path of the folder that files are relative to."""
+    """The accepted findings. `root` is the absolute path of the folder that files are relative
+    to.
+    """
 
     entries: Counts
     root: str
@@ -51,11 +54,16 @@ class Stale(NamedTuple):
 
     def __str__(self) -> str:
         verb = "is" if self.reported == 1 else "are"
-        return f"the baseline counts {self.counted} of {self.rule} in {self.file}, but there {verb} {self.reported}"
+        return (
+            f"the baseline counts {self.counted} of {self.rule} in {self.file}, but there "
+            f"{verb} {self.reported}"
+        )
 
 
 def load(path: str, project: str | None) -> Baseline | Refused:
-    """The baseline at a path, or its problems (MSAA921). `project` is None for a path of the command line."""
+    """The baseline at a path, or its problems (MSAA921). `project` is None for a path of the
+    command line.
+    """
     from msaa_lint.core.text.files import read
     from msaa_lint.core.text.source import Source, decode
 
@@ -63,9 +71,26 @@ def load(path: str, project: str | None) -> Baseline | Refused:
     try:
         source = Source(name, decode(read(path, MAX_BYTES, project)))
     except Outside as error:
-        return Refused((diagnostic("MSAA921", f"cannot read the baseline: {error}; only the command line can name such a file", name),))
+        return Refused(
+            (
+                diagnostic(
+                    "MSAA921",
+                    f"cannot read the baseline: {error}; only the command line can name such a "
+                    f"file",
+                    name,
+                ),
+            )
+        )
     except FileNotFoundError:
-        return Refused((diagnostic("MSAA921", f"no such baseline {quoted(name)}: `msaa-lint baseline` writes one", name),))
+        return Refused(
+            (
+                diagnostic(
+                    "MSAA921",
+                    f"no such baseline {quoted(name)}: `msaa-lint baseline` writes one",
+                    name,
+                ),
+            )
+        )
     except (OSError, ValueError) as error:
         reason = (error.strerror if isinstance(error, OSError) else None) or str(error)
         return Refused((diagnostic("MSAA921", f"cannot read the baseline: {reason}", name),))
@@ -77,14 +102,20 @@ def load(path: str, project: str | None) -> Baseline | Refused:
     return Baseline(entries, os.path.abspath(folder_of(path)))
 
 
-def apply(findings: Iterable[Finding], baseline: Baseline) -> tuple[list[Finding], list[Suppressed]]:
-    """The findings that the baseline does not count, and those that it suppresses. All findings of a file must be passed together."""
+def apply(
+    findings: Iterable[Finding], baseline: Baseline
+) -> tuple[list[Finding], list[Suppressed]]:
+    """The findings that the baseline does not count, and those that it suppresses. All findings of
+    a file must be passed together.
+    """
     findings = list(findings)
     counts = _counts(findings, baseline.root)
     remaining, suppressed = [], []
     for found in findings:
         key = _key(found.file, baseline.root)
-        if found.fatal or counts[key][found.rule] > baseline.entries.get(key, {}).get(found.rule, 0):
+        if found.fatal or counts[key][found.rule] > baseline.entries.get(key, {}).get(
+            found.rule, 0
+        ):
             remaining.append(found)
         else:
             suppressed.append(Suppressed(found, "baseline"))
@@ -92,12 +123,16 @@ def apply(findings: Iterable[Finding], baseline: Baseline) -> tuple[list[Finding
 
 
 def stale(
-    baseline: Baseline, findings: Iterable[Finding], files: Collection[str] | None = None, rules: Collection[str] | None = None
+    baseline: Baseline,
+    findings: Iterable[Finding],
+    files: Collection[str] | None = None,
+    rules: Collection[str] | None = None,
 ) -> list[Stale]:
     """The entries that count more than the given findings, sorted by file and rule.
 
-    `files` are the linted files and `rules` the names of the enabled rules (None: all): only their entries can be stale, and those of
-    files that no longer exist. Entries of a file with a 9xx error cannot, since no rule ran on it.
+    `files` are the linted files and `rules` the names of the enabled rules (None: all): only their
+    entries can be stale, and those of files that no longer exist. Entries of a file with a 9xx
+    error cannot, since no rule ran on it.
     """
     broken: set[str] = set()
     counts = _counts(findings, baseline.root, broken)
@@ -120,7 +155,9 @@ def stale(
 
 
 class _Existing:
-    """Looks up which files of a baseline exist, in its project only: a baseline has no say in where else to look."""
+    """Looks up which files of a baseline exist, in its project only: a baseline has no say in where
+    else to look.
+    """
 
     def __init__(self, root: str) -> None:
         self.root = root
@@ -139,17 +176,30 @@ class _Existing:
 
 
 def build(findings: Iterable[Finding], root: str | None = None) -> Baseline:
-    """The baseline that suppresses these findings, with files relative to `root` (None: the current folder)."""
+    """The baseline that suppresses these findings, with files relative to `root` (None: the current
+    folder).
+    """
     base = os.path.abspath(root or os.curdir)
     return Baseline(_counts(findings, base), base)
 
 
 def prune(
-    baseline: Baseline, findings: Iterable[Finding], files: Collection[str] | None = None, rules: Collection[str] | None = None
+    baseline: Baseline,
+    findings: Iterable[Finding],
+    files: Collection[str] | None = None,
+    rules: Collection[str] | None = None,
 ) -> Baseline:
-    """The baseline with its stale entries lowered to what was reported, and nothing added. The arguments are those of `stale`."""
-    lowered = {(entry.file, entry.rule): entry.reported for entry in stale(baseline, findings, files, rules)}
-    counts = {file: {rule: lowered.get((file, rule), n) for rule, n in rules.items()} for file, rules in baseline.entries.items()}
+    """The baseline with its stale entries lowered to what was reported, and nothing added. The
+    arguments are those of `stale`.
+    """
+    lowered = {
+        (entry.file, entry.rule): entry.reported
+        for entry in stale(baseline, findings, files, rules)
+    }
+    counts = {
+        file: {rule: lowered.get((file, rule), n) for rule, n in rules.items()}
+        for file, rules in baseline.entries.items()
+    }
     entries = {file: {rule: n for rule, n in rules.items() if n} for file, rules in counts.items()}
     return Baseline({file: rules for file, rules in entries.items() if rules}, baseline.root)
 
@@ -163,7 +213,9 @@ def dump(baseline: Baseline) -> str:
 
 
 def save(baseline: Baseline, path: str, force: bool = True) -> None:
-    """Writes a baseline atomically; over a file that msaa-lint did not write only if `force` is true. Raises OSError."""
+    """Writes a baseline atomically; over a file that msaa-lint did not write only if `force` is
+    true. Raises OSError.
+    """
     from msaa_lint.core.atomic_write import write_file
     from msaa_lint.input.content import is_own_output
 
@@ -171,7 +223,9 @@ def save(baseline: Baseline, path: str, force: bool = True) -> None:
 
 
 def _key(file: str, root: str) -> str:
-    """A finding's file as the baseline names it; `<stdin>` and other names that are not paths stay as they are, as URLs do."""
+    """A finding's file as the baseline names it; `<stdin>` and other names that are not paths stay
+    as they are, as URLs do.
+    """
     if file == "-" or file.startswith("<") or is_url(file):
         return file
     try:
@@ -180,7 +234,9 @@ def _key(file: str, root: str) -> str:
         return file
 
 
-def _counts(findings: Iterable[Finding], root: str, broken: set[str] | None = None) -> dict[str, dict[str, int]]:
+def _counts(
+    findings: Iterable[Finding], root: str, broken: set[str] | None = None
+) -> dict[str, dict[str, int]]:
     """The number of findings by file and rule; adds the files with a 9xx error to `broken`."""
     counts: dict[str, dict[str, int]] = {}
     for found in findings:

@@ -25,11 +25,17 @@ def read_entries(source: Source, schema: str) -> tuple[dict[str, dict[str, int]]
 
     def problem(path: tuple[str, ...], message: str) -> None:
         if len(findings) < MAX_FINDINGS:
-            findings.append(diagnostic("MSAA921", f"invalid baseline: {message}", source.name, _location(source, path)))
+            findings.append(
+                diagnostic(
+                    "MSAA921", f"invalid baseline: {message}", source.name, _location(source, path)
+                )
+            )
 
     files = value.get("entries") if isinstance(value, dict) else None
     if not isinstance(value, dict):
-        problem((), "expected an object with `schema` and `entries`; `msaa-lint baseline` writes one")
+        problem(
+            (), "expected an object with `schema` and `entries`; `msaa-lint baseline` writes one"
+        )
     elif value.get("schema") != schema:
         problem(("schema",), f'expected the schema "{schema}"')
     elif not isinstance(files, dict):
@@ -42,11 +48,16 @@ def read_entries(source: Source, schema: str) -> tuple[dict[str, dict[str, int]]
             problem((key,), f"unknown key {quoted(key)}: expected `schema` and `entries`")
     for file, rules in files.items():
         if not isinstance(rules, dict):
-            problem(("entries", file), f"{quoted(file)} must be an object with a count for each rule")
+            problem(
+                ("entries", file), f"{quoted(file)} must be an object with a count for each rule"
+            )
             continue
         for rule, count in rules.items():
             if not isinstance(count, int) or isinstance(count, bool) or not 1 <= count < MAX_COUNT:
-                message = f"the count of {quoted(rule)} in {quoted(file)} must be an integer from 1 to {MAX_COUNT - 1}"
+                message = (
+                    f"the count of {quoted(rule)} in {quoted(file)} must be an integer from "
+                    f"1 to {MAX_COUNT - 1}"
+                )
                 problem(("entries", file, rule), message)
     return files, findings
 
@@ -71,16 +82,24 @@ def _parse(source: Source) -> Any:
 
         problem = json_problem(source.text, error.pos)
         return diagnostic(
-            "MSAA921", f"invalid baseline: not valid JSON: {problem.message}", source.name, problem.span, labels=problem.labels
+            "MSAA921",
+            f"invalid baseline: not valid JSON: {problem.message}",
+            source.name,
+            problem.span,
+            labels=problem.labels,
         )
     except RecursionError:
         return diagnostic("MSAA921", "invalid baseline: nested too deeply", source.name)
     except ValueError as error:
-        return diagnostic("MSAA921", f"invalid baseline: {str(error)[:200]}; remove one of the two", source.name)
+        return diagnostic(
+            "MSAA921", f"invalid baseline: {str(error)[:200]}; remove one of the two", source.name
+        )
 
 
 def _location(source: Source, path: tuple[str, ...]) -> Span | None:
-    """The span of a value or of the nearest value around it, from the parser of descriptions, which reads JSON too."""
+    """The span of a value or of the nearest value around it, from the parser of descriptions, which
+    reads JSON too.
+    """
     from msaa_lint.core.text.tree import Limits, parse
 
     parsed = parse(source, Limits())

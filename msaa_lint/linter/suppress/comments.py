@@ -1,4 +1,6 @@
-"""Reads suppression comments: the rules they name, the lines they apply to, and the edits that remove them."""
+"""Reads suppression comments: the rules they name, the lines they apply to, and the edits that
+remove them.
+"""
 
 from __future__ import annotations
 
@@ -32,11 +34,14 @@ class Entry(NamedTuple):
 
 
 MAX_ENTRIES = 100_000
-"""Maximum number of rules that the suppressions of a file name; each takes almost a kilobyte of memory."""
+"""Maximum number of rules that the suppressions of a file name; each takes almost a kilobyte of
+memory.
+"""
 
 
 class Directive(NamedTuple):
-    """One `ignore[...]` with the rules it names, the line that it applies to (None: the whole file), its reason and its location.
+    """One `ignore[...]` with the rules it names, the line that it applies to (None: the whole
+    file), its reason and its location.
 
     `removal` is the span to delete to remove it.
     """
@@ -54,10 +59,17 @@ class Report(Protocol):
     def __call__(self, code: str, message: str, span: Span) -> None: ...
 
 
-def read(comments: Iterable[Comment], source: Source, report: Report, comment_lines: Collection[int] | None = None) -> list[Directive]:
-    """The suppressions in comments, in order of location; comments that only look like one are reported.
+def read(
+    comments: Iterable[Comment],
+    source: Source,
+    report: Report,
+    comment_lines: Collection[int] | None = None,
+) -> list[Directive]:
+    """The suppressions in comments, in order of location; comments that only look like one are
+    reported.
 
-    `comment_lines`, for source code, are the lines with nothing but comments; None for a text in which comments begin with `#`.
+    `comment_lines`, for source code, are the lines with nothing but comments; None for a text in
+    which comments begin with `#`.
     """
     directives: list[Directive] = []
     count = 0
@@ -76,7 +88,10 @@ def read(comments: Iterable[Comment], source: Source, report: Report, comment_li
                 continue
             count += len(directive.entries)
             if count > MAX_ENTRIES:
-                message = f"limit exceeded: suppressions name more than {MAX_ENTRIES:,} rules; this one and those after it are not read"
+                message = (
+                    f"limit exceeded: suppressions name more than {MAX_ENTRIES:,} rules; "
+                    f"this one and those after it are not read"
+                )
                 report("MSAA906", message, directive.span)
                 return directives
             directives.append(directive)
@@ -94,7 +109,9 @@ def removing(directive: Directive, entry: Entry, whole: bool) -> Edit:
 
 
 class _Lines:
-    """The line of the current comment, whether the comment is `alone` on it, and the line that it is `about`."""
+    """The line of the current comment, whether the comment is `alone` on it, and the line that it
+    is `about`.
+    """
 
     def __init__(self, source: Source, comment_lines: Collection[int] | None) -> None:
         self.source = source
@@ -107,7 +124,9 @@ class _Lines:
         self.suggestions = Suggestions(WORDS)
 
     def move_to(self, comment: Comment) -> None:
-        """Makes a comment the current one. One alone on its line is about the next line that is not a comment."""
+        """Makes a comment the current one. One alone on its line is about the next line that is not
+        a comment.
+        """
         self.line, column = self.source.position(comment.span.start)
         if self._comment_lines is not None:
             self.alone = self.line in self._comment_lines
@@ -140,7 +159,9 @@ class _Lines:
             at = 1
             while at <= self.source.line_count:
                 text = self.source.line(at).strip()
-                yaml = self._comment_lines is None and (text.startswith("%") or text == "---" or text.startswith("--- #"))
+                yaml = self._comment_lines is None and (
+                    text.startswith("%") or text == "---" or text.startswith("--- #")
+                )
                 if text and not yaml and not self._is_comment(at):
                     break
                 at += 1
@@ -148,12 +169,16 @@ class _Lines:
         return self.line < self._content
 
 
-def _read(comment: Comment, match: re.Match[str], start: int, end: int, lines: _Lines, report: Report) -> Directive | None:
+def _read(
+    comment: Comment, match: re.Match[str], start: int, end: int, lines: _Lines, report: Report
+) -> Directive | None:
     """The suppression of `match` in a comment, which extends from `start` to `end`."""
     base = comment.span.start
     rest = comment.text[match.end() : end]
     word = match[3].lower()
-    span = Span(base + match.start(), base + match.start() + len(comment.text[match.start() : end].rstrip()))
+    span = Span(
+        base + match.start(), base + match.start() + len(comment.text[match.start() : end].rstrip())
+    )
     if match[1].lower() != "msaa-lint" or match[2] is None:
         if rest.startswith("[") and word.startswith("i"):
             report("MSAA913", f"invalid suppression; {lines.example()}", span)
@@ -177,24 +202,41 @@ def _read(comment: Comment, match: re.Match[str], start: int, end: int, lines: _
         return None
     entries = _entries(rest[1:close], base + match.end() + 1)
     if not entries:
-        report("MSAA913", f"`{word}[]` names no rule; {lines.example(word)}", Span(span.start, base + match.end() + close + 1))
+        report(
+            "MSAA913",
+            f"`{word}[]` names no rule; {lines.example(word)}",
+            Span(span.start, base + match.end() + close + 1),
+        )
         return None
     line: int | None = lines.about
     if word == "ignore-file":
         if not (lines.alone and lines.at_top()):
-            message = "`ignore-file` has no effect here; move it to the comments at the top of the file, or write `ignore`"
+            message = (
+                "`ignore-file` has no effect here; move it to the comments at the top of the "
+                "file, or write `ignore`"
+            )
             report("MSAA911", message, span)
             return None
         line = None
     reason = rest[close + 1 :].strip().lstrip(_BEFORE_REASON)
     whole = lines.alone and start == 0 and end == len(comment.text)
-    return Directive(entries, line, reason, span, _removal(comment, start, end, whole, lines.source.text))
+    return Directive(
+        entries, line, reason, span, _removal(comment, start, end, whole, lines.source.text)
+    )
 
 
 def _unknown_word(match: re.Match[str], base: int, lines: _Lines, report: Report) -> None:
     close = lines.suggestions.nearest(match[3])
-    hint = f"did you mean `{close}`?" if close else "expected `ignore[rule-name]` or `ignore-file[rule-name]`"
-    span = Span(base + match.start(3), base + match.end(3)) if match[3] else Span(base + match.start(), base + match.end())
+    hint = (
+        f"did you mean `{close}`?"
+        if close
+        else "expected `ignore[rule-name]` or `ignore-file[rule-name]`"
+    )
+    span = (
+        Span(base + match.start(3), base + match.end(3))
+        if match[3]
+        else Span(base + match.start(), base + match.end())
+    )
     what = f"unknown word {quoted(match[3])}" if match[3] else "no word"
     report("MSAA913", f"{what} after `msaa-lint:`; {hint}", span)
 
@@ -212,7 +254,9 @@ def _entries(text: str, start: int) -> tuple[Entry, ...]:
 
 
 def _removal(comment: Comment, start: int, end: int, line: bool, text: str) -> Span:
-    """A suppression with the blanks before it, and with the end of its `line` if nothing else is on it."""
+    """A suppression with the blanks before it, and with the end of its `line` if nothing else is on
+    it.
+    """
     first, last = comment.span.start + start, comment.span.start + end
     if end < len(comment.text):
         return Span(first, last)

@@ -10,4 +10,13 @@ from .shape import Shape
 from .source import SHAPES as SOURCE
 from .source_projects import SHAPES as SOURCE_PROJECTS
 
-SHAPES: tuple[Shape, ...] = (*DESCRIPTIONS, *DESCRIPTION_TEXTS, *CAPTURES, *CAPTURE_TEXTS, *RULES, *SHADERS, *SOURCE, *SOURCE_PROJECTS)
+SHAPES: tuple[Shape, ...] = (
+    *DESCRIPTIONS,
+    *DESCRIPTION_TEXTS,
+    *CAPTURES,
+    *CAPTURE_TEXTS,
+    *RULES,
+    *SHADERS,
+    *SOURCE,
+    *SOURCE_PROJECTS,
+)

@@ -1,4 +1,6 @@
-"""Programs for `captures`: sets and passes that read them, secondary command buffers, and command buffers submitted again and again."""
+"""Programs for `captures`: sets and passes that read them, secondary command buffers, and command
+buffers submitted again and again.
+"""
 
 from __future__ import annotations
 
@@ -55,27 +57,53 @@ def passes_of_unknown_sets(program: Program, count: int) -> None:
 
 
 def layouts_of_pipelines(program: Program, count: int) -> None:
-    """Pipelines with one layout of many bindings, each drawn with a set that a template of as many entries writes."""
+    """Pipelines with one layout of many bindings, each drawn with a set that a template of as many
+    entries writes.
+    """
     target = Target(program)
     kind = "VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE"
     size = min(count, 4000)
-    bindings = [{"binding": each, "descriptorType": kind, "descriptorCount": 1, "stageFlags": 16} for each in range(size)]
-    program.call("vkCreateDescriptorSetLayout", device=2, pCreateInfo={"pBindings": bindings}, pSetLayout=70)
-    program.call("vkCreatePipelineLayout", device=2, pCreateInfo={"pSetLayouts": [70] * 8}, pPipelineLayout=71)
-    entries = [{"dstBinding": each, "descriptorType": kind, "descriptorCount": 1} for each in range(size)]
+    bindings = [
+        {"binding": each, "descriptorType": kind, "descriptorCount": 1, "stageFlags": 16}
+        for each in range(size)
+    ]
+    program.call(
+        "vkCreateDescriptorSetLayout", device=2, pCreateInfo={"pBindings": bindings}, pSetLayout=70
+    )
+    program.call(
+        "vkCreatePipelineLayout",
+        device=2,
+        pCreateInfo={"pSetLayouts": [70] * 8},
+        pPipelineLayout=71,
+    )
+    entries = [
+        {"dstBinding": each, "descriptorType": kind, "descriptorCount": 1} for each in range(size)
+    ]
     info = {"pDescriptorUpdateEntries": entries, "pipelineBindPoint": 0}
-    program.call("vkCreateDescriptorUpdateTemplate", device=2, pCreateInfo=info, pDescriptorUpdateTemplate=72)
+    program.call(
+        "vkCreateDescriptorUpdateTemplate", device=2, pCreateInfo=info, pDescriptorUpdateTemplate=72
+    )
     bound = program.descriptor_set()
     buffer = program.buffer()
     for number in range(count):
         image = program.image(samples=1, usage=COLOR | SAMPLED)
-        change = {"image": image, "oldLayout": "VK_IMAGE_LAYOUT_UNDEFINED", "newLayout": "VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL"}
+        change = {
+            "image": image,
+            "oldLayout": "VK_IMAGE_LAYOUT_UNDEFINED",
+            "newLayout": "VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL",
+        }
         program.call("vkCmdPipelineBarrier", commandBuffer=buffer, pImageMemoryBarriers=[change])
         pipeline = program.pipeline(target.render_pass)
         program.calls[-1][1]["pCreateInfos"][0]["layout"] = 71
         program.begin(buffer, target.render_pass, target.framebuffer)
         if number % 2:
-            program.call("vkUpdateDescriptorSetWithTemplate", device=2, descriptorSet=bound, descriptorUpdateTemplate=72, pData={})
+            program.call(
+                "vkUpdateDescriptorSetWithTemplate",
+                device=2,
+                descriptorSet=bound,
+                descriptorUpdateTemplate=72,
+                pData={},
+            )
             program.bind(buffer, bound)
         else:
             pushed = {"descriptorUpdateTemplate": 72, "layout": 71, "set": 0, "pData": {}}
@@ -91,9 +119,17 @@ def dispatches_of_sets(program: Program, count: int) -> None:
     for binding in range(count):
         program.write(bound, program.view(program.image(samples=1, usage=COLOR | SAMPLED)), binding)
     buffer = program.buffer()
-    program.call("vkCmdBindDescriptorSets", commandBuffer=buffer, pipelineBindPoint="COMPUTE", firstSet=0, pDescriptorSets=[bound])
+    program.call(
+        "vkCmdBindDescriptorSets",
+        commandBuffer=buffer,
+        pipelineBindPoint="COMPUTE",
+        firstSet=0,
+        pDescriptorSets=[bound],
+    )
     for _ in range(count):
-        program.call("vkCmdDispatch", commandBuffer=buffer, groupCountX=1, groupCountY=1, groupCountZ=1)
+        program.call(
+            "vkCmdDispatch", commandBuffer=buffer, groupCountX=1, groupCountY=1, groupCountZ=1
+        )
     pass_of(program, target, buffer)
     program.submit(buffer)
 
@@ -102,10 +138,16 @@ def set_copies(program: Program, count: int) -> None:
     """A set of many images, copied to as many sets."""
     source = program.descriptor_set()
     for binding in range(count):
-        program.write(source, program.view(program.image(samples=1, usage=COLOR | SAMPLED)), binding)
+        program.write(
+            source, program.view(program.image(samples=1, usage=COLOR | SAMPLED)), binding
+        )
     for _ in range(count):
         copied = program.descriptor_set()
-        program.call("vkUpdateDescriptorSets", device=2, pDescriptorCopies=[{"srcSet": source, "dstSet": copied, "descriptorCount": 1}])
+        program.call(
+            "vkUpdateDescriptorSets",
+            device=2,
+            pDescriptorCopies=[{"srcSet": source, "dstSet": copied, "descriptorCount": 1}],
+        )
 
 
 def pushed_sets(program: Program, count: int) -> None:
@@ -114,8 +156,13 @@ def pushed_sets(program: Program, count: int) -> None:
     buffer = program.buffer()
     for binding in range(count):
         view = program.view(program.image(samples=1, usage=COLOR | SAMPLED))
-        write = {"dstBinding": binding, "descriptorType": "VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE", "pImageInfo": [{"imageView": view}]}
-        program.call("vkCmdPushDescriptorSetKHR", commandBuffer=buffer, pipelineBindPoint="VK_PIPELINE_BIND_POINT_GRAPHICS", set=0,
+        write = {
+            "dstBinding": binding,
+            "descriptorType": "VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE",
+            "pImageInfo": [{"imageView": view}],
+        }
+        program.call("vkCmdPushDescriptorSetKHR", commandBuffer=buffer,
+        pipelineBindPoint="VK_PIPELINE_BIND_POINT_GRAPHICS", set=0,
                      pDescriptorWrites=[write])  # fmt: skip
         pass_of(program, target, buffer)
     program.submit(buffer)
@@ -130,7 +177,8 @@ def many_sets(program: Program, count: int) -> None:
     for slot in range(count):
         bound = program.descriptor_set()
         program.write(bound, view)
-        program.call("vkCmdBindDescriptorSets", commandBuffer=buffer, pipelineBindPoint="VK_PIPELINE_BIND_POINT_GRAPHICS", firstSet=slot,
+        program.call("vkCmdBindDescriptorSets", commandBuffer=buffer,
+        pipelineBindPoint="VK_PIPELINE_BIND_POINT_GRAPHICS", firstSet=slot,
                      pDescriptorSets=[bound])  # fmt: skip
         program.draw(buffer)
     program.end(buffer)
@@ -184,7 +232,13 @@ def submissions(program: Program, count: int) -> None:
     for _ in range(count):
         pass_of(program, target, buffer)
     for _ in range(count):
-        program.call("vkQueueSubmit", queue=5, submitCount=1, pSubmits=[{"pCommandBuffers": [buffer]}], fence=0)
+        program.call(
+            "vkQueueSubmit",
+            queue=5,
+            submitCount=1,
+            pSubmits=[{"pCommandBuffers": [buffer]}],
+            fence=0,
+        )
     program.present()
 
 
@@ -195,7 +249,13 @@ def submissions_as_frames(program: Program, count: int) -> None:
     for _ in range(count):
         pass_of(program, target, buffer)
     for _ in range(count):
-        program.call("vkQueueSubmit", queue=5, submitCount=1, pSubmits=[{"pCommandBuffers": [buffer]}], fence=0)
+        program.call(
+            "vkQueueSubmit",
+            queue=5,
+            submitCount=1,
+            pSubmits=[{"pCommandBuffers": [buffer]}],
+            fence=0,
+        )
 
 
 def one_pass_submissions(program: Program, count: int) -> None:
@@ -205,5 +265,11 @@ def one_pass_submissions(program: Program, count: int) -> None:
     pass_of(program, target, buffer)
     program.call("vkEndCommandBuffer", commandBuffer=buffer)
     for _ in range(count):
-        program.call("vkQueueSubmit", queue=5, submitCount=1, pSubmits=[{"pCommandBuffers": [buffer]}], fence=0)
+        program.call(
+            "vkQueueSubmit",
+            queue=5,
+            submitCount=1,
+            pSubmits=[{"pCommandBuffers": [buffer]}],
+            fence=0,
+        )
     program.present()

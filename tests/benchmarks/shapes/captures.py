@@ -1,4 +1,6 @@
-"""Captures: many frames, and many of what a frame has, in each format; calls that multiply what is executed."""
+"""Captures: many frames, and many of what a frame has, in each format; calls that multiply what is
+executed.
+"""
 
 from __future__ import annotations
 
@@ -31,10 +33,21 @@ from .capture_commands import (
 )
 from .shape import Shape
 
-NAMES = {"gfxreconstruct": "a.jsonl", "array": "a.json", "api_dump": "a.json", "renderdoc": "a.xml", "fossilize": "a.foz"}
+NAMES = {
+    "gfxreconstruct": "a.jsonl",
+    "array": "a.json",
+    "api_dump": "a.json",
+    "renderdoc": "a.xml",
+    "fossilize": "a.foz",
+}
 
 
-def shape(name: str, build: Callable[[Program, int], None], form: str = "gfxreconstruct", codes: tuple[int, ...] = (0, 1)) -> Shape:
+def shape(
+    name: str,
+    build: Callable[[Program, int], None],
+    form: str = "gfxreconstruct",
+    codes: tuple[int, ...] = (0, 1),
+) -> Shape:
     """A shape whose program makes the calls of a size."""
 
     def write(folder: Path, size: int) -> None:
@@ -82,15 +95,26 @@ def new_images(program: Program, count: int) -> None:
 
 
 def distinct_frames(program: Program, count: int) -> None:
-    """No two frames are of one kind: each has another number of passes, up to 64, and another render area."""
+    """No two frames are of one kind: each has another number of passes, up to 64, and another
+    render area.
+    """
     program.swap()
     target = Target(program)
     for number in range(count):
         buffer = program.buffer()
-        begin = {"renderPass": target.render_pass, "framebuffer": target.framebuffer, "clearValueCount": 1}
-        begin["renderArea"] = {"offset": {"x": 0, "y": 0}, "extent": {"width": 1 + number % 250, "height": 1 + number // 250}}  # type: ignore[assignment]
+        begin = {
+            "renderPass": target.render_pass,
+            "framebuffer": target.framebuffer,
+            "clearValueCount": 1,
+        }
+        begin["renderArea"] = {
+            "offset": {"x": 0, "y": 0},
+            "extent": {"width": 1 + number % 250, "height": 1 + number // 250},
+        }  # type: ignore[assignment]
         for _ in range(1 + number % 8):
-            program.call("vkCmdBeginRenderPass", commandBuffer=buffer, pRenderPassBegin=begin, contents=0)
+            program.call(
+                "vkCmdBeginRenderPass", commandBuffer=buffer, pRenderPassBegin=begin, contents=0
+            )
             program.draw(buffer)
             program.end(buffer)
         frame(program, buffer)
@@ -136,7 +160,11 @@ def resolves(program: Program, count: int) -> None:
     region = {"dstOffset": {"x": 0, "y": 0}, "extent": {"width": 256, "height": 128}}
     for _ in range(count):
         program.call(
-            "vkCmdResolveImage", commandBuffer=buffer, srcImage=program.image(), dstImage=program.image(samples=1), pRegions=[region]
+            "vkCmdResolveImage",
+            commandBuffer=buffer,
+            srcImage=program.image(),
+            dstImage=program.image(samples=1),
+            pRegions=[region],
         )
     frame(program, buffer)
 
@@ -159,7 +187,10 @@ def renderings(program: Program, count: int) -> None:
     program.swap()
     buffer = program.buffer()
     for _ in range(count):
-        program.rendering(buffer, [info(program.view(program.image()), resolve=program.view(program.image(samples=1)))])
+        program.rendering(
+            buffer,
+            [info(program.view(program.image()), resolve=program.view(program.image(samples=1)))],
+        )
         program.draw(buffer)
         program.end(buffer, rendering=True)
     frame(program, buffer)
@@ -173,9 +204,16 @@ def pipelines(program: Program, count: int) -> None:
     for number in range(count):
         program.call("vkCmdSetStencilReference", commandBuffer=buffer)
         pipeline = program.handle()
-        create_info = {"pMultisampleState": {"rasterizationSamples": 4, "minSampleShading": number / (1 << 20), "sampleShadingEnable": 1},
+        create_info = {"pMultisampleState": {"rasterizationSamples": 4,
+        "minSampleShading": number / (1 << 20), "sampleShadingEnable": 1},
                        "renderPass": target.render_pass}  # fmt: skip
-        program.call("vkCreateGraphicsPipelines", device=2, createInfoCount=1, pCreateInfos=[create_info], pPipelines=[pipeline])
+        program.call(
+            "vkCreateGraphicsPipelines",
+            device=2,
+            createInfoCount=1,
+            pCreateInfos=[create_info],
+            pPipelines=[pipeline],
+        )
         program.draw(buffer, pipeline)
     program.end(buffer)
     program.submit(buffer)
@@ -184,7 +222,9 @@ def pipelines(program: Program, count: int) -> None:
 def unused(program: Program, count: int) -> None:
     """Objects that no frame uses."""
     for number in range(count):
-        render_pass = program.render_pass([attachment()] * (1 + number % 8), color=range(1 + number % 8))
+        render_pass = program.render_pass(
+            [attachment()] * (1 + number % 8), color=range(1 + number % 8)
+        )
         view = program.view(program.image(layers=1 + number % 2000))
         program.framebuffer(render_pass, [view])
         program.pipeline(render_pass)
@@ -206,7 +246,11 @@ def labels(program: Program, count: int) -> None:
     target = Target(program)
     buffer = program.buffer()
     for number in range(count):
-        program.call("vkCmdBeginDebugUtilsLabelEXT", commandBuffer=buffer, pLabelInfo={"pLabelName": f"label {number}"})
+        program.call(
+            "vkCmdBeginDebugUtilsLabelEXT",
+            commandBuffer=buffer,
+            pLabelInfo={"pLabelName": f"label {number}"},
+        )
     pass_of(program, target, buffer)
     for _ in range(count):
         program.call("vkCmdEndDebugUtilsLabelEXT", commandBuffer=buffer)
@@ -218,8 +262,15 @@ def barriers(program: Program, count: int) -> None:
     other = program.image()
     buffer = program.buffer()
     for number in range(count):
-        barrier = {"srcAccessMask": 256, "dstAccessMask": 32, "oldLayout": 2, "newLayout": 5, "image": other}
-        program.call("vkCmdPipelineBarrier", commandBuffer=buffer, srcStageMask=1024, dstStageMask=128,
+        barrier = {
+            "srcAccessMask": 256,
+            "dstAccessMask": 32,
+            "oldLayout": 2,
+            "newLayout": 5,
+            "image": other,
+        }
+        program.call("vkCmdPipelineBarrier", commandBuffer=buffer, srcStageMask=1024,
+        dstStageMask=128,
                      pImageMemoryBarriers=[barrier] * (1 + number % 3))  # fmt: skip
     pass_of(program, target, buffer)
     program.submit(buffer)
@@ -232,7 +283,12 @@ def clears(program: Program, count: int) -> None:
     program.begin(buffer, target.render_pass, target.framebuffer)
     for number in range(count):
         rect = {"rect": {"offset": {"x": 0, "y": 0}, "extent": {"width": 1 + number, "height": 1}}}
-        program.call("vkCmdClearAttachments", commandBuffer=buffer, pAttachments=[{"aspectMask": 1, "colorAttachment": 0}], pRects=[rect])
+        program.call(
+            "vkCmdClearAttachments",
+            commandBuffer=buffer,
+            pAttachments=[{"aspectMask": 1, "colorAttachment": 0}],
+            pRects=[rect],
+        )
     program.end(buffer)
     program.submit(buffer)
 
@@ -241,10 +297,19 @@ def queries(program: Program, count: int) -> None:
     """A program that asks the device again and again, and makes many devices."""
     for number in range(count):
         program.call(
-            "vkGetPhysicalDeviceProperties", physicalDevice=1, pProperties={"limits": {"maxColorAttachments": 8}, "apiVersion": number}
+            "vkGetPhysicalDeviceProperties",
+            physicalDevice=1,
+            pProperties={"limits": {"maxColorAttachments": 8}, "apiVersion": number},
         )
-        program.call("vkGetPhysicalDeviceFeatures", physicalDevice=1, pFeatures={"sampleRateShading": 1})
-        program.call("vkCreateDevice", physicalDevice=1, pCreateInfo={"ppEnabledExtensionNames": ["VK_KHR_maintenance1"]}, pDevice=2)
+        program.call(
+            "vkGetPhysicalDeviceFeatures", physicalDevice=1, pFeatures={"sampleRateShading": 1}
+        )
+        program.call(
+            "vkCreateDevice",
+            physicalDevice=1,
+            pCreateInfo={"ppEnabledExtensionNames": ["VK_KHR_maintenance1"]},
+            pDevice=2,
+        )
     frames(program, 1)
 
 
@@ -276,14 +341,18 @@ def chained(program: Program, count: int) -> None:
 
 
 def layers_as_frames(program: Program, count: int) -> None:
-    """Submissions without presents, each to other layers of an image: one frame, and each again: another one."""
+    """Submissions without presents, each to other layers of an image: one frame, and each again:
+    another one.
+    """
     target = Target(program)
     for _ in range(2):
         for layer in range(count):
             view = program.view(target.image)
             program.calls[-1][1]["pCreateInfo"]["subresourceRange"]["baseArrayLayer"] = layer
             buffer = program.buffer()
-            program.begin(buffer, target.render_pass, program.framebuffer(target.render_pass, [view]))
+            program.begin(
+                buffer, target.render_pass, program.framebuffer(target.render_pass, [view])
+            )
             program.end(buffer)
             program.submit(buffer)
 
@@ -294,7 +363,11 @@ def labeled_frames(program: Program, count: int) -> None:
     buffer = program.buffer()
     for number in range(count):
         for text in ("Frame", f"Pass {number}"):
-            program.call("vkCmdBeginDebugUtilsLabelEXT", commandBuffer=buffer, pLabelInfo={"pLabelName": text})
+            program.call(
+                "vkCmdBeginDebugUtilsLabelEXT",
+                commandBuffer=buffer,
+                pLabelInfo={"pLabelName": text},
+            )
         pass_of(program, target, buffer)
         for _ in range(2):
             program.call("vkCmdEndDebugUtilsLabelEXT", commandBuffer=buffer)
@@ -349,8 +422,12 @@ LIMITED: dict[str, Callable[[Program, int], None]] = {
 SHAPES = (
     *(shape(name, build) for name, build in PROGRAMS.items()),
     *(shape(name, build, codes=(0, 1, 2)) for name, build in LIMITED.items()),
-    Shape("capture: frames of which no two are alike", never_alike, ("check", "--isolated", "a.jsonl")),
-    shape("labeled frames", labeled_frames)._replace(arguments=("check", "--isolated", "--frame-end=label:Frame", "a.jsonl")),
+    Shape(
+        "capture: frames of which no two are alike", never_alike, ("check", "--isolated", "a.jsonl")
+    ),
+    shape("labeled frames", labeled_frames)._replace(
+        arguments=("check", "--isolated", "--frame-end=label:Frame", "a.jsonl")
+    ),
     *(shape(f"frames, {form}", frames, form) for form in ("array", "api_dump", "renderdoc")),
     *(shape(f"objects, {form}", unused, form) for form in ("api_dump", "renderdoc", "fossilize")),
     *(shape(f"sets, {form}", passes_of_sets, form) for form in ("api_dump", "renderdoc")),

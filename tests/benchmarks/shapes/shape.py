@@ -16,7 +16,9 @@ class Shape(NamedTuple):
     arguments: Sequence[str] = ("check", "--isolated", ".")
     """Of the command, which runs in that folder."""
     codes: Sequence[int] = (0, 1)
-    """Exit codes of a run that did its work; 2 belongs to shapes that a stated limit ends, or whose input is wrong."""
+    """Exit codes of a run that did its work; 2 belongs to shapes that a stated limit ends, or whose
+    input is wrong.
+    """
     most: int = 1 << 20
     """No size above this is measured."""
 

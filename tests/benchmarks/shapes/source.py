@@ -1,4 +1,6 @@
-"""Source code: what GLSL, Swift, and Objective-C have many of, and how it can nest. C and C++ are in `source_c`."""
+"""Source code: what GLSL, Swift, and Objective-C have many of, and how it can nest. C and C++ are
+in `source_c`.
+"""
 
 from __future__ import annotations
 
@@ -30,7 +32,10 @@ def glsl(name: str, content: Callable[[int], str]) -> Shape:
 
 def swift(name: str, body: Callable[[int], str]) -> Shape:
     def content(count: int) -> str:
-        head = "import Metal\nclass Renderer {\n    var sampleCount = 4\n    func setup(device: MTLDevice, on: Bool) {\n"
+        head = (
+            "import Metal\nclass Renderer {\n    var sampleCount = 4\n    func setup(device: "
+            "MTLDevice, on: Bool) {\n"
+        )
         return f"{head}{body(count)}    }}\n}}\n"
 
     return code(f"Swift: {name}", "a.swift", content)
@@ -46,7 +51,10 @@ OBJC_TEXTURE = """\
 
 def objc(name: str, body: Callable[[int], str]) -> Shape:
     def content(count: int) -> str:
-        head = "#import <Metal/Metal.h>\n@implementation Renderer\n- (void)make:(id<MTLDevice>)device on:(BOOL)on {\n"
+        head = (
+            "#import <Metal/Metal.h>\n@implementation Renderer\n- "
+            "(void)make:(id<MTLDevice>)device on:(BOOL)on {\n"
+        )
         return f"{head}{body(count)}}}\n@end\n"
 
     return code(f"Objective-C: {name}", "a.m", content)
@@ -65,7 +73,9 @@ def objc_nested_arguments(count: int) -> str:
 
 
 def objc_blocks(count: int) -> str:
-    return OBJC_TEXTURE.format(n=0) + repeated("    [self do{n}: ^{{ d0.sampleCount = {n}; }}];\n", count)
+    return OBJC_TEXTURE.format(n=0) + repeated(
+        "    [self do{n}: ^{{ d0.sampleCount = {n}; }}];\n", count
+    )
 
 
 def objc_methods(count: int) -> str:
@@ -84,7 +94,11 @@ def objc_properties(count: int) -> str:
 
 
 def markdown(count: int) -> str:
-    return repeated("# Part {n}\n\n```cpp\nVkAttachmentDescription a{n}{{}};\na{n}.samples = VK_SAMPLE_COUNT_4_BIT;\n```\n\n", count)
+    return repeated(
+        "# Part {n}\n\n```cpp\nVkAttachmentDescription a{n}{{}};\na{n}.samples = "
+        "VK_SAMPLE_COUNT_4_BIT;\n```\n\n",
+        count,
+    )
 
 
 def markdown_shaders(count: int) -> str:
@@ -92,17 +106,23 @@ def markdown_shaders(count: int) -> str:
 
 
 def glsl_functions(count: int) -> str:
-    every = "vec4 f0(vec4 v) { return v; }\n" + repeated("vec4 f{m}(vec4 v) {{ return f{n}(v); }}\n", count)
+    every = "vec4 f0(vec4 v) { return v; }\n" + repeated(
+        "vec4 f{m}(vec4 v) {{ return f{n}(v); }}\n", count
+    )
     return every + MAIN.format(FETCH.format(0) + f"    sum = f{count}(sum);\n")
 
 
 def glsl_overloads(count: int) -> str:
     every = repeated("struct T{n} {{ vec4 v; }};\nvec4 f(T{n} t) {{ return t.v; }}\n", count)
-    return every + MAIN.format(FETCH.format(0) + repeated("    T{n} t{n};\n    sum += f(t{n});\n", count))
+    return every + MAIN.format(
+        FETCH.format(0) + repeated("    T{n} t{n};\n    sum += f(t{n});\n", count)
+    )
 
 
 def glsl_call_tree(count: int) -> str:
-    every = "vec4 f0(vec4 v) { return v; }\n" + repeated("vec4 f{m}(vec4 v) {{ return f{n}(v) + f{n}(v); }}\n", count)
+    every = "vec4 f0(vec4 v) { return v; }\n" + repeated(
+        "vec4 f{m}(vec4 v) {{ return f{n}(v) + f{n}(v); }}\n", count
+    )
     return every + MAIN.format(FETCH.format(0) + f"    sum = f{count}(sum);\n")
 
 
@@ -117,17 +137,24 @@ def glsl_images(count: int) -> str:
 
 
 def glsl_locals(count: int) -> str:
-    return MAIN.format(FETCH.format(0) + repeated("    vec4 v{n} = sum.wzyx;\n    v{n}.xy += v{n}.zw;\n    sum += v{n};\n", count))
+    return MAIN.format(
+        FETCH.format(0)
+        + repeated("    vec4 v{n} = sum.wzyx;\n    v{n}.xy += v{n}.zw;\n    sum += v{n};\n", count)
+    )
 
 
 def glsl_members(count: int) -> str:
-    block = f"layout(binding = 1) uniform Block {{\n{repeated('    vec4 m{n};' + chr(10), count)}}};\n"
+    block = (
+        f"layout(binding = 1) uniform Block {{\n{repeated('    vec4 m{n};' + chr(10), count)}}};\n"
+    )
     return block + MAIN.format(FETCH.format(0) + repeated("    sum += m{n};\n", count))
 
 
 def glsl_loops(count: int) -> str:
     return MAIN.format(
-        "    for (int i = 0; i < 4; ++i)\n    " + (FETCH.format("i") + "    for (int i = 0; i < 4; ++i)\n    ") * count + ";\n"
+        "    for (int i = 0; i < 4; ++i)\n    "
+        + (FETCH.format("i") + "    for (int i = 0; i < 4; ++i)\n    ") * count
+        + ";\n"
     )
 
 
@@ -137,15 +164,22 @@ def glsl_nested_loops(count: int) -> str:
 
 
 def glsl_branches(count: int) -> str:
-    return MAIN.format(FETCH.format(0) + repeated("    if (sum.x > {n}.0) sum = sum * 2.0; else sum += 1.0;\n", count))
+    return MAIN.format(
+        FETCH.format(0)
+        + repeated("    if (sum.x > {n}.0) sum = sum * 2.0; else sum += 1.0;\n", count)
+    )
 
 
 def glsl_macros(count: int) -> str:
-    return repeated("#define A{m} A{n}\n", count) + MAIN.format(FETCH.format(0) + f"    sum *= A{count};\n")
+    return repeated("#define A{m} A{n}\n", count) + MAIN.format(
+        FETCH.format(0) + f"    sum *= A{count};\n"
+    )
 
 
 def glsl_macro_uses(count: int) -> str:
-    return "#define AT(n) texelFetch(image, ivec2(gl_FragCoord.xy), n)\n" + MAIN.format("    sum += AT(0);\n" * count)
+    return "#define AT(n) texelFetch(image, ivec2(gl_FragCoord.xy), n)\n" + MAIN.format(
+        "    sum += AT(0);\n" * count
+    )
 
 
 def glsl_long_macro_uses(count: int) -> str:
@@ -153,7 +187,11 @@ def glsl_long_macro_uses(count: int) -> str:
 
 
 def glsl_doubling_macros(count: int) -> str:
-    return "#define A0 1.0\n" + repeated("#define A{m} A{n} + A{n}\n", count) + MAIN.format(FETCH.format(0) + f"    sum *= A{count};\n")
+    return (
+        "#define A0 1.0\n"
+        + repeated("#define A{m} A{n} + A{n}\n", count)
+        + MAIN.format(FETCH.format(0) + f"    sum *= A{count};\n")
+    )
 
 
 def glsl_directives(count: int) -> str:
@@ -174,21 +212,29 @@ def swift_textures(count: int) -> str:
 
 def swift_passes(count: int) -> str:
     one = (
-        TEXTURE + "        let p{n} = MTLRenderPassDescriptor()\n        p{n}.colorAttachments[0].texture = t{n}\n"
+        TEXTURE
+        + "        let p{n} = MTLRenderPassDescriptor()\n        p{n}.colorAttachments[0].texture "
+        "= t{n}\n"
         "        p{n}.colorAttachments[0].storeAction = .store\n"
-        "        let e{n} = commands.makeRenderCommandEncoder(descriptor: p{n})!\n        e{n}.endEncoding()\n"
+        "        let e{n} = commands.makeRenderCommandEncoder(descriptor: p{n})!\n        "
+        "e{n}.endEncoding()\n"
     )
     return repeated(one, count)
 
 
 def swift_one_descriptor(count: int) -> str:
     """A descriptor that is encoded many times, each time with another texture."""
-    one = TEXTURE + "        p.colorAttachments[0].texture = t{n}\n        _ = commands.makeRenderCommandEncoder(descriptor: p)!\n"
+    one = (
+        TEXTURE + "        p.colorAttachments[0].texture = t{n}\n        _ = "
+        "commands.makeRenderCommandEncoder(descriptor: p)!\n"
+    )
     return "        let p = MTLRenderPassDescriptor()\n" + repeated(one, count)
 
 
 def swift_branches(count: int) -> str:
-    return "        let d = MTLTextureDescriptor()\n" + repeated("        if flag{n} {{ d.width = {n} }} else {{ d.width = 1 }}\n", count)
+    return "        let d = MTLTextureDescriptor()\n" + repeated(
+        "        if flag{n} {{ d.width = {n} }} else {{ d.width = 1 }}\n", count
+    )
 
 
 def swift_nested_branches(count: int) -> str:
@@ -198,7 +244,11 @@ def swift_nested_branches(count: int) -> str:
 
 def swift_cases(count: int) -> str:
     cases = repeated("        case {n}: d.sampleCount = 4\n", count)
-    return "        let d = MTLTextureDescriptor()\n        switch quality {\n" + cases + "        default: break\n        }\n"
+    return (
+        "        let d = MTLTextureDescriptor()\n        switch quality {\n"
+        + cases
+        + "        default: break\n        }\n"
+    )
 
 
 def swift_returning_cases(count: int) -> str:
@@ -208,22 +258,37 @@ def swift_returning_cases(count: int) -> str:
         + cases
         + "            default: return 1\n            }\n        }\n"
     )
-    return "        let d = MTLTextureDescriptor()\n" + choice + "        d.sampleCount = count(quality)\n"
+    return (
+        "        let d = MTLTextureDescriptor()\n"
+        + choice
+        + "        d.sampleCount = count(quality)\n"
+    )
 
 
 def swift_assumptions(count: int) -> str:
     return repeated(
-        "        let d{n} = MTLTextureDescriptor()\n        d{n}.sampleCount = settings{n}.samples // msaa-lint: assume samples=4\n", count
+        "        let d{n} = MTLTextureDescriptor()\n        d{n}.sampleCount = settings{n}.samples "
+        "// msaa-lint: assume samples=4\n",
+        count,
     )
 
 
 def swift_closures(count: int) -> str:
-    return repeated("        let f{n} = {{ (x: Int) in d.sampleCount = x }}\n        f{n}(4)\n", count)
+    return repeated(
+        "        let f{n} = {{ (x: Int) in d.sampleCount = x }}\n        f{n}(4)\n", count
+    )
 
 
 def swift_closure_tree(count: int) -> str:
-    body = "        let d = MTLTextureDescriptor()\n        let f0 = { (x: Int) in d.sampleCount = x }\n"
-    return body + repeated("        let f{m} = {{ (x: Int) in f{n}(x); f{n}(x) }}\n", count) + f"        f{count}(4)\n"
+    body = (
+        "        let d = MTLTextureDescriptor()\n        let f0 = { (x: Int) in d.sampleCount = "
+        "x }\n"
+    )
+    return (
+        body
+        + repeated("        let f{m} = {{ (x: Int) in f{n}(x); f{n}(x) }}\n", count)
+        + f"        f{count}(4)\n"
+    )
 
 
 def swift_optionals(count: int) -> str:
@@ -234,14 +299,20 @@ def swift_optionals(count: int) -> str:
 def swift_wide_closures(count: int) -> str:
     body = "        let d = MTLTextureDescriptor()\n        let f0 = { (x: Int) in x }\n"
     calls = ", ".join(["f{n}(x)"] * 20)
-    return body + repeated(f"        let f{{m}} = {{{{ (x: Int) in [{calls}] }}}}\n", count) + f"        d.sampleCount = f{count}(4)\n"
+    return (
+        body
+        + repeated(f"        let f{{m}} = {{{{ (x: Int) in [{calls}] }}}}\n", count)
+        + f"        d.sampleCount = f{count}(4)\n"
+    )
 
 
 def swift_equal_tuples(count: int) -> str:
     """Two tuples of tuples that are alike, but not the same."""
     body = "        let t0 = (1, 2)\n        let u0 = (1, 2)\n"
     pairs = "        let t{m} = (t{n}, t{n})\n        let u{m} = (u{n}, u{n})\n"
-    return body + repeated(pairs + "        var v{n} = t{m}\n        if on {{ v{n} = u{m} }}\n", count)
+    return body + repeated(
+        pairs + "        var v{n} = t{m}\n        if on {{ v{n} = u{m} }}\n", count
+    )
 
 
 def swift_options(count: int) -> str:
@@ -262,23 +333,33 @@ def swift_long_sum(count: int) -> str:
 
 def swift_functions(count: int) -> str:
     every = repeated("    func f{n}() -> MTLTextureDescriptor {{ return f{m}() }}\n", count)
-    return f"import Metal\nclass A {{\n{every}    func f{count}() -> MTLTextureDescriptor {{ d.sampleCount = 4 }}\n}}\n"
+    return (
+        f"import Metal\nclass A {{\n{every}    func f{count}() -> MTLTextureDescriptor {{ "
+        f"d.sampleCount = 4 }}\n}}\n"
+    )
 
 
 def swift_call_tree(count: int) -> str:
     every = repeated("    func f{n}(_ d: MTLTextureDescriptor) {{ f{m}(d); f{m}(d) }}\n", count)
-    return f"import Metal\nclass A {{\n{every}    func f{count}(_ d: MTLTextureDescriptor) {{ d.sampleCount = 4 }}\n}}\n"
+    return (
+        f"import Metal\nclass A {{\n{every}    func f{count}(_ d: MTLTextureDescriptor) {{ "
+        f"d.sampleCount = 4 }}\n}}\n"
+    )
 
 
 def swift_overloads(count: int) -> str:
     every = repeated("    func f(a{n}: Int) -> Int {{ return a{n} }}\n", count)
     return (
-        f"import Metal\nclass A {{\n{every}    func g() {{\n{repeated('        d.sampleCount = f(a{n}: {n})' + chr(10), count)}    }}\n}}\n"
+        f"import Metal\nclass A {{\n{every}    func g() {{\n"
+        f"{repeated('        d.sampleCount = f(a{n}: {n})' + chr(10), count)}    }}\n}}\n"
     )
 
 
 def swift_types(count: int) -> str:
-    return "import Metal\n" + repeated("class A{n}: B{n} {{ var samples = 4\n    func f() {{ d.sampleCount = samples }}\n}}\n", count)
+    return "import Metal\n" + repeated(
+        "class A{n}: B{n} {{ var samples = 4\n    func f() {{ d.sampleCount = samples }}\n}}\n",
+        count,
+    )
 
 
 SHAPES: tuple[Shape, ...] = (

@@ -1,4 +1,6 @@
-"""C++: what a file has many of, and how it can nest. What depends on its text is in `source_c_syntax`."""
+"""C++: what a file has many of, and how it can nest. What depends on its text is in
+`source_c_syntax`.
+"""
 
 from __future__ import annotations
 
@@ -57,14 +59,27 @@ def images_and_descriptors(count: int) -> str:
     i{n}.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
     vkCreateImage(device, &i{n}, nullptr, &image{n});
 """
-    bound = "    VkDescriptorImageInfo d{n} = {{}};\n    d{n}.imageView = view;\n    vkCmdCopyImage(cmd, from{n}, x, to, y, 1, &region);\n"
+    bound = (
+        "    VkDescriptorImageInfo d{n} = {{}};\n    d{n}.imageView = view;\n    "
+        "vkCmdCopyImage(cmd, from{n}, x, to, y, 1, &region);\n"
+    )
     return function(repeated(image + bound, count))
 
 
 def attachments_of_one_pass(count: int) -> str:
-    listed = f"    VkAttachmentDescription all[] = {{{', '.join(f'a{n}' for n in range(count))}}};\n"
-    info = f"    VkRenderPassCreateInfo info = {{}};\n    info.attachmentCount = {count};\n    info.pAttachments = all;\n"
-    return function(repeated(ATTACHMENT, count) + listed + info + "    vkCreateRenderPass(device, &info, nullptr, &pass);\n")
+    listed = (
+        f"    VkAttachmentDescription all[] = {{{', '.join(f'a{n}' for n in range(count))}}};\n"
+    )
+    info = (
+        f"    VkRenderPassCreateInfo info = {{}};\n    info.attachmentCount = {count};\n    "
+        f"info.pAttachments = all;\n"
+    )
+    return function(
+        repeated(ATTACHMENT, count)
+        + listed
+        + info
+        + "    vkCreateRenderPass(device, &info, nullptr, &pass);\n"
+    )
 
 
 def passes_of_many_attachments(count: int) -> str:
@@ -72,23 +87,50 @@ def passes_of_many_attachments(count: int) -> str:
     bodies = []
     for number in range(count):
         body = repeated(ATTACHMENT, many)
-        body += f"    VkAttachmentDescription all[{many}] = {{{', '.join(f'a{n}' for n in range(many))}}};\n"
-        body += repeated("    VkAttachmentReference r{n} = {{{n}, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL}};\n", many)
-        body += f"    VkAttachmentReference refs[{many}] = {{{', '.join(f'r{n}' for n in range(many))}}};\n"
-        body += f"    VkSubpassDescription sub = {{}};\n    sub.colorAttachmentCount = {many};\n    sub.pColorAttachments = refs;\n"
-        body += f"    VkRenderPassCreateInfo info = {{}};\n    info.attachmentCount = {many};\n    info.pAttachments = all;\n"
-        body += "    info.subpassCount = 1;\n    info.pSubpasses = &sub;\n    vkCreateRenderPass(device, &info, nullptr, &pass);\n"
+        body += (
+            f"    VkAttachmentDescription all[{many}] = "
+            f"{{{', '.join(f'a{n}' for n in range(many))}}};\n"
+        )
+        body += repeated(
+            "    VkAttachmentReference r{n} = {{{n}, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL}};\n",
+            many,
+        )
+        body += (
+            f"    VkAttachmentReference refs[{many}] = "
+            f"{{{', '.join(f'r{n}' for n in range(many))}}};\n"
+        )
+        body += (
+            f"    VkSubpassDescription sub = {{}};\n    sub.colorAttachmentCount = {many};\n   "
+            f" sub.pColorAttachments = refs;\n"
+        )
+        body += (
+            f"    VkRenderPassCreateInfo info = {{}};\n    info.attachmentCount = {many};\n    "
+            f"info.pAttachments = all;\n"
+        )
+        body += (
+            "    info.subpassCount = 1;\n    info.pSubpasses = &sub;\n    "
+            "vkCreateRenderPass(device, &info, nullptr, &pass);\n"
+        )
         bodies.append(function(body, f"void setup{number}()"))
     return "".join(bodies)
 
 
 def overloads(count: int) -> str:
-    many = repeated("struct T{n} {{ int v; }};\nvoid create(T{n} t, int samples) {{ image{n} = t.v + samples; }}\n", count)
-    return many + function(repeated("    T{n} t{n};\n    create(t{n}, VK_SAMPLE_COUNT_4_BIT);\n", count))
+    many = repeated(
+        "struct T{n} {{ int v; }};\nvoid create(T{n} t, int samples) {{ image{n} = t.v + samples; "
+        "}}\n",
+        count,
+    )
+    return many + function(
+        repeated("    T{n} t{n};\n    create(t{n}, VK_SAMPLE_COUNT_4_BIT);\n", count)
+    )
 
 
 def functions(count: int) -> str:
-    return repeated("void create{n}(int samples) {{\n" + IMAGE.replace("{", "{{").replace("}", "}}") + "}}\n", count)
+    return repeated(
+        "void create{n}(int samples) {{\n" + IMAGE.replace("{", "{{").replace("}", "}}") + "}}\n",
+        count,
+    )
 
 
 def call_chain(count: int) -> str:
@@ -97,36 +139,57 @@ def call_chain(count: int) -> str:
 
 
 def call_fan(count: int) -> str:
-    return function(IMAGE, "void create(int samples)") + function("    create(VK_SAMPLE_COUNT_4_BIT);\n" * count)
+    return function(IMAGE, "void create(int samples)") + function(
+        "    create(VK_SAMPLE_COUNT_4_BIT);\n" * count
+    )
 
 
 def call_tree(count: int) -> str:
     """Functions that call the next one twice."""
-    chain = repeated("void create{n}(int samples) {{ create{m}(samples); create{m}(samples); }}\n", count)
+    chain = repeated(
+        "void create{n}(int samples) {{ create{m}(samples); create{m}(samples); }}\n", count
+    )
     return chain + function(IMAGE, f"void create{count}(int samples)")
 
 
 def recursion(count: int) -> str:
-    every = repeated("int sample{n}(int n) {{ return n > 0 ? sample{n}(n - 1) + sample{m}(n) : 4; }}\n", count)
+    every = repeated(
+        "int sample{n}(int n) {{ return n > 0 ? sample{n}(n - 1) + sample{m}(n) : 4; }}\n", count
+    )
     return every + function("    return 4;\n", f"int sample{count}(int n)")
 
 
 def conditional_writes(count: int) -> str:
-    return function("    int count = 1;\n" + repeated("    if (flag{n}) count = VK_SAMPLE_COUNT_4_BIT;\n", count) + IMAGE)
+    return function(
+        "    int count = 1;\n"
+        + repeated("    if (flag{n}) count = VK_SAMPLE_COUNT_4_BIT;\n", count)
+        + IMAGE
+    )
 
 
 def conditional_copies(count: int) -> str:
     """Structures that hold each other's alternatives."""
-    writes = repeated("    if (c{n}) a.x = b;\n    if (d{n}) b.x = a;\n    if (e{n}) a.samples = b.samples;\n", count)
-    return function("    Config a, b;\n    a.samples = 1;\n    b.samples = 4;\n" + writes + IMAGE.replace("= samples", "= a.samples"))
+    writes = repeated(
+        "    if (c{n}) a.x = b;\n    if (d{n}) b.x = a;\n    if (e{n}) a.samples = b.samples;\n",
+        count,
+    )
+    return function(
+        "    Config a, b;\n    a.samples = 1;\n    b.samples = 4;\n"
+        + writes
+        + IMAGE.replace("= samples", "= a.samples")
+    )
 
 
 def conditional_structures(count: int) -> str:
     """Structures of structures, each written under conditions."""
-    body = "    VkAttachmentDescription v0 = {}, w0 = {};\n    v0.samples = VK_SAMPLE_COUNT_4_BIT;\n"
+    body = (
+        "    VkAttachmentDescription v0 = {}, w0 = {};\n    v0.samples = VK_SAMPLE_COUNT_4_BIT;\n"
+    )
     for number in range(count):
         body += f"    Config v{number + 1};\n"
-        body += "".join(f"    if (c{number}_{way}) v{number + 1}.m{way % 2} = v{number};\n" for way in range(4))
+        body += "".join(
+            f"    if (c{number}_{way}) v{number + 1}.m{way % 2} = v{number};\n" for way in range(4)
+        )
     return function(body + f"    vkCreateThing(device, &v{count}, nullptr, &image);\n")
 
 
@@ -136,7 +199,9 @@ def conditional_counts(count: int) -> str:
 
 
 def negated_conditions(count: int) -> str:
-    body = "    bool on = flag;\n" + repeated("    bool on{n} = !(on || !(flag{n} && !on));\n    on = on{n} || on;\n", count)
+    body = "    bool on = flag;\n" + repeated(
+        "    bool on{n} = !(on || !(flag{n} && !on));\n    on = on{n} || on;\n", count
+    )
     return function(body + "    if (on) samples = 4;\n" + IMAGE)
 
 
@@ -163,16 +228,22 @@ def switch(count: int) -> str:
 
 
 def lambdas(count: int) -> str:
-    return function(repeated("    auto f{n} = [&](int n) {{ samples = n; }};\n    f{n}(4);\n", count) + IMAGE)
+    return function(
+        repeated("    auto f{n} = [&](int n) {{ samples = n; }};\n    f{n}(4);\n", count) + IMAGE
+    )
 
 
 def nested_lambda_calls(count: int) -> str:
-    chain = "    auto f0 = [&](int n) { samples = n; };\n" + repeated("    auto f{m} = [&](int n) {{ f{n}(n); f{n}(n); }};\n", count)
+    chain = "    auto f0 = [&](int n) { samples = n; };\n" + repeated(
+        "    auto f{m} = [&](int n) {{ f{n}(n); f{n}(n); }};\n", count
+    )
     return function(chain + f"    f{count}(4);\n" + IMAGE)
 
 
 def macros(count: int) -> str:
-    return repeated("#define SAMPLES_{m} SAMPLES_{n}\n", count) + function(IMAGE.replace("= samples", f"= SAMPLES_{count}"))
+    return repeated("#define SAMPLES_{m} SAMPLES_{n}\n", count) + function(
+        IMAGE.replace("= samples", f"= SAMPLES_{count}")
+    )
 
 
 def enumerators(count: int) -> str:
@@ -198,7 +269,11 @@ def class_members(count: int) -> str:
 
 
 def classes(count: int) -> str:
-    return repeated("class C{m} : public C{n} {{ int samples = 4; virtual void set(int n) {{ samples = n; }} }};\n", count)
+    return repeated(
+        "class C{m} : public C{n} {{ int samples = 4; virtual void set(int n) {{ samples = n; }} "
+        "}};\n",
+        count,
+    )
 
 
 def methods_of_objects(count: int) -> str:
@@ -209,13 +284,15 @@ def methods_of_objects(count: int) -> str:
 def class_layers(count: int) -> str:
     """Objects that hold objects: `a.b.c.samples`."""
     kinds = "struct K0 { int samples; };\n" + repeated("struct K{m} {{ K{n} inner; }};\n", count)
-    return kinds + function(f"    K{count} k;\n    k" + ".inner" * count + ".samples = 4;\n" + IMAGE)
+    return kinds + function(
+        f"    K{count} k;\n    k" + ".inner" * count + ".samples = 4;\n" + IMAGE
+    )
 
 
 def templates(count: int) -> str:
-    return repeated("template <typename T> T pick{n}(T samples) {{ return samples; }}\n", count) + function(
-        repeated("    samples = pick{n}<int>(4);\n", count) + IMAGE
-    )
+    return repeated(
+        "template <typename T> T pick{n}(T samples) {{ return samples; }}\n", count
+    ) + function(repeated("    samples = pick{n}<int>(4);\n", count) + IMAGE)
 
 
 def namespaces(count: int) -> str:
@@ -225,34 +302,49 @@ def namespaces(count: int) -> str:
 
 
 def nested_namespaces(count: int) -> str:
-    return repeated("namespace n{n} {{\n", count) + function("    samples = other;\n" * count + IMAGE) + "}\n" * count
-
-
-def aliases(count: int) -> str:
-    return repeated("using Image{n} = VkImage;\n", count) + function(repeated("    Image{n} i{n};\n", count) + IMAGE)
-
-
-def globals_(count: int) -> str:
-    return repeated("static int samples{n} = VK_SAMPLE_COUNT_4_BIT;\n", count) + function(repeated("    samples{n} = 2;\n", count) + IMAGE)
-
-
-def prototypes(count: int) -> str:
-    return repeated("void create{n}(VkDevice device, const VkImageCreateInfo* info, VkImage* image);\n", count) + function(
-        repeated("    create{n}(device, &info, &image{n});\n", count)
+    return (
+        repeated("namespace n{n} {{\n", count)
+        + function("    samples = other;\n" * count + IMAGE)
+        + "}\n" * count
     )
 
 
+def aliases(count: int) -> str:
+    return repeated("using Image{n} = VkImage;\n", count) + function(
+        repeated("    Image{n} i{n};\n", count) + IMAGE
+    )
+
+
+def globals_(count: int) -> str:
+    return repeated("static int samples{n} = VK_SAMPLE_COUNT_4_BIT;\n", count) + function(
+        repeated("    samples{n} = 2;\n", count) + IMAGE
+    )
+
+
+def prototypes(count: int) -> str:
+    return repeated(
+        "void create{n}(VkDevice device, const VkImageCreateInfo* info, VkImage* image);\n", count
+    ) + function(repeated("    create{n}(device, &info, &image{n});\n", count))
+
+
 def designated(count: int) -> str:
-    item = "        [{n}] = {{.format = VK_FORMAT_R8G8B8A8_UNORM, .samples = VK_SAMPLE_COUNT_4_BIT}},\n"
+    item = (
+        "        [{n}] = {{.format = VK_FORMAT_R8G8B8A8_UNORM, .samples = "
+        "VK_SAMPLE_COUNT_4_BIT}},\n"
+    )
     return function(f"    VkAttachmentDescription all[] = {{\n{repeated(item, count)}    }};\n")
 
 
 def constant_array(count: int) -> str:
-    return f"const int samples[] = {{{', '.join(str(n) for n in range(count))}}};\n" + function(IMAGE)
+    return f"const int samples[] = {{{', '.join(str(n) for n in range(count))}}};\n" + function(
+        IMAGE
+    )
 
 
 def declarators(count: int) -> str:
-    return function(f"    int samples0{''.join(f', samples{n} = {n}' for n in range(1, count + 1))};\n" + IMAGE)
+    return function(
+        f"    int samples0{''.join(f', samples{n} = {n}' for n in range(1, count + 1))};\n" + IMAGE
+    )
 
 
 def long_sum(count: int) -> str:
@@ -268,7 +360,10 @@ def long_choice(count: int) -> str:
 
 
 def flags(count: int) -> str:
-    return function(f"    info.usage = {' | '.join(['VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT'] * (count + 1))};\n" + IMAGE)
+    return function(
+        f"    info.usage = {' | '.join(['VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT'] * (count + 1))};\n"
+        + IMAGE
+    )
 
 
 def parentheses(count: int) -> str:
@@ -280,7 +375,11 @@ def unary(count: int) -> str:
 
 
 def method_chain(count: int) -> str:
-    return function("    auto info = vk::ImageCreateInfo()" + ".setSamples(vk::SampleCountFlagBits::e4)" * count + ";\n")
+    return function(
+        "    auto info = vk::ImageCreateInfo()"
+        + ".setSamples(vk::SampleCountFlagBits::e4)" * count
+        + ";\n"
+    )
 
 
 def arguments(count: int) -> str:
@@ -288,7 +387,9 @@ def arguments(count: int) -> str:
 
 
 def parameters(count: int) -> str:
-    return function(IMAGE, f"void setup({', '.join(f'int samples{n} = 4' for n in range(count + 1))})")
+    return function(
+        IMAGE, f"void setup({', '.join(f'int samples{n} = 4' for n in range(count + 1))})"
+    )
 
 
 SHAPES: tuple[Shape, ...] = (

@@ -29,7 +29,9 @@ def directives(count: int) -> str:
 
 
 def nested_directives(count: int) -> str:
-    return function(repeated("#ifdef FLAG{n}\n", count) + "    samples = 4;\n" + "#endif\n" * count + IMAGE)
+    return function(
+        repeated("#ifdef FLAG{n}\n", count) + "    samples = 4;\n" + "#endif\n" * count + IMAGE
+    )
 
 
 def list_directives(count: int) -> str:
@@ -38,7 +40,11 @@ def list_directives(count: int) -> str:
 
 
 def else_directives(count: int) -> str:
-    chain = "#if FLAG\n        {.samples = 1},\n" + repeated("#elif FLAG{n}\n        {{.samples = 4}},\n", count) + "#endif\n"
+    chain = (
+        "#if FLAG\n        {.samples = 1},\n"
+        + repeated("#elif FLAG{n}\n        {{.samples = 4}},\n", count)
+        + "#endif\n"
+    )
     return function(f"    VkAttachmentDescription all[] = {{\n{chain}    }};\n")
 
 
@@ -46,52 +52,78 @@ def member_writes(count: int) -> str:
     """A member of the class that many methods write."""
     return (
         "class R {\n    VkImage image;\n"
-        + repeated("    void make{n}(int samples) {{\n" + IMAGE.replace("{", "{{").replace("}", "}}") + "    }}\n", count)
+        + repeated(
+            "    void make{n}(int samples) {{\n"
+            + IMAGE.replace("{", "{{").replace("}", "}}")
+            + "    }}\n",
+            count,
+        )
         + "};\n"
     )
 
 
 def member_paths(count: int) -> str:
-    return "class R {\n    Config config;\n    void make() {\n" + repeated("        config.a{n}.samples = 4;\n", count) + "    }\n};\n"
+    return (
+        "class R {\n    Config config;\n    void make() {\n"
+        + repeated("        config.a{n}.samples = 4;\n", count)
+        + "    }\n};\n"
+    )
 
 
 def list_appends(count: int) -> str:
     body = (
-        "    std::vector<VkAttachmentDescription> all;\n" + "    all.push_back(a);\n    all[0].samples = VK_SAMPLE_COUNT_4_BIT;\n" * count
+        "    std::vector<VkAttachmentDescription> all;\n"
+        + "    all.push_back(a);\n    all[0].samples = VK_SAMPLE_COUNT_4_BIT;\n" * count
     )
     return function(body)
 
 
 def copies_of_lists(count: int) -> str:
-    body = f"    std::vector<VkAttachmentDescription> l0(64);\n{repeated('    auto l{m} = l{n};' + chr(10), count)}"
+    body = (
+        f"    std::vector<VkAttachmentDescription> l0(64);\n"
+        f"{repeated('    auto l{m} = l{n};' + chr(10), count)}"
+    )
     return function(body + IMAGE)
 
 
 def doubled_lists(count: int) -> str:
-    body = "    VkAttachmentDescription a0 = {};\n" + repeated("    std::vector<Config> a{m} = {{a{n}, a{n}}};\n", count)
+    body = "    VkAttachmentDescription a0 = {};\n" + repeated(
+        "    std::vector<Config> a{m} = {{a{n}, a{n}}};\n", count
+    )
     return function(body + IMAGE)
 
 
 def choices(count: int) -> str:
     one = (
-        "VkSampleCountFlagBits pick{n}() {{\n    VkSampleCountFlags counts = limits.framebufferColorSampleCounts;\n"
+        "VkSampleCountFlagBits pick{n}() {{\n    VkSampleCountFlags counts = "
+        "limits.framebufferColorSampleCounts;\n"
         "    if (counts & VK_SAMPLE_COUNT_64_BIT) return VK_SAMPLE_COUNT_64_BIT;\n"
-        "    if (counts & VK_SAMPLE_COUNT_8_BIT) return VK_SAMPLE_COUNT_8_BIT;\n    return VK_SAMPLE_COUNT_1_BIT;\n}}\n"
+        "    if (counts & VK_SAMPLE_COUNT_8_BIT) return VK_SAMPLE_COUNT_8_BIT;\n    return "
+        "VK_SAMPLE_COUNT_1_BIT;\n}}\n"
     )
     return repeated(one, count)
 
 
 def choice_uses(count: int) -> str:
-    return choices(1) + function(repeated("    info{n}.samples = pick0();\n    info{n}.format = findFormat{n}();\n", count))
+    return choices(1) + function(
+        repeated("    info{n}.samples = pick0();\n    info{n}.format = findFormat{n}();\n", count)
+    )
 
 
 def choice_names(count: int) -> str:
     assigned = repeated("    counts{m} = counts{n} & limits.framebufferDepthSampleCounts;\n", count)
-    return choices(1) + function("    auto counts0 = limits.framebufferColorSampleCounts;\n" + assigned)
+    return choices(1) + function(
+        "    auto counts0 = limits.framebufferColorSampleCounts;\n" + assigned
+    )
 
 
 def unread_creations(count: int) -> str:
-    return function(repeated("    info.samples = settings{n};\n    createImage(info, VK_SAMPLE_COUNT_4_BIT);\n", count))
+    return function(
+        repeated(
+            "    info.samples = settings{n};\n    createImage(info, VK_SAMPLE_COUNT_4_BIT);\n",
+            count,
+        )
+    )
 
 
 def unbalanced(sign: str) -> Callable[[int], str]:
@@ -105,14 +137,19 @@ def broken(count: int) -> str:
 def macro_uses(count: int) -> str:
     """Uses of macros that use others."""
     macros = (
-        "#define SET(info, name, value) info.name = value\n#define IMAGE(info, count) SET(info, samples, VK_SAMPLE_COUNT_##count##_BIT)\n"
+        "#define SET(info, name, value) info.name = value\n#define IMAGE(info, count) "
+        "SET(info, samples, VK_SAMPLE_COUNT_##count##_BIT)\n"
     )
     return macros + function("    IMAGE(info, 4);\n" * count + IMAGE)
 
 
 def doubled_macros(count: int) -> str:
     """Each macro doubles the one before it."""
-    return "#define M0 samples\n" + repeated("#define M{m} M{n} M{n}\n", count) + function(f"    M{count};\n" + IMAGE)
+    return (
+        "#define M0 samples\n"
+        + repeated("#define M{m} M{n} M{n}\n", count)
+        + function(f"    M{count};\n" + IMAGE)
+    )
 
 
 def long_macros(count: int) -> str:
@@ -128,7 +165,10 @@ def open_macros(count: int) -> str:
 
 def structural_directives(count: int) -> str:
     """Conditions whose parts open braces."""
-    return function(repeated("#ifdef FLAG{n}\n    if (samples) {{\n#else\n    {{\n#endif\n    }}\n", count) + IMAGE)
+    return function(
+        repeated("#ifdef FLAG{n}\n    if (samples) {{\n#else\n    {{\n#endif\n    }}\n", count)
+        + IMAGE
+    )
 
 
 def outer_directives(count: int) -> str:
@@ -137,12 +177,19 @@ def outer_directives(count: int) -> str:
 
 def settled_directives(count: int) -> str:
     return "#define N 4\n" + function(
-        repeated("#if N > {n} && N < 8\n    samples = {n};\n#else\n    samples = 1;\n#endif\n", count) + IMAGE
+        repeated(
+            "#if N > {n} && N < 8\n    samples = {n};\n#else\n    samples = 1;\n#endif\n", count
+        )
+        + IMAGE
     )
 
 
 def annotations(count: int) -> str:
-    return repeated("ENGINE_API ENGINE_INLINE void ENGINE_CALL f{n}(int samples) NOEXCEPT {{}}\nDECLARE(f{n})\n", count) + function(IMAGE)
+    return repeated(
+        "ENGINE_API ENGINE_INLINE void ENGINE_CALL f{n}(int samples) NOEXCEPT {{}}\n"
+        "DECLARE(f{n})\n",
+        count,
+    ) + function(IMAGE)
 
 
 def small_functions(count: int) -> str:

@@ -25,7 +25,9 @@ def function(body: str, name: str = "void setup(int samples)") -> str:
 
 
 def code(name: str, file: str, content: Callable[[int], str]) -> Shape:
-    """A file that the command names: in a folder, only files that mention multisampling are read. A limit may end it."""
+    """A file that the command names: in a folder, only files that mention multisampling are read. A
+    limit may end it.
+    """
     return Shape(name, text(file, content), ("check", "--isolated", file), (0, 1, 2))
 
 

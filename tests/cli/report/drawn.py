@@ -18,7 +18,9 @@ _NUMBER = r"-?\d+(?:\.\d+)?(?:e-?\d+)?"
 
 
 class Shape(NamedTuple):
-    """A text, or a mark, whose `kind` is the role of the group that it is in; and the corners of a rule or a line."""
+    """A text, or a mark, whose `kind` is the role of the group that it is in; and the corners of a
+    rule or a line.
+    """
 
     kind: str
     box: Box
@@ -52,7 +54,9 @@ class Drawing:
 
     def _read(self, element: ElementTree.Element, x: float, y: float, kind: str) -> None:
         turned = "rotate(-90" in element.get("transform", "")
-        for dx, dy in re.findall(rf"translate\(({_NUMBER}),({_NUMBER})\)", element.get("transform", "")):
+        for dx, dy in re.findall(
+            rf"translate\(({_NUMBER}),({_NUMBER})\)", element.get("transform", "")
+        ):
             # After the turn, `along` the text is up.
             x, y = (x, y) if turned and (dx, dy) == ("0", "-2") else (x + float(dx), y + float(dy))
         name = element.get("class", "")
@@ -60,20 +64,39 @@ class Drawing:
         if element.tag == f"{SVG}text":
             for line in element.findall(f"{SVG}tspan") or [element]:
                 y += float(line.get("dy", 0))
-                self.texts.append(Shape(kind, _text_box(element, line.text or "", x, y, turned), line.text or ""))
+                self.texts.append(
+                    Shape(kind, _text_box(element, line.text or "", x, y, turned), line.text or "")
+                )
             return
-        if element.tag == f"{SVG}path" and name == "background" and "h0v0" not in element.get("d", ""):
+        if (
+            element.tag == f"{SVG}path"
+            and name == "background"
+            and "h0v0" not in element.get("d", "")
+        ):
             self.panels.append(_path_box(element.get("d", ""), x, y))
         elif element.tag == f"{SVG}path" and "role-mark" in kind and not name:
             path = element.get("d", "")
-            corners = [(x + float(a), y + float(b)) for a, b in re.findall(rf"[ML]({_NUMBER}),({_NUMBER})", path)]
+            corners = [
+                (x + float(a), y + float(b))
+                for a, b in re.findall(rf"[ML]({_NUMBER}),({_NUMBER})", path)
+            ]
             self.marks.append(Shape(kind, _path_box(path, x, y), corners=tuple(corners)))
         elif element.tag == f"{SVG}line" and "role-mark" in kind:
             end_x, end_y = x + float(element.get("x2", 0)), y + float(element.get("y2", 0))
             box = Box(min(x, end_x), min(y, end_y), max(x, end_x), max(y, end_y))
             self.marks.append(Shape(kind, box, corners=((x, y), (end_x, end_y))))
         elif element.tag == f"{SVG}image":
-            self.marks.append(Shape(kind, Box(x, y, x + float(element.attrib["width"]), y + float(element.attrib["height"]))))
+            self.marks.append(
+                Shape(
+                    kind,
+                    Box(
+                        x,
+                        y,
+                        x + float(element.attrib["width"]),
+                        y + float(element.attrib["height"]),
+                    ),
+                )
+            )
         for child in element:
             self._read(child, x, y, kind)
 
@@ -88,10 +111,22 @@ def overlaps(boxes: list[Box], others: list[Box] | None = None) -> Iterator[tupl
 
 @cache
 def width_of(text: str, weight: str) -> float:
-    """The width of a text of size 1, as vl-convert measures it: that of a picture that shows nothing else."""
-    mark = {"type": "text", "text": text, "fontSize": 200, "fontWeight": weight, "align": "left", "x": 0, "y": 0, "limit": 0}
+    """The width of a text of size 1, as vl-convert measures it: that of a picture that shows
+    nothing else.
+    """
+    mark = {
+        "type": "text",
+        "text": text,
+        "fontSize": 200,
+        "fontWeight": weight,
+        "align": "left",
+        "x": 0,
+        "y": 0,
+        "limit": 0,
+    }
     spec = {
-        "data": {"values": [{}]}, "mark": mark, "width": 1, "height": 1, "padding": 0, "config": {"font": FONT},
+        "data": {"values": [{}]}, "mark": mark, "width": 1, "height": 1, "padding": 0,
+        "config": {"font": FONT},
         "view": {"stroke": None},
     }  # fmt: skip
     return float(ElementTree.fromstring(vl_convert.vegalite_to_svg(spec)).attrib["width"]) / 200
@@ -102,7 +137,11 @@ def _text_box(element: ElementTree.Element, text: str, x: float, y: float, turne
     width = width_of(text, element.get("font-weight", "normal")) * size
     before = {"start": 0.0, "middle": width / 2, "end": width}[element.get("text-anchor", "start")]
     # From the top of capitals to the baseline.
-    return Box(x - 0.72 * size, y - width + before, x, y + before) if turned else Box(x - before, y - 0.72 * size, x - before + width, y)
+    return (
+        Box(x - 0.72 * size, y - width + before, x, y + before)
+        if turned
+        else Box(x - before, y - 0.72 * size, x - before + width, y)
+    )
 
 
 def _path_box(path: str, x: float, y: float) -> Box:
@@ -119,7 +158,11 @@ def _path_box(path: str, x: float, y: float) -> Box:
             at = numbers[5], numbers[6]
             places += [(0, -numbers[1]), (0, numbers[1])]
         else:
-            at = (at[0] + numbers[0], at[1] + numbers[1]) if command == "l" else (numbers[0], numbers[1])
+            at = (
+                (at[0] + numbers[0], at[1] + numbers[1])
+                if command == "l"
+                else (numbers[0], numbers[1])
+            )
         places.append(at)
     if not places:
         return Box(x, y, x, y)

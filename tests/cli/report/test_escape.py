@@ -1,7 +1,14 @@
 import pytest
 from hypothesis import given
 
-from msaa_lint.cli.report.escape import MAX_LENGTH, clip, display, escape, escape_each, escape_surrogates
+from msaa_lint.cli.report.escape import (
+    MAX_LENGTH,
+    clip,
+    display,
+    escape,
+    escape_each,
+    escape_surrogates,
+)
 from tests.cli.report.hostile import texts
 
 
@@ -18,7 +25,10 @@ from tests.cli.report.hostile import texts
         ("\U000e0041", "\\U000e0041"),
         ("\ufe0f\u3164\u2800\u034f", "\\ufe0f\\u3164\\u2800\\u034f"),
         ("\xa0\u3000", "\\xa0\\u3000"),
-        ("##[stop-commands]x ##vso[task] ### ## [a]", "\\x23#[stop-commands]x \\x23#vso[task] ### ## [a]"),
+        (
+            "##[stop-commands]x ##vso[task] ### ## [a]",
+            "\\x23#[stop-commands]x \\x23#vso[task] ### ## [a]",
+        ),
         ("###[x]", "#\\x23#[x]"),
     ],
 )

@@ -18,7 +18,13 @@ def test_one_mark() -> None:
 
 
 def test_the_primary_mark_may_come_last_in_the_file() -> None:
-    assert lines("a: 1\nb: 2\n", (8, 9, "here"), (0, 1, "there")) == ["  |", "1 | a: 1", "  | - there", "2 | b: 2", "  |    ^ here"]
+    assert lines("a: 1\nb: 2\n", (8, 9, "here"), (0, 1, "there")) == [
+        "  |",
+        "1 | a: 1",
+        "  | - there",
+        "2 | b: 2",
+        "  |    ^ here",
+    ]
 
 
 def test_line_numbers_are_aligned() -> None:
@@ -43,7 +49,9 @@ def test_line_numbers_are_aligned() -> None:
         ("ab", -3, 1, ["1 | ab", "  | ^"]),
     ],
 )
-def test_ends_of_lines_and_of_the_file(text: str, start: int, end: int, expected: list[str]) -> None:
+def test_ends_of_lines_and_of_the_file(
+    text: str, start: int, end: int, expected: list[str]
+) -> None:
     assert lines(text, (start, end, "")) == ["  |", *expected]
 
 
@@ -81,7 +89,9 @@ def test_more_long_marks_than_bars_fall_back_to_their_first_line() -> None:
 
 
 @given(st.text("ab ,", min_size=0, max_size=400), st.data())
-def test_the_caret_is_under_the_character_whatever_the_width(text: str, data: st.DataObject) -> None:
+def test_the_caret_is_under_the_character_whatever_the_width(
+    text: str, data: st.DataObject
+) -> None:
     start = data.draw(st.integers(0, max(0, len(text) - 1)))
     width = data.draw(st.integers(1, 120))
     source, carets = lines(text, (start, start + 1, ""), width=width)[1:]

@@ -8,7 +8,8 @@ def test_issues() -> None:
     broken, stored, _, binary = json.loads(printed("gitlab", frame()))
     assert stored == {
         "description": (
-            "multisampled-attachment-stored: multisampled attachment `color` is resolved and also stored"
+            "multisampled-attachment-stored: multisampled attachment `color` is resolved and also "
+            "stored"
             " (+2248 MB/s written, +31.6 MiB of memory, +225 mW)"
         ),
         "check_name": "multisampled-attachment-stored",
@@ -28,6 +29,8 @@ def test_clean_run_is_an_empty_list() -> None:
 
 
 def test_same_finding_twice_has_two_fingerprints_and_no_leading_dot() -> None:
-    one, two = json.loads(printed("gitlab", result(finding(file="./a.yaml"), finding(file="./a.yaml"))))
+    one, two = json.loads(
+        printed("gitlab", result(finding(file="./a.yaml"), finding(file="./a.yaml")))
+    )
     assert one["location"]["path"] == "a.yaml"
     assert one["fingerprint"] != two["fingerprint"]

@@ -19,20 +19,39 @@ def check(name: str, text: str) -> None:
     assert text == path.read_bytes().decode()
 
 
-SUFFIXES = {"json": "json", "sarif": "sarif", "gitlab": "json", "rdjson": "json", "junit": "xml", "markdown": "md", "html": "html"}
+SUFFIXES = {
+    "json": "json",
+    "sarif": "sarif",
+    "gitlab": "json",
+    "rdjson": "json",
+    "junit": "xml",
+    "markdown": "md",
+    "html": "html",
+}
 
 
 @pytest.mark.parametrize("name", OUTPUT_FORMATS)
 def test_format(name: str) -> None:
     text = printed(name, frame())
     # The style and the script of a page are files of the package.
-    check(f"{name}.{SUFFIXES.get(name, 'txt')}", text[text.index("<main") : text.index("</main>")] if name == "html" else text)
+    check(
+        f"{name}.{SUFFIXES.get(name, 'txt')}",
+        text[text.index("<main") : text.index("</main>")] if name == "html" else text,
+    )
 
 
 def test_full_in_color_with_all_options() -> None:
     check(
         "full-color.txt",
-        printed("full", frame(), color=True, show_suppressed=True, statistics=True, max_undecided=1, explain_undecided=True),
+        printed(
+            "full",
+            frame(),
+            color=True,
+            show_suppressed=True,
+            statistics=True,
+            max_undecided=1,
+            explain_undecided=True,
+        ),
     )
 
 
@@ -56,13 +75,28 @@ def test_excerpts() -> None:
             span(row, "aaa"),
             {"second": span(row, "bbb"), "third": span(row, "ccc"), "fourth": span(row, "ddd")},
         ),
-        "one mark inside another": (row, span(row, "[aaa, bbb, ccc, ddd]"), {"inner": span(row, "bbb")}),
-        "tabs, wide, combining and control characters": (wide, span(wide, "\x1b[31m"), {"book": span(wide, "本"), "hash": span(wide, "#")}),
+        "one mark inside another": (
+            row,
+            span(row, "[aaa, bbb, ccc, ddd]"),
+            {"inner": span(row, "bbb")},
+        ),
+        "tabs, wide, combining and control characters": (
+            wide,
+            span(wide, "\x1b[31m"),
+            {"book": span(wide, "本"), "hash": span(wide, "#")},
+        ),
         "a long line": (minified, Span(601, 610), {"near": Span(613, 622), "far": Span(1, 10)}),
         "the end of the file": ("a:\n", Span(3, 3), {}),
     }
     shown = []
     for title, (text, place, labels) in cases.items():
-        run = result(finding(title, span=place, labels=tuple(Label(where, said) for said, where in labels.items())), text=text)
+        run = result(
+            finding(
+                title,
+                span=place,
+                labels=tuple(Label(where, said) for said, where in labels.items()),
+            ),
+            text=text,
+        )
         shown.append(printed("full", run, width=72))
     check("excerpts.txt", "".join(shown))

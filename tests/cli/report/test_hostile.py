@@ -21,7 +21,12 @@ from tests.strength import examples
 
 TEXT_FORMATS = ("full", "concise", "github", "azure", "teamcity", "junit", "markdown")
 COMMANDS = {"azure": r"##vso\[task\.logissue ", "teamcity": r"##teamcity\[inspection(Type)? "}
-EVERYTHING = {"show_suppressed": True, "statistics": True, "edition": "2026.1", "explain_undecided": True}
+EVERYTHING = {
+    "show_suppressed": True,
+    "statistics": True,
+    "edition": "2026.1",
+    "explain_undecided": True,
+}
 
 
 @examples(0.8, suppress_health_check=[HealthCheck.too_slow])
@@ -31,7 +36,9 @@ def test_text_outputs_are_harmless(run: Result, width: int) -> None:
     for name, text in outputs.items():
         for line in text.split("\n"):
             assert line.isprintable(), line
-            assert not re.search(r"##\w*\[", re.sub(f"\\A{COMMANDS[name]}", "", line) if name in COMMANDS else line)
+            assert not re.search(
+                r"##\w*\[", re.sub(f"\\A{COMMANDS[name]}", "", line) if name in COMMANDS else line
+            )
             assert name == "github" or not line.lstrip().startswith("::"), line
     for name in ("full", "concise"):
         colored = printed(name, run, color=True, width=width, **EVERYTHING)
@@ -44,7 +51,9 @@ def test_text_outputs_are_harmless(run: Result, width: int) -> None:
 
 
 def cells(line: str) -> int:
-    return sum(0 if category(c) in ("Mn", "Me") else 2 if east_asian_width(c) in "WF" else 1 for c in line)
+    return sum(
+        0 if category(c) in ("Mn", "Me") else 2 if east_asian_width(c) in "WF" else 1 for c in line
+    )
 
 
 def github_prints_commands_alone(text: str, run: Result) -> None:
@@ -67,18 +76,26 @@ def github_prints_commands_alone(text: str, run: Result) -> None:
 def junit_is_xml_with_a_case_for_each_finding(text: str, run: Result) -> None:
     root = ElementTree.fromstring(text)
     clean = set(run.files) - {f.file for f in run.findings}
-    assert len(root.findall("./testsuite/testcase")) == len(run.findings) + len(clean) == int(root.attrib["tests"])
+    assert (
+        len(root.findall("./testsuite/testcase"))
+        == len(run.findings) + len(clean)
+        == int(root.attrib["tests"])
+    )
 
 
 @examples(0.6, suppress_health_check=[HealthCheck.too_slow])
 @given(results())
 def test_machine_outputs_parse(run: Result) -> None:
-    outputs = {name: printed(name, run, **EVERYTHING) for name in ("json", "sarif", "gitlab", "rdjson")}
+    outputs = {
+        name: printed(name, run, **EVERYTHING) for name in ("json", "sarif", "gitlab", "rdjson")
+    }
     for text in outputs.values():
         assert re.fullmatch(r"[\n -~]*", text) and not re.search(r"##\w*\[", text)
     data = json.loads(outputs["json"])
     json_validator().validate(data)
-    assert [item["message"] for item in data["findings"]] == [escape_surrogates(f.message) for f in run.findings]
+    assert [item["message"] for item in data["findings"]] == [
+        escape_surrogates(f.message) for f in run.findings
+    ]
     sarif = json.loads(outputs["sarif"])
     check_sarif(sarif)
     assert len(sarif["runs"][0]["results"]) == len(run.findings) + len(run.suppressed)
@@ -102,7 +119,15 @@ def test_no_text_adds_a_line(name: str, token: str) -> None:
     """A text that is all blank takes its lines away: those of the label, the note and the help."""
 
     def lines(text: str) -> int:
-        found = finding(text, file=text, span=Span(2, 3), subject=text, labels=(Label(Span(0, 1), text),), notes=(text,), help=text)
+        found = finding(
+            text,
+            file=text,
+            span=Span(2, 3),
+            subject=text,
+            labels=(Label(Span(0, 1), text),),
+            notes=(text,),
+            help=text,
+        )
         return printed(name, result(found, text="a b")).count("\n")
 
     assert lines(token) == lines("plain") - (4 if name == "full" and not token.strip() else 0)
@@ -111,10 +136,15 @@ def test_no_text_adds_a_line(name: str, token: str) -> None:
 def test_a_line_of_64_mib_shows_a_window_of_it() -> None:
     text = '{"a":[' + '{"samples":4},' * (64 * 1024 * 1024 // 14) + "1]}"
     start = text.index("4", len(text) // 2)
-    run = result(finding(span=Span(start, start + 1), labels=(Label(Span(0, len(text)), "all of it"),)), text=text)
+    run = result(
+        finding(span=Span(start, start + 1), labels=(Label(Span(0, len(text)), "all of it"),)),
+        text=text,
+    )
     for name in OUTPUT_FORMATS:
         # A page has its style and script.
-        assert len(printed(name, run)) - (len(printed(name, result())) if name == "html" else 0) < 4000
+        assert (
+            len(printed(name, run)) - (len(printed(name, result())) if name == "html" else 0) < 4000
+        )
     lines = printed("full", run, width=60).split("\n")
     source, carets = next((a, b) for a, b in pairwise(lines) if "^" in b)
     assert source[carets.index("^")] == "4"
@@ -128,6 +158,16 @@ def test_a_line_of_combining_marks_is_cut_too() -> None:
 
 def test_a_message_of_a_mebibyte_is_cut() -> None:
     long = "x" * (1 << 20)
-    run = result(finding(long, subject=long, notes=(long,), help=long, labels=(Label(Span(0, 1), long),), span=Span(1, 2)), text="abc")
+    run = result(
+        finding(
+            long,
+            subject=long,
+            notes=(long,),
+            help=long,
+            labels=(Label(Span(0, 1), long),),
+            span=Span(1, 2),
+        ),
+        text="abc",
+    )
     for name in OUTPUT_FORMATS:
         assert len(printed(name, run)) < 8 * 4096 * 2

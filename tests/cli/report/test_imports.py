@@ -4,7 +4,8 @@ import subprocess
 import sys
 
 HEAVY = (
-    "pydantic rich typer dataclasses inspect pathlib importlib.metadata importlib.resources logging jsonschema numpy vulkan difflib json"
+    "pydantic rich typer dataclasses inspect pathlib importlib.metadata importlib.resources "
+    "logging jsonschema numpy vulkan difflib json"
     " tomllib hashlib subprocess urllib.parse xml.etree.ElementTree unicodedata"
 )
 

@@ -7,8 +7,17 @@ def test_suites_and_cases() -> None:
     root = ElementTree.fromstring(printed("junit", frame()).encode())
     assert root.attrib == {"name": "msaa-lint", "tests": "6", "failures": "2", "errors": "1"}
     suites = {suite.attrib["name"]: suite for suite in root}
-    assert list(suites) == ["broken.yaml", "passes/clean.yaml", "passes/forward.yaml", "src/render.cpp", "trace.rdc"]
-    counts = {name: [suite.attrib[key] for key in ("tests", "failures", "errors")] for name, suite in suites.items()}
+    assert list(suites) == [
+        "broken.yaml",
+        "passes/clean.yaml",
+        "passes/forward.yaml",
+        "src/render.cpp",
+        "trace.rdc",
+    ]
+    counts = {
+        name: [suite.attrib[key] for key in ("tests", "failures", "errors")]
+        for name, suite in suites.items()
+    }
     assert counts == {
         "broken.yaml": ["1", "0", "1"],
         "passes/clean.yaml": ["1", "0", "0"],
@@ -19,8 +28,13 @@ def test_suites_and_cases() -> None:
     (clean,) = suites["passes/clean.yaml"]
     assert clean.attrib == {"name": "No findings", "classname": "passes/clean"} and len(clean) == 0
     (unread,) = suites["src/render.cpp"]
-    assert [(each.tag, each.attrib["message"]) for each in unread] == [("skipped", "`samples = count` is in no pass")]
-    assert suites["src/render.cpp"].attrib["skipped"] == "1" and "skipped" not in suites["passes/clean.yaml"].attrib
+    assert [(each.tag, each.attrib["message"]) for each in unread] == [
+        ("skipped", "`samples = count` is in no pass")
+    ]
+    assert (
+        suites["src/render.cpp"].attrib["skipped"] == "1"
+        and "skipped" not in suites["passes/clean.yaml"].attrib
+    )
     stored = suites["passes/forward.yaml"][0]
     assert stored.attrib == {
         "name": "org.msaa-lint.MSAA201",
@@ -31,7 +45,11 @@ def test_suites_and_cases() -> None:
     }
     (failure,) = stored.findall("failure")
     cost = "+2248 MB/s written, +31.6 MiB of memory, +225 mW"
-    assert failure.text == f"line 9, column 18, multisampled attachment `color` is resolved and also stored ({cost})"
+    assert (
+        failure.text
+        == f"line 9, column 18, multisampled attachment `color` is resolved and also stored "
+        f"({cost})"
+    )
     assert failure.attrib["type"] == "multisampled-attachment-stored"
 
 

@@ -31,7 +31,14 @@ def test_json_names_the_file_of_each_label() -> None:
     data = json.loads(printed("json", RESULT))
     json_validator().validate(data)
     assert data["findings"][0]["labels"] == [
-        {"file": "settings.h", "line": 2, "column": 35, "end_line": 2, "end_column": 56, "text": "4 samples"}
+        {
+            "file": "settings.h",
+            "line": 2,
+            "column": 35,
+            "end_line": 2,
+            "end_column": 56,
+            "text": "4 samples",
+        }
     ]
 
 

@@ -75,9 +75,9 @@ def test_fingerprint_is_of_rule_file_subject_and_count() -> None:
     one = finding("m", file="/repo/a.yaml", subject="images.a")
     # printf '%s\0%s\0%s\0%s' multisampled-attachment-stored a.yaml images.a 0 | sha256sum
     assert fingerprint(one, 0, "/repo") == "fe02514e04a9a4364e8b6150222c6152"
-    assert fingerprint(one._replace(file="/other/a.yaml", message="x", code="y", severity="note"), 0, "/other") == fingerprint(
-        one, 0, "/repo"
-    )
+    assert fingerprint(
+        one._replace(file="/other/a.yaml", message="x", code="y", severity="note"), 0, "/other"
+    ) == fingerprint(one, 0, "/repo")
     different = [
         fingerprint(one, 1, "/repo"),
         fingerprint(one, 0),
@@ -89,7 +89,11 @@ def test_fingerprint_is_of_rule_file_subject_and_count() -> None:
 
 def test_fingerprints_count_what_agrees() -> None:
     one, other = finding(subject="a"), finding(subject="b")
-    assert list(fingerprints([one, other, one])) == [fingerprint(one, 0), fingerprint(other, 0), fingerprint(one, 1)]
+    assert list(fingerprints([one, other, one])) == [
+        fingerprint(one, 0),
+        fingerprint(other, 0),
+        fingerprint(one, 1),
+    ]
 
 
 def test_fingerprint_of_a_lone_surrogate() -> None:

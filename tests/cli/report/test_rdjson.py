@@ -24,10 +24,15 @@ def diagnostics(text: str) -> list[dict[str, Any]]:
 
 
 def applied(text: str, suggestion: dict[str, Any]) -> str:
-    """The text with a suggestion applied, as reviewdog does it: by lines, and by bytes of their UTF-8."""
+    """The text with a suggestion applied, as reviewdog does it: by lines, and by bytes of their
+    UTF-8.
+    """
     start, end = (suggestion["range"][key] for key in ("start", "end"))
     lines = [line.encode() for line in text.split("\n")]
-    before, after = lines[start["line"] - 1][: start["column"] - 1], lines[end["line"] - 1][end["column"] - 1 :]
+    before, after = (
+        lines[start["line"] - 1][: start["column"] - 1],
+        lines[end["line"] - 1][end["column"] - 1 :],
+    )
     changed = before + suggestion["text"].encode() + after
     return b"\n".join([*lines[: start["line"] - 1], changed, *lines[end["line"] :]]).decode()
 
@@ -46,7 +51,11 @@ def test_diagnostics() -> None:
     assert (broken["severity"], binary["severity"]) == ("ERROR", "INFO")
     assert "suggestions" not in loaded  # its fix is unsafe
     assert binary["location"] == {"path": "trace.rdc"}
-    assert (unread["code"]["value"], unread["location"]["path"], unread["severity"]) == ("unread-input", "src/render.cpp", "INFO")
+    assert (unread["code"]["value"], unread["location"]["path"], unread["severity"]) == (
+        "unread-input",
+        "src/render.cpp",
+        "INFO",
+    )
 
 
 def test_clean_run_is_an_empty_list() -> None:
@@ -57,7 +66,10 @@ def test_the_schema_refuses_what_reviewdog_does() -> None:
     data = json.loads(printed("rdjson", frame()))
     data["diagnostics"][0]["severity"] = "NOTE"
     assert not rdjson_validator().is_valid(data)
-    data["diagnostics"][0] |= {"severity": "INFO", "location": {"path": "a", "range": {"start": {"line": "1"}}}}
+    data["diagnostics"][0] |= {
+        "severity": "INFO",
+        "location": {"path": "a", "range": {"start": {"line": "1"}}},
+    }
     with pytest.raises(jsonschema.ValidationError):
         rdjson_validator().validate(data)
 
@@ -94,7 +106,9 @@ def test_all_edits_of_a_fix_are_one_suggestion() -> None:
     ids=lambda fix: fix.title,
 )
 def test_fixes_that_are_no_suggestions(fix: Fix) -> None:
-    (found,) = diagnostics(printed("rdjson", result(finding(span=Span(0, 1), fix=fix), text="a\n" * 3000)))
+    (found,) = diagnostics(
+        printed("rdjson", result(finding(span=Span(0, 1), fix=fix), text="a\n" * 3000))
+    )
     assert "suggestions" not in found
 
 
@@ -107,7 +121,9 @@ def test_a_line_of_a_capture_has_no_columns() -> None:
 
 def test_suggestions_of_a_run_fix_the_file(tmp_path: Path) -> None:
     path = tmp_path / "frame.msaa.yaml"
-    path.write_bytes((ROOT / "examples" / "khronos-msaa" / "stored-and-resolved.msaa.yaml").read_bytes())
+    path.write_bytes(
+        (ROOT / "examples" / "khronos-msaa" / "stored-and-resolved.msaa.yaml").read_bytes()
+    )
     count = 0
     while found := diagnostics(run(tmp_path, "check", "--output", "rdjson", path.name).stdout):
         suggestion = next(each["suggestions"][0] for each in found if "suggestions" in each)

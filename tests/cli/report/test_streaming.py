@@ -28,14 +28,21 @@ class Findings(Sequence[Finding]):
         if index >= COUNT:
             raise IndexError
         severity = ("error", "warning", "note")[index % 3]
-        return finding(f"{index} {'x' * LENGTH}", file=f"{index // 10}.yaml", severity=severity, subject=f"images.i{index % 10}")
+        return finding(
+            f"{index} {'x' * LENGTH}",
+            file=f"{index // 10}.yaml",
+            severity=severity,
+            subject=f"images.i{index % 10}",
+        )
 
 
 @pytest.fixture
 def run(monkeypatch: pytest.MonkeyPatch) -> Result:
     monkeypatch.setattr(spool, "MAX_VALUES", 50)
     monkeypatch.setattr(spool, "MAX_UNWRITTEN", 1)
-    return result()._replace(findings=Findings(), files=[f"{number}.yaml" for number in range(COUNT // 10)])
+    return result()._replace(
+        findings=Findings(), files=[f"{number}.yaml" for number in range(COUNT // 10)]
+    )
 
 
 def peak(work: Iterator[None]) -> int:
@@ -73,14 +80,26 @@ def test_a_baseline_counts_findings_without_keeping_them(run: Result) -> None:
     assert peak(counting()) < COUNT * LENGTH / 4
 
 
-def test_sarif_leaves_out_the_least_severe_of_those_that_are_suppressed_first(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_sarif_leaves_out_the_least_severe_of_those_that_are_suppressed_first(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     from msaa_lint.cli.report import sarif
 
     monkeypatch.setattr(sarif, "MAX_RESULTS", 4)
-    suppressed = [Suppressed(finding(f"s{number}", severity="error"), "inline") for number in range(2)]
-    found = [finding(f"m{number}", severity=severity) for number, severity in enumerate(("note", "warning", "note"))]
+    suppressed = [
+        Suppressed(finding(f"s{number}", severity="error"), "inline") for number in range(2)
+    ]
+    found = [
+        finding(f"m{number}", severity=severity)
+        for number, severity in enumerate(("note", "warning", "note"))
+    ]
     run = result(*found)._replace(suppressed=suppressed)
     texts: list[str] = []
     render("sarif", run, texts.append, Options(show_suppressed=True))
     text = "".join(texts)
-    assert [name for name in ("m0", "m1", "m2", "s0", "s1") if f'"{name}."' in text] == ["m0", "m1", "m2", "s0"]
+    assert [name for name in ("m0", "m1", "m2", "s0", "s1") if f'"{name}."' in text] == [
+        "m0",
+        "m1",
+        "m2",
+        "s0",
+    ]

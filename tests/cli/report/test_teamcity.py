@@ -19,7 +19,12 @@ def parsed(line: str) -> tuple[str, dict[str, str]]:
 
 def unescaped(text: str) -> str:
     """The text of an attribute."""
-    units = _ESCAPE.sub(lambda match: chr(int(match[1], 16)) if match[1] else {"n": "\n", "r": "\r"}.get(match[2], match[2]), text)
+    units = _ESCAPE.sub(
+        lambda match: (
+            chr(int(match[1], 16)) if match[1] else {"n": "\n", "r": "\r"}.get(match[2], match[2])
+        ),
+        text,
+    )
     return units.encode("utf-16-le", "surrogatepass").decode("utf-16-le", "surrogatepass")
 
 
@@ -41,14 +46,30 @@ def test_inspections() -> None:
         "line": "9",
         "SEVERITY": "WARNING",
     }
-    assert messages[1][1]["SEVERITY"] == "ERROR" and "is not readable" in messages[0][1]["description"]
-    assert messages[7][1] == {"typeId": "MSAA101", "message": "8 samples", "file": "trace.rdc", "SEVERITY": "INFO"}
-    unread = {"typeId": "MSAA931", "message": "`samples = count` is in no pass", "file": "src/render.cpp", "line": "2", "SEVERITY": "INFO"}
+    assert (
+        messages[1][1]["SEVERITY"] == "ERROR" and "is not readable" in messages[0][1]["description"]
+    )
+    assert messages[7][1] == {
+        "typeId": "MSAA101",
+        "message": "8 samples",
+        "file": "trace.rdc",
+        "SEVERITY": "INFO",
+    }
+    unread = {
+        "typeId": "MSAA931",
+        "message": "`samples = count` is in no pass",
+        "file": "src/render.cpp",
+        "line": "2",
+        "SEVERITY": "INFO",
+    }
     assert messages[9][1] == unread
 
 
 def test_a_rule_is_described_once() -> None:
-    names = [parsed(line)[0] for line in printed("teamcity", result(finding("a"), finding("b"))).splitlines()]
+    names = [
+        parsed(line)[0]
+        for line in printed("teamcity", result(finding("a"), finding("b"))).splitlines()
+    ]
     assert names == ["inspectionType", "inspection", "inspection"]
 
 
@@ -57,16 +78,27 @@ def test_nothing_found_prints_nothing() -> None:
 
 
 def test_escapes() -> None:
-    _, line = printed("teamcity", result(finding("it's [a|b] \u65e5\U0001f600\n\r\u0085\u2028.", file="[|'].yaml"))).splitlines()
+    _, line = printed(
+        "teamcity",
+        result(finding("it's [a|b] \u65e5\U0001f600\n\r\u0085\u2028.", file="[|'].yaml")),
+    ).splitlines()
     assert line == (
-        "##teamcity[inspection typeId='MSAA201' message='it|'s |[a||b|] |0x65E5|0xD83D|0xDE00\\n\\r\\x85\\u2028.' "
+        "##teamcity[inspection typeId='MSAA201' message='it|'s |[a||b|] "
+        "|0x65E5|0xD83D|0xDE00\\n\\r\\x85\\u2028.' "
         "file='|[|||'|].yaml' SEVERITY='WARNING']"
     )
 
 
-@pytest.mark.parametrize("token", [*TOKENS, "']##teamcity[buildStop comment='x']", "|", "|n", "]", "\u0085", "\u2029"])
+@pytest.mark.parametrize(
+    "token", [*TOKENS, "']##teamcity[buildStop comment='x']", "|", "|n", "]", "\u0085", "\u2029"]
+)
 def test_no_text_of_an_input_is_a_message(token: str) -> None:
-    text = printed("teamcity", result(finding(token, file=f"{token}.yaml", rule=token, help=token, span=Span(0, 1)), text="a"))
+    text = printed(
+        "teamcity",
+        result(
+            finding(token, file=f"{token}.yaml", rule=token, help=token, span=Span(0, 1)), text="a"
+        ),
+    )
     assert re.fullmatch(r"[\n -~]*", text)
     (_, kind), (_, inspection) = map(parsed, text.splitlines())
     assert list(kind) == ["id", "name", "category", "description"]
@@ -77,7 +109,10 @@ def test_no_text_of_an_input_is_a_message(token: str) -> None:
 def test_lengths_that_teamcity_accepts() -> None:
     long = "|" * 5000
     (_, kind), (_, inspection) = map(
-        parsed, printed("teamcity", result(finding(long, code="GAME001", rule=long, file=long, help=long))).splitlines()
+        parsed,
+        printed(
+            "teamcity", result(finding(long, code="GAME001", rule=long, file=long, help=long))
+        ).splitlines(),
     )
     assert [len(kind[key]) for key in ("name", "description")] == [255, 4000]
     assert [len(inspection[key]) for key in ("message", "file")] == [4000, 4000]

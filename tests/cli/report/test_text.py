@@ -21,7 +21,9 @@ def table(run: Result, width: int = 140) -> str:
 
 def test_concise_is_one_line_a_finding_and_a_summary() -> None:
     run = result(
-        finding("too much", span=span(TEXT, "STORE")), finding("what", severity="note", file="b.rdc", subject="images.a"), text=TEXT
+        finding("too much", span=span(TEXT, "STORE")),
+        finding("what", severity="note", file="b.rdc", subject="images.a"),
+        text=TEXT,
     )
     run = run._replace(sources={"frame.yaml": run.sources["frame.yaml"]})
     assert printed("concise", run) == (
@@ -45,17 +47,26 @@ def test_summary_names_the_missing_keys_most_lacked_first() -> None:
     undecided = (
         Undecided("MSAA401", "a", "f", "x", ("image.usage",), (key("images.x", "usage"),)),
         Undecided("MSAA401", "a", "f", "y", ("image.usage",), (key("images.y", "usage"),)),
-        Undecided("MSAA402", "b", "f", "x", ("image.memory", "device.name"), (key("images.x", "memory"), key("", "device"))),
+        Undecided(
+            "MSAA402",
+            "b",
+            "f",
+            "x",
+            ("image.memory", "device.name"),
+            (key("images.x", "memory"), key("", "device")),
+        ),
         Undecided("MSAA403", "c", "f", "x", ("image.memory",), (key("images.x", "memory"),)),
         Undecided("MSAA403", "c", "f", "x", ("aspect.store_wasted",)),
     )
     run = result(files=("f",), undecided=undecided)
     assert printed("concise", run) == (
         "No findings in 1 file\n"
-        "3 rules undecided, missing keys: images.*.memory (2), device (1), images.*.usage (1); --explain-undecided lists what to add\n"
+        "3 rules undecided, missing keys: images.*.memory (2), device (1), images.*.usage (1); "
+        "--explain-undecided lists what to add\n"
     )
     assert printed("concise", run, max_undecided=1) == (
-        "No findings in 1 file\n3 rules undecided, missing keys: images.*.memory (2), and 2 more; --explain-undecided lists what to add\n"
+        "No findings in 1 file\n3 rules undecided, missing keys: images.*.memory (2), and 2 more; "
+        "--explain-undecided lists what to add\n"
     )
 
 
@@ -68,29 +79,47 @@ def test_summary_names_the_missing_keys_most_lacked_first() -> None:
         (1, 2, "1 fixable with --fix\n2 fixable with --fix --unsafe-fixes\n"),
     ],
 )
-def test_summary_counts_the_findings_that_fixes_remove(safe: int, everything: int, expected: str) -> None:
+def test_summary_counts_the_findings_that_fixes_remove(
+    safe: int, everything: int, expected: str
+) -> None:
     fixable = finding(fix=Fix("mend", True, (Edit(Span(0, 1), "x"),)))
-    run = result(fixable, fixable, savings={"frame.yaml": Savings(Saving(safe), Saving(everything))})
+    run = result(
+        fixable, fixable, savings={"frame.yaml": Savings(Saving(safe), Saving(everything))}
+    )
     assert "".join(printed("concise", run).splitlines(keepends=True)[3:]) == expected
 
 
 def test_summary_tells_descriptions_of_captures_from_files() -> None:
-    run = result(finding(), savings={"a.jsonl": Savings(Saving(1, Price(0.0, 100.0, 0.0, 10.0)), Saving(1, None), True)})
+    run = result(
+        finding(),
+        savings={
+            "a.jsonl": Savings(Saving(1, Price(0.0, 100.0, 0.0, 10.0)), Saving(1, None), True)
+        },
+    )
     (line,) = printed("concise", run).splitlines()[2:]
-    assert line == "1 fixable in the description that `msaa-lint convert` writes, with --fix: saves 100 MB/s written, 10 mW"
+    assert (
+        line
+        == "1 fixable in the description that `msaa-lint convert` writes, with --fix: saves 100 "
+        "MB/s written, 10 mW"
+    )
 
 
 def test_a_choice_has_a_price_of_its_own_outside_of_every_sum() -> None:
     choice = Fix("clear it", False, shown=True, choice=True)
     (price, fix) = remarks(fix=choice, price=Price(622.1, 0.0, 0.0, 62.2))
-    assert (price, fix) == ("price: if chosen: -622 MB/s read, -62.2 mW", "help: clear it (a choice: not applied)")
+    assert (price, fix) == (
+        "price: if chosen: -622 MB/s read, -62.2 mW",
+        "help: clear it (a choice: not applied)",
+    )
     run = result(finding(fix=choice, price=Price(622.1, 0.0, 0.0, 62.2)))
     assert "MB/s" not in table(run)
     assert "if chosen: -622 MB/s read" in printed("markdown", run)
 
 
 def test_a_refused_fix_says_why() -> None:
-    refused = Fix("resolve in the pass", False, (Edit(Span(0, 1), "x"),), refusal="it overlaps another fix")
+    refused = Fix(
+        "resolve in the pass", False, (Edit(Span(0, 1), "x"),), refusal="it overlaps another fix"
+    )
     assert remarks(fix=refused) == ["help: resolve in the pass (not made: it overlaps another fix)"]
 
 
@@ -100,8 +129,12 @@ def remarks(**values: object) -> list[str]:
 
 
 def test_price_shows_what_there_is_of_it() -> None:
-    assert remarks(price=Price(1.5, 2248.12, 0.0, 0.25)) == ["cost: +2248 MB/s written, +1.5 MB/s read, +0.25 mW"]
-    assert remarks(price=Price(-12.0, 0.0, 31.64, 0.0)) == ["cost: -12 MB/s read, +31.6 MiB of memory"]
+    assert remarks(price=Price(1.5, 2248.12, 0.0, 0.25)) == [
+        "cost: +2248 MB/s written, +1.5 MB/s read, +0.25 mW"
+    ]
+    assert remarks(price=Price(-12.0, 0.0, 31.64, 0.0)) == [
+        "cost: -12 MB/s read, +31.6 MiB of memory"
+    ]
     assert remarks(price=Price(123456789.0, 0.0, 0.0, 0.0)) == ["cost: +1.23e+08 MB/s read"]
     for out_of_range in (float("inf"), float("-inf"), float("nan")):
         assert remarks(price=Price(1.0, out_of_range, 1.0, 1.0)) == []
@@ -115,12 +148,20 @@ def test_help_and_fix() -> None:
     assert remarks(fix=Fix("do it", True, edits)) == ["help: do it (safe: --fix)"]
     assert remarks(fix=Fix("do it", False, edits)) == ["help: do it (unsafe: --fix --unsafe-fixes)"]
     assert remarks(help="do it", fix=Fix("do it", True, edits)) == ["help: do it (safe: --fix)"]
-    assert remarks(help="why", fix=Fix("do it", False, (), True)) == ["help: why", "fix: do it (not applied automatically)"]
-    assert remarks(help="why", fix=Fix("do it", True, edits)) == ["help: why", "fix: do it (safe: --fix)"]
+    assert remarks(help="why", fix=Fix("do it", False, (), True)) == [
+        "help: why",
+        "fix: do it (not applied automatically)",
+    ]
+    assert remarks(help="why", fix=Fix("do it", True, edits)) == [
+        "help: why",
+        "fix: do it (safe: --fix)",
+    ]
 
 
 def test_docs_are_named_for_rules_that_have_a_page() -> None:
-    assert "= docs: msaa-lint rule multisampled-attachment-stored" in printed("full", result(finding()))
+    assert "= docs: msaa-lint rule multisampled-attachment-stored" in printed(
+        "full", result(finding())
+    )
     assert "= docs" not in printed("full", result(finding(rule="syntax")))
 
 
@@ -140,7 +181,9 @@ def test_places_that_are_not_drawn_are_counted() -> None:
 def test_suppressed_are_shown_when_asked_for() -> None:
     assert "suppressed:" not in printed("concise", frame())
     text = printed("concise", frame(), show_suppressed=True)
-    assert "resolve target is loaded (MSAA101) [suppressed: inline, measured on the device]\n" in text
+    assert (
+        "resolve target is loaded (MSAA101) [suppressed: inline, measured on the device]\n" in text
+    )
     assert "8 samples (MSAA101) [suppressed: baseline]\n" in text
 
 
@@ -178,8 +221,13 @@ def test_statistics_fit_80_columns() -> None:
 def test_statistics_add_up_prices_and_say_what_fixes_save() -> None:
     stored = finding(price=Price(0.0, 2247.78, 31.6, 224.8), fix=Fix("fix it", True))
     run = result(stored, stored._replace(message="other"), finding(code="MSAA1", rule="x"))
-    safe, everything = Saving(1, Price(0.0, 2247.78, 31.6, 224.8)), Saving(3, Price(100.0, 2247.78, 31.6, 234.8))
-    run = run._replace(savings={"frame.yaml": Savings(safe, everything), "a.jsonl": Savings(Saving(), safe, True)})
+    safe, everything = (
+        Saving(1, Price(0.0, 2247.78, 31.6, 224.8)),
+        Saving(3, Price(100.0, 2247.78, 31.6, 234.8)),
+    )
+    run = run._replace(
+        savings={"frame.yaml": Savings(safe, everything), "a.jsonl": Savings(Saving(), safe, True)}
+    )
     assert table(run).split("\n") == [
         "count  code     rule                            severity    MB/s   MiB     mW",
         "    2  MSAA201  multisampled-attachment-stored  warning   4495.6  63.2  449.6",
@@ -193,15 +241,25 @@ def test_statistics_add_up_prices_and_say_what_fixes_save() -> None:
 
 def test_summary_says_what_fixes_of_all_files_save() -> None:
     def saved(*prices: Price) -> str:
-        savings = {str(number): Savings(Saving(1, price), Saving(1, price)) for number, price in enumerate(prices)}
+        savings = {
+            str(number): Savings(Saving(1, price), Saving(1, price))
+            for number, price in enumerate(prices)
+        }
         return printed("concise", result(finding(), savings=savings))
 
     both = saved(Price(0.0, 2247.78, 0.0, 224.8), Price(1.0, 0.0, 31.6, 0.1))
-    assert "2 fixable with --fix: saves 2248 MB/s written, 1 MB/s read, 31.6 MiB of memory, 225 mW\n" in both
+    assert (
+        "2 fixable with --fix: saves 2248 MB/s written, 1 MB/s read, 31.6 MiB of memory, 225 mW\n"
+        in both
+    )
     assert "saves 1 MB/s read; adds 31.6 MiB of memory\n" in saved(Price(1.0, 0.0, -31.6, 0.0))
-    assert "saves" not in saved(Price(0.0, 0.0, 0.0, 0.0)) + saved(Price(float("inf"), 0.0, 0.0, 0.0))
+    assert "saves" not in saved(Price(0.0, 0.0, 0.0, 0.0)) + saved(
+        Price(float("inf"), 0.0, 0.0, 0.0)
+    )
 
 
 def test_unknown_output_is_refused() -> None:
-    with pytest.raises(ValueError, match="unknown output format 'yaml': use one of full, concise, json,"):
+    with pytest.raises(
+        ValueError, match="unknown output format 'yaml': use one of full, concise, json,"
+    ):
         render("yaml", result(), print, Options())

@@ -25,7 +25,10 @@ class Backends:
 
     def cluster(self, name: str) -> Backend:
         """The cluster of an engine."""
-        pytest.importorskip(PACKAGES[name], reason="the group of test dependencies has it; not every Python has a wheel")
+        pytest.importorskip(
+            PACKAGES[name],
+            reason="the group of test dependencies has it; not every Python has a wheel",
+        )
         if name not in self._clusters:
             self._clusters[name] = open_backend(name, None, 2)
         return self._clusters[name]
@@ -37,7 +40,9 @@ class Backends:
 
     @contextlib.contextmanager
     def opened(self, name: str) -> Iterator[Backend]:
-        """A cluster; or processes, as `copies` of this one or `started anew`, as in a process with threads."""
+        """A cluster; or processes, as `copies` of this one or `started anew`, as in a process with
+        threads.
+        """
         if name in PACKAGES:
             yield self.cluster(name)
         elif name == "copies":

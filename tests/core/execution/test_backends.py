@@ -1,4 +1,6 @@
-"""What all backends have in common: processes of this machine, copied or started anew, and clusters."""
+"""What all backends have in common: processes of this machine, copied or started anew, and
+clusters.
+"""
 
 from __future__ import annotations
 
@@ -45,11 +47,15 @@ def test_tasks_are_taken_when_there_is_room(backend: Backend) -> None:
 
 
 def test_a_task_that_ends_processes_fails_alone(backend: Backend) -> None:
-    """The others of its group are done, and those that its worker had; an exception fails the whole task."""
+    """The others of its group are done, and those that its worker had; an exception fails the whole
+    task.
+    """
     tasks = [(10, 11), (12, 13, 14), (7, 8), (13,), *((number,) for number in range(15, 25))]
     found = dict(backend.results(work.poisonous, tasks, work.split))
     ended = found.pop((13,))
-    assert isinstance(ended, Failure) and ended.reason.startswith(("it ended the process that read it (SIGKILL): ", "it ended the workers"))
+    assert isinstance(ended, Failure) and ended.reason.startswith(
+        ("it ended the process that read it (SIGKILL): ", "it ended the workers")
+    )
     squares = {(number,): [number * number] for number in (12, 14, *range(15, 25))}
     assert found == {(10, 11): [100, 121], (7, 8): Failure("ValueError: it is 7"), **squares}
 
@@ -58,7 +64,9 @@ def test_killed_workers_lose_no_result(backend: Backend, tmp_path: Path) -> None
     """What a worker had is repeated, and nothing else; no result comes twice."""
     found: dict[work.Chunk, int] = {}
     kills = 0
-    for task, result in backend.results(functools.partial(work.recorded, str(tmp_path)), work.numbers(120), work.split):
+    for task, result in backend.results(
+        functools.partial(work.recorded, str(tmp_path)), work.numbers(120), work.split
+    ):
         assert task not in found and not isinstance(result, Failure)
         found[task] = result
         if len(found) % 30 == 0:

@@ -63,7 +63,9 @@ def brief_then_long(folder: str, chunk: Chunk) -> None:
 
 
 def recorded(folder: str, chunk: Chunk) -> int:
-    """The process that does a task, which takes a while; the end of the task is recorded in a file."""
+    """The process that does a task, which takes a while; the end of the task is recorded in a
+    file.
+    """
     time.sleep(0.02)
     with open(os.path.join(folder, "done"), "a", encoding="utf-8") as file:
         file.write(f"{chunk[0]}\n")

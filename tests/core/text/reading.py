@@ -45,8 +45,15 @@ def plain(node: Node) -> Any:
 def nodes(node: Node) -> list[Node]:
     """A node and all below it, keys too, in the order of the text."""
     if node.kind == "mapping":
-        return [node, *(n for key, value in node.value.items() for n in (node.keys[key], *nodes(value)))]
-    return [node, *(n for value in node.value for n in nodes(value))] if node.kind == "sequence" else [node]
+        return [
+            node,
+            *(n for key, value in node.value.items() for n in (node.keys[key], *nodes(value))),
+        ]
+    return (
+        [node, *(n for value in node.value for n in nodes(value))]
+        if node.kind == "sequence"
+        else [node]
+    )
 
 
 def spelled(text: str) -> list[str]:

@@ -38,7 +38,10 @@ def found(text: str) -> list[Comment]:
         ("a # b: 1", ["# b: 1"]),
         ("'a\n  # b\n  c' # d\n", ["# d"]),
         ("a: |\n  # text\n  more # text\n# comment\n", ["# comment"]),
-        ("a: |  # head\n  # text\n\n # less\nb: >2- # head\n   # text\n", ["# head", "# less", "# head"]),
+        (
+            "a: |  # head\n  # text\n\n # less\nb: >2- # head\n   # text\n",
+            ["# head", "# less", "# head"],
+        ),
         ("a: >-\n  # text\nb: 1 # yes", ["# yes"]),
         ("a: !!str # tagged\n  # still\n  |\n  # text\n", ["# tagged", "# still"]),
         ("a: &x # anchored\n  'x # y'\nb: *x # alias\n", ["# anchored", "# alias"]),
@@ -67,7 +70,10 @@ def test_comments(text: str, expected: list[str]) -> None:
 
 
 def test_places() -> None:
-    assert found("é: '𝄞 #' # x\r\n  # 𝄞\r") == [Comment(Span(9, 12), "# x"), Comment(Span(16, 19), "# 𝄞")]
+    assert found("é: '𝄞 #' # x\r\n  # 𝄞\r") == [
+        Comment(Span(9, 12), "# x"),
+        Comment(Span(16, 19), "# 𝄞"),
+    ]
 
 
 @pytest.mark.usefixtures("stack")
@@ -104,13 +110,23 @@ VALUES = st.text(string.ascii_letters + " #'\"\n:-|>", max_size=30)
 
 
 @examples(0.8)
-@given(st.dictionaries(KEYS, VALUES | st.lists(VALUES, max_size=3), min_size=1, max_size=5), st.data())
-def test_what_is_written_between_values_is_found_and_changes_nothing(value: dict[str, object], data: st.DataObject) -> None:
+@given(
+    st.dictionaries(KEYS, VALUES | st.lists(VALUES, max_size=3), min_size=1, max_size=5), st.data()
+)
+def test_what_is_written_between_values_is_found_and_changes_nothing(
+    value: dict[str, object], data: st.DataObject
+) -> None:
     style = data.draw(st.sampled_from([None, "'", '"', "|", ">"]))
     notes = ["# " + data.draw(NOTES) for _ in value]
     text = ""
     for note, (key, entry) in zip(notes, value.items(), strict=True):
-        text += note + "\n" + yaml.safe_dump({key: entry}, default_style=style, width=20, default_flow_style=False)
+        text += (
+            note
+            + "\n"
+            + yaml.safe_dump({key: entry}, default_style=style, width=20, default_flow_style=False)
+        )
     assert [comment.text for comment in found(text)] == notes
     without = apply(text, [Edit(Span(start, end + 1), "") for (start, end), _ in found(text)])
-    assert [plain(d) for d in reading(without).documents] == [plain(d) for d in reading(text).documents]
+    assert [plain(d) for d in reading(without).documents] == [
+        plain(d) for d in reading(text).documents
+    ]

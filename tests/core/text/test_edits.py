@@ -15,7 +15,9 @@ def edit(start: int, end: int, text: str = "x") -> Edit:
 def test_edits_are_made_whatever_their_order() -> None:
     text = "a: STORE # why\r\nb: STORE\n\tc: é𝄞 \r"
     edits = [edit(19, 24, "NONE"), edit(29, 30, ""), edit(3, 8, "DONT_CARE")]
-    assert apply(text, edits) == apply(text, edits[::-1]) == "a: DONT_CARE # why\r\nb: NONE\n\tc: 𝄞 \r"
+    assert (
+        apply(text, edits) == apply(text, edits[::-1]) == "a: DONT_CARE # why\r\nb: NONE\n\tc: 𝄞 \r"
+    )
 
 
 def test_no_edits() -> None:
@@ -69,7 +71,10 @@ WORDS = st.text("xyz\n", max_size=3)
 @given(TEXTS, st.lists(st.integers(0, 30), max_size=10, unique=True), st.data())
 def test_what_is_not_edited_stays(text: str, cuts: list[int], data: st.DataObject) -> None:
     places = sorted(cut for cut in cuts if cut <= len(text))
-    edits = [edit(start, end, data.draw(WORDS)) for start, end in zip(places[::2], places[1::2], strict=False)]
+    edits = [
+        edit(start, end, data.draw(WORDS))
+        for start, end in zip(places[::2], places[1::2], strict=False)
+    ]
     made = apply(text, data.draw(st.permutations(edits)))
     by_hand = text
     for each in reversed(edits):
@@ -83,7 +88,14 @@ def test_what_is_not_edited_stays(text: str, cuts: list[int], data: st.DataObjec
     assert apply(made, undone) == text
 
 
-@given(st.lists(st.tuples(st.integers(0, 12), st.integers(0, 12)).map(lambda pair: edit(min(pair), max(pair))), max_size=4))
+@given(
+    st.lists(
+        st.tuples(st.integers(0, 12), st.integers(0, 12)).map(
+            lambda pair: edit(min(pair), max(pair))
+        ),
+        max_size=4,
+    )
+)
 def test_edits_are_refused_exactly_where_two_overlap(edits: list[Edit]) -> None:
     def overlap(one: Span, two: Span) -> bool:
         return one == two or (one.start < two.end and two.start < one.end)
@@ -95,4 +107,6 @@ def test_edits_are_refused_exactly_where_two_overlap(edits: list[Edit]) -> None:
         assert clash
     else:
         assert not clash
-        assert len(made) == 12 + sum(len(each.text) - (each.span.end - each.span.start) for each in edits)
+        assert len(made) == 12 + sum(
+            len(each.text) - (each.span.end - each.span.start) for each in edits
+        )

@@ -65,7 +65,9 @@ def test_a_folder(project: Path, named: bool) -> None:
 
 
 @posix
-def test_what_content_names_must_be_a_regular_file(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_content_names_must_be_a_regular_file(
+    project: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     os.mkfifo(project / "pipe")
     with pytest.raises(OSError, match="it is a pipe, not a regular file"):
         inside(project, "pipe")
@@ -80,7 +82,9 @@ def test_what_content_names_must_be_a_regular_file(project: Path, monkeypatch: p
 
 
 @posix
-def test_a_pipe_that_takes_a_files_place_is_not_waited_for(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_pipe_that_takes_a_files_place_is_not_waited_for(
+    project: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     (project / "file").write_bytes(b"a: 1")
     os.mkfifo(project / "pipe")
     status = os.stat(project / "file")
@@ -90,7 +94,9 @@ def test_a_pipe_that_takes_a_files_place_is_not_waited_for(project: Path, monkey
 
 
 @posix
-def test_a_link_that_takes_the_place_of_a_file_or_folder_is_not_followed(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_link_that_takes_the_place_of_a_file_or_folder_is_not_followed(
+    project: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """The path was checked when it still had no links."""
     (project / "file").symlink_to("../outside/secret")
     (project / "folder").symlink_to("../outside")
@@ -120,7 +126,14 @@ def test_a_link_stays_in_the_project(project: Path) -> None:
     (project / "link").symlink_to("a/b/file")
     (project / "folder").symlink_to("a")
     (project / "absolute").symlink_to((project / "a").resolve())
-    for path in ("link", "folder/b/file", "absolute/b/file", "a/b/../b/file", "../project/link", str((project / "link").resolve())):
+    for path in (
+        "link",
+        "folder/b/file",
+        "absolute/b/file",
+        "a/b/../b/file",
+        "../project/link",
+        str((project / "link").resolve()),
+    ):
         assert inside(project, path) == b"a: 1", path
     (project / "loop").symlink_to("loop")
     with pytest.raises(OSError, match="Too many levels of symbolic links"):
@@ -138,8 +151,25 @@ def test_what_is_outside_is_not_looked_at(project: Path) -> None:
     (project / "twice").symlink_to("secret")
     (project / "folder").symlink_to("../outside")
     (project / "environment").symlink_to("/proc/self/environ")
-    names = ["secret", "gone", "twice", "folder/secret", "folder/gone", "folder", "environment", "../outside/secret", "../outside/gone"]
-    names += ["/proc/self/environ", "/proc/self/root/etc/passwd", f"/proc/{os.getpid()}/cwd/../..", "/etc/passwd", "/nowhere", ".."]
+    names = [
+        "secret",
+        "gone",
+        "twice",
+        "folder/secret",
+        "folder/gone",
+        "folder",
+        "environment",
+        "../outside/secret",
+        "../outside/gone",
+    ]
+    names += [
+        "/proc/self/environ",
+        "/proc/self/root/etc/passwd",
+        f"/proc/{os.getpid()}/cwd/../..",
+        "/etc/passwd",
+        "/nowhere",
+        "..",
+    ]
     names += [f"{project.name}/../../outside/secret", f"../{project.name}-other/file"]
     for name in names:
         with pytest.raises(Outside, match=r"^it is outside the project$"):
@@ -151,7 +181,9 @@ def test_a_hard_link_is_a_file_of_the_project(project: Path) -> None:
     assert inside(project, "hard") == b"secret"
 
 
-def test_paths_are_not_expanded_and_urls_are_none(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_paths_are_not_expanded_and_urls_are_none(
+    project: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setenv("HOME", str(project))
     (project / "file").write_bytes(b"a: 1")
     monkeypatch.chdir(project)

@@ -59,15 +59,31 @@ def events_read(monkeypatch: pytest.MonkeyPatch) -> list[Any]:
 class TestDepth:
     @pytest.mark.parametrize(
         ("opening", "at"),
-        [("[", 100), ("{a: ", 400), ("{a:\n", 400), ("- ", 200), ("[{a: ", 250), ("[a: ", 200), ("[\n", 200)],
+        [
+            ("[", 100),
+            ("{a: ", 400),
+            ("{a:\n", 400),
+            ("- ", 200),
+            ("[{a: ", 250),
+            ("[a: ", 200),
+            ("[\n", 200),
+        ],
     )
-    def test_it_ends_at_the_limit(self, stack: str, opening: str, at: int, events_read: list[Any]) -> None:
+    def test_it_ends_at_the_limit(
+        self, stack: str, opening: str, at: int, events_read: list[Any]
+    ) -> None:
         text = opening * (100_000 if stack == "libyaml" else 1_000)
         problem = trouble(text)
         assert len(events_read) < 400
-        # libyaml from 0.2.6 on gives up at its own limit, 1000, where it reads that far ahead before the first event.
+        # libyaml from 0.2.6 on gives up at its own limit, 1000, where it reads that far ahead
+        # before the first event.
         start = 1000 if (stack, opening) == ("libyaml", "[") and len(events_read) < at else at
-        assert problem == ("MSAA906", "the nesting exceeds the limit of 100", Span(start, start + 1), ())
+        assert problem == (
+            "MSAA906",
+            "the nesting exceeds the limit of 100",
+            Span(start, start + 1),
+            (),
+        )
 
     def test_indented_ever_further(self) -> None:
         text = "".join(" " * depth + "a:\n" for depth in range(300))
@@ -116,7 +132,9 @@ class TestNodes:
         ],
     )
     def test_all_are_counted_once_aliases_are_expanded(self, text: str, count: int) -> None:
-        assert [p.code for p in reading(text, nodes=count).problems] == [p.code for p in reading(text).problems]
+        assert [p.code for p in reading(text, nodes=count).problems] == [
+            p.code for p in reading(text).problems
+        ]
         problems = reading(text, nodes=count - 1).problems
         message = f"the number of nodes with aliases expanded exceeds the limit of {count - 1}"
         assert (problems[-1].code, problems[-1].message) == ("MSAA906", message)
@@ -131,11 +149,17 @@ class TestNodes:
         assert len(events_read) < 200
 
     def test_an_alias_bomb_of_mappings_and_keys(self) -> None:
-        lines = ["a0: &a0 {x: 1}", *(f"a{n}: &a{n} {{l: *a{n - 1}, r: *a{n - 1}}}" for n in range(1, 60))]
+        lines = [
+            "a0: &a0 {x: 1}",
+            *(f"a{n}: &a{n} {{l: *a{n - 1}, r: *a{n - 1}}}" for n in range(1, 60)),
+        ]
         assert trouble("\n".join(lines)).code == "MSAA906"
 
     def test_merges_that_double(self) -> None:
-        lines = ["a0: &a0 {x0: 0}", *(f"a{n}: &a{n} {{<<: [*a{n - 1}, *a{n - 1}], x{n}: {n}}}" for n in range(1, 30))]
+        lines = [
+            "a0: &a0 {x0: 0}",
+            *(f"a{n}: &a{n} {{<<: [*a{n - 1}, *a{n - 1}], x{n}: {n}}}" for n in range(1, 30)),
+        ]
         assert trouble("\n".join(lines)).code == "MSAA906"
         root = one("\n".join(lines[:10]))
         assert plain(root)["a9"] == {f"x{n}": n for n in range(10)}
@@ -162,7 +186,9 @@ def test_more_than_a_million_nodes() -> None:
     documents, problems = reading("[" + "1," * 1_000_001 + "]")
     assert documents == []
     # The list is a node too: the millionth number is one too many.
-    assert [(p.code, p.span) for p in problems] == [("MSAA906", Span(2 * 1_000_000 - 1, 2 * 1_000_000))]
+    assert [(p.code, p.span) for p in problems] == [
+        ("MSAA906", Span(2 * 1_000_000 - 1, 2 * 1_000_000))
+    ]
 
 
 @pytest.mark.usefixtures("stack")
@@ -190,11 +216,20 @@ class TestSize:
 
     def test_numbers_of_many_digits_are_texts(self) -> None:
         digits = "9" * 50_000
-        texts = [digits, "-" + digits, "0x" + digits, "0o" + 50_000 * "7", "1." + digits, "1e" + digits]
+        texts = [
+            digits,
+            "-" + digits,
+            "0x" + digits,
+            "0o" + 50_000 * "7",
+            "1." + digits,
+            "1e" + digits,
+        ]
         assert plain(one(f"[{', '.join(texts)}]")) == texts
 
 
-@pytest.mark.parametrize(("before", "after"), [("", ""), ("'", "'"), ('"', '"'), ("|\n  ", ""), (">-\n  ", "\n\n")])
+@pytest.mark.parametrize(
+    ("before", "after"), [("", ""), ("'", "'"), ('"', '"'), ("|\n  ", ""), (">-\n  ", "\n\n")]
+)
 def test_ten_megabytes_of_one_scalar(before: str, after: str) -> None:
     body = "x" * 10_000_000
     text = f"a: {before}{body}{after}"
@@ -231,7 +266,14 @@ def test_two_megabytes_of_one_key_or_name(text: str, code: str | None) -> None:
 
 @pytest.mark.usefixtures("stack")
 @pytest.mark.parametrize(
-    "text", ["\n" * 50_000, "a:\n" + "   \n" * 10_000 + " b", "'" + "''" * 50_000 + "'", '"' + "\\\n" * 20_000 + '"', "#\n" * 20_000]
+    "text",
+    [
+        "\n" * 50_000,
+        "a:\n" + "   \n" * 10_000 + " b",
+        "'" + "''" * 50_000 + "'",
+        '"' + "\\\n" * 20_000 + '"',
+        "#\n" * 20_000,
+    ],
 )
 def test_long_texts_of_little(text: str) -> None:
     documents, problems = reading(text)
@@ -242,7 +284,11 @@ def test_long_texts_of_little(text: str) -> None:
 @pytest.mark.usefixtures("stack")
 def test_truncated_at_every_character() -> None:
     whole = plain(one(DESCRIPTION))
-    assert whole["images"]["other"] == {"format": "R8G8B8A8_UNORM", "samples": 8, "usage": ["COLOR_ATTACHMENT", "TRANSIENT_ATTACHMENT"]}
+    assert whole["images"]["other"] == {
+        "format": "R8G8B8A8_UNORM",
+        "samples": 8,
+        "usage": ["COLOR_ATTACHMENT", "TRANSIENT_ATTACHMENT"],
+    }
     for end in range(len(DESCRIPTION)):
         text = DESCRIPTION[:end]
         documents, problems = reading(text)
@@ -252,8 +298,15 @@ def test_truncated_at_every_character() -> None:
         for document in documents:
             value = plain(document)
             if isinstance(value, dict):
-                assert list(value) == list(whole)[: len(value)] or list(value)[:-1] == list(whole)[: len(value) - 1]
-            assert all(0 <= node.start <= node.end <= end for node in nodes(document) if node.anchor is None)
+                assert (
+                    list(value) == list(whole)[: len(value)]
+                    or list(value)[:-1] == list(whole)[: len(value) - 1]
+                )
+            assert all(
+                0 <= node.start <= node.end <= end
+                for node in nodes(document)
+                if node.anchor is None
+            )
 
 
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16"])
@@ -299,7 +352,12 @@ def test_binary() -> None:
 @pytest.mark.usefixtures("stack")
 @pytest.mark.parametrize("mark", [b"\xff\xfe", b"\xfe\xff"])
 def test_utf_16(mark: bytes) -> None:
-    text = decode(mark + 'é: {"𝄞": "\\ud834\\udd1e"}\r\nb: 1'.encode("utf-16-le" if mark == b"\xff\xfe" else "utf-16-be"))
+    text = decode(
+        mark
+        + 'é: {"𝄞": "\\ud834\\udd1e"}\r\nb: 1'.encode(
+            "utf-16-le" if mark == b"\xff\xfe" else "utf-16-be"
+        )
+    )
     root = one(text)
     assert plain(root) == {"é": {"𝄞": "𝄞"}, "b": 1}
     assert Source("x", text).position(root.value["b"].start) == (2, 4)
@@ -309,7 +367,13 @@ def test_utf_16(mark: bytes) -> None:
 
 def test_names_in_messages_are_short() -> None:
     long = "n" * 100_000
-    for text in (f"*{long}", f"a: &{long} [*{long}]", f"a: !{long} x", f"{{? {long} : 1, ? {long} : 2}}", f"a: !!{long} x"):
+    for text in (
+        f"*{long}",
+        f"a: &{long} [*{long}]",
+        f"a: !{long} x",
+        f"{{? {long} : 1, ? {long} : 2}}",
+        f"a: !!{long} x",
+    ):
         assert len(trouble(text).message) < 200
 
 

@@ -30,7 +30,8 @@ class TestSpelling:
             '"text"',
             "[[[[]]]]",
             '{"a":\n"b"\n,\n"c":\n[\n{\n}\n]\n}',
-            '["# no comment", "- no entry", "a: b", "{", "*a", "&a", "!a", "%a", "@a", "`a`", "--- ", "| ", "> "]',
+            '["# no comment", "- no entry", "a: b", "{", "*a", "&a", "!a", "%a", "@a", "`a`", "--- '
+            '", "| ", "> "]',
             '{"yes":"no","1":"1","null":"null","~":"~","<":"<"}',
             '{"x":[1,2,3],"y":{"z":[{"a":1},{"a":2}]}}',
         ],
@@ -54,7 +55,14 @@ class TestSpelling:
 @pytest.mark.usefixtures("stack")
 class TestSurrogates:
     @pytest.mark.parametrize(
-        "written", ["\\ud83d\\ude00", "\\uD83D\\uDE00", "x\\uD834\\udd1e\\ud834\\uDD1Ey", "\\udbff\\udfff", "\\ud800\\udc00"]
+        "written",
+        [
+            "\\ud83d\\ude00",
+            "\\uD83D\\uDE00",
+            "x\\uD834\\udd1e\\ud834\\uDD1Ey",
+            "\\udbff\\udfff",
+            "\\ud800\\udc00",
+        ],
     )
     def test_a_pair_is_a_character(self, written: str) -> None:
         text = f'{{"a{written}": ["{written}", 1]}}'
@@ -67,7 +75,8 @@ class TestSurrogates:
             'd: "\\ud83d\\ude00 \\ue000"\ne: "\\\\ud83d"\nf: "\\\\\\ud83d\\ude00"\n'
         )
         assert plain(one(text)) == {
-            "a": "\\ud83d\\ude00", "b": "\\ud83d", "c": "\\ud83d\\ude00\n", "d": "😀 \ue000", "e": "\\ud83d", "f": "\\😀",
+            "a": "\\ud83d\\ude00", "b": "\\ud83d", "c": "\\ud83d\\ude00\n", "d": "😀 \ue000",
+            "e": "\\ud83d", "f": "\\😀",
         }  # fmt: skip
 
     def test_characters_that_stand_in_for_them_are_not_the_texts_own(self) -> None:
@@ -87,7 +96,9 @@ class TestSurrogates:
     def test_half_a_pair_is_no_character(self, text: str, at: int) -> None:
         problem = trouble(text)
         assert (problem.code, tuple(problem.span)) == ("MSAA901", (at, at + 6))
-        assert problem.message == f"`{text[at : at + 6]}` is half of a surrogate pair, not a character"
+        assert (
+            problem.message == f"`{text[at : at + 6]}` is half of a surrogate pair, not a character"
+        )
 
 
 CHARACTERS = st.characters(exclude_categories=["Cs"]).filter(lambda c: forbidden(c) is None)
@@ -97,7 +108,9 @@ VALUES = st.recursive(
     st.none()
     | st.booleans()
     | NUMBERS
-    | st.text(CHARACTERS | st.sampled_from("\x00\x1b\x7f\x80\\\"'/#\t\n \x85\u2028\ufeff"), max_size=20),
+    | st.text(
+        CHARACTERS | st.sampled_from("\x00\x1b\x7f\x80\\\"'/#\t\n \x85\u2028\ufeff"), max_size=20
+    ),
     lambda inner: st.lists(inner, max_size=5) | st.dictionaries(KEYS, inner, max_size=5),
     max_leaves=25,
 )
@@ -112,8 +125,12 @@ VALUES = st.recursive(
     st.sampled_from(["\n", "\r\n", "\r"]),
     st.booleans(),
 )
-def test_what_json_dumps_is_read_as_json_loads(value: Any, ascii_only: bool, indent: Any, separators: Any, end: str, pure: bool) -> None:
-    text = json.dumps(value, ensure_ascii=ascii_only, indent=indent, separators=separators).replace("\n", end)
+def test_what_json_dumps_is_read_as_json_loads(
+    value: Any, ascii_only: bool, indent: Any, separators: Any, end: str, pure: bool
+) -> None:
+    text = json.dumps(value, ensure_ascii=ascii_only, indent=indent, separators=separators).replace(
+        "\n", end
+    )
     at = forbidden(text)
     if at is not None:
         assert trouble(text).span.start == at
@@ -131,7 +148,10 @@ def assert_same(text: str) -> None:
     assert json.dumps(found) == json.dumps(expected)  # 1, 1.0 and True are equal, but not the same
 
 
-@pytest.mark.skipif(not (SAMPLES / "vulkan_sc").is_dir(), reason="the folder of samples is not there: MSAA_LINT_SAMPLES names it")
+@pytest.mark.skipif(
+    not (SAMPLES / "vulkan_sc").is_dir(),
+    reason="the folder of samples is not there: MSAA_LINT_SAMPLES names it",
+)
 def test_real_pipeline_files() -> None:
     files = sorted((SAMPLES / "vulkan_sc").rglob("*.json"))
     assert files

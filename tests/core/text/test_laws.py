@@ -17,20 +17,54 @@ from tests.strength import examples
 
 # What YAML 1.1, which yaml.dump writes, reads otherwise is left out where it writes without quotes.
 LETTERS = st.text(
-    st.characters(exclude_categories=["Cs"], exclude_characters="\x85\u2028\u2029").filter(lambda c: forbidden(c) is None), max_size=15
+    st.characters(exclude_categories=["Cs"], exclude_characters="\x85\u2028\u2029").filter(
+        lambda c: forbidden(c) is None
+    ),
+    max_size=15,
 )
 WORDS = st.sampled_from(
-    ["true", "no", "~", "010", "0o7", "1e3", "# x", "- x", "a: b", "<<", "=", "x ", " x", "", "x\n", "\n", "a\n b\n\nc", "---"]
+    [
+        "true",
+        "no",
+        "~",
+        "010",
+        "0o7",
+        "1e3",
+        "# x",
+        "- x",
+        "a: b",
+        "<<",
+        "=",
+        "x ",
+        " x",
+        "",
+        "x\n",
+        "\n",
+        "a\n b\n\nc",
+        "---",
+    ]
 )
-SCALARS = st.none() | st.booleans() | st.integers(-(10**39), 10**39) | st.floats(allow_nan=False) | LETTERS | WORDS
+SCALARS = (
+    st.none()
+    | st.booleans()
+    | st.integers(-(10**39), 10**39)
+    | st.floats(allow_nan=False)
+    | LETTERS
+    | WORDS
+)
 VALUES = st.recursive(
     SCALARS,
-    lambda inner: st.lists(inner, max_size=4) | st.dictionaries((LETTERS | WORDS).filter(lambda key: key != "<<"), inner, max_size=4),
+    lambda inner: (
+        st.lists(inner, max_size=4)
+        | st.dictionaries((LETTERS | WORDS).filter(lambda key: key != "<<"), inner, max_size=4)
+    ),
     max_leaves=15,
 )
 
 
-def as_yaml(value: Any, style: str | None, flow: bool | None, indent: int, width: int, ascii_only: bool) -> str:
+def as_yaml(
+    value: Any, style: str | None, flow: bool | None, indent: int, width: int, ascii_only: bool
+) -> str:
     text: str = yaml.dump(
         value,
         Dumper=_Dumper,
@@ -85,8 +119,16 @@ TEXTS = st.builds(
 
 
 @examples(0.6)
-@given(VALUES, st.sampled_from([None, "'", '"']), st.sampled_from([None, True, False]), st.sampled_from([2, 5]), st.booleans())
-def test_what_is_dumped_is_read(value: Any, style: str | None, flow: bool | None, indent: int, ascii_only: bool) -> None:
+@given(
+    VALUES,
+    st.sampled_from([None, "'", '"']),
+    st.sampled_from([None, True, False]),
+    st.sampled_from([2, 5]),
+    st.booleans(),
+)
+def test_what_is_dumped_is_read(
+    value: Any, style: str | None, flow: bool | None, indent: int, ascii_only: bool
+) -> None:
     text = as_yaml(value, style, flow, indent, 30, ascii_only)
     found = plain(one(text))
     assert found == value
@@ -113,13 +155,18 @@ def test_places_nest_and_follow_each_other(text: str) -> None:
     def check(node: Node) -> None:
         children = node.value if node.kind == "sequence" else []
         if node.kind == "mapping":
-            children = [child for key, value in node.value.items() for child in (node.keys[key], value)]
+            children = [
+                child for key, value in node.value.items() for child in (node.keys[key], value)
+            ]
         at = node.start
         for child in children:
             assert at <= child.start <= child.end <= node.end
             at = child.end
             check(child)
-        assert text[node.start : node.end] == text[node.start : node.end].strip(" \t\r\n") or not children
+        assert (
+            text[node.start : node.end] == text[node.start : node.end].strip(" \t\r\n")
+            or not children
+        )
 
     check(one(text))
 
@@ -131,7 +178,27 @@ def test_both_parsers_give_the_same(text: str, data: st.DataObject) -> None:
     for cut in cuts:
         text = (
             text[:cut]
-            + data.draw(st.sampled_from(["", " ", "\n", "\t", "#", ":", "*a", "&a ", "!!str ", "!x ", "]", "}", "'", "\\", "\x85"]))
+            + data.draw(
+                st.sampled_from(
+                    [
+                        "",
+                        " ",
+                        "\n",
+                        "\t",
+                        "#",
+                        ":",
+                        "*a",
+                        "&a ",
+                        "!!str ",
+                        "!x ",
+                        "]",
+                        "}",
+                        "'",
+                        "\\",
+                        "\x85",
+                    ]
+                )
+            )
             + text[cut:]
         )
     fast = reading(text)
@@ -144,4 +211,8 @@ def test_both_parsers_give_the_same(text: str, data: st.DataObject) -> None:
 
 
 def whole(parsed: Parsed) -> list[Any]:
-    return [(n.kind, n.start, n.end, n.text, n.plain, repr(plain(n))) for document in parsed.documents for n in nodes(document)]
+    return [
+        (n.kind, n.start, n.end, n.text, n.plain, repr(plain(n)))
+        for document in parsed.documents
+        for n in nodes(document)
+    ]

@@ -1,4 +1,6 @@
-"""Texts with a mistake made at random: one problem, in our words, where the mistake is; and in a time that grows as the text does."""
+"""Texts with a mistake made at random: one problem, in our words, where the mistake is; and in a
+time that grows as the text does.
+"""
 
 from __future__ import annotations
 
@@ -16,7 +18,10 @@ from tests.paths import ROOT
 
 TEXTS = [
     path.read_text(encoding="utf-8")
-    for path in (*sorted((ROOT / "examples" / "impeller").glob("*.yaml")), *sorted((ROOT / "tests" / "data").glob("*.*")))
+    for path in (
+        *sorted((ROOT / "examples" / "impeller").glob("*.yaml")),
+        *sorted((ROOT / "tests" / "data").glob("*.*")),
+    )
     if path.suffix in (".yaml", ".json")
 ]
 INDICATORS = ":,[]{}\"'-#\t &*!|>%@`="
@@ -25,7 +30,11 @@ INDICATORS = ":,[]{}\"'-#\t &*!|>%@`="
 def mistaken(text: str, chance: random.Random) -> tuple[str, int]:
     """A text without one of its characters, or with one more, and the place of that."""
     at = chance.randrange(len(text))
-    return (text[:at] + text[at + 1 :] if chance.random() < 0.5 else text[:at] + chance.choice(INDICATORS) + text[at:]), at
+    return (
+        text[:at] + text[at + 1 :]
+        if chance.random() < 0.5
+        else text[:at] + chance.choice(INDICATORS) + text[at:]
+    ), at
 
 
 @pytest.mark.parametrize("seed", range(4))
@@ -39,7 +48,9 @@ def test_a_character_more_or_less(seed: int) -> None:
         assert len(problems) <= 1
         for problem in problems:
             assert 0 <= problem.span.start <= problem.span.end <= len(text)
-            assert all(0 <= label.span.start <= label.span.end <= len(text) for label in problem.labels)
+            assert all(
+                0 <= label.span.start <= label.span.end <= len(text) for label in problem.labels
+            )
             assert FOREIGN.search(re.sub("`[^`]*`", "", problem.message)) is None
             assert len(problem.message) < 400
             count += 1
@@ -91,6 +102,10 @@ def test_a_long_text_with_a_mistake(begin: str, line: str, end: str) -> None:
 
 
 def test_a_message_shows_little_of_a_long_line() -> None:
-    for text in ("images " + "x" * 100_000 + "\nframe: {}\n", "images: [" + "x " * 50_000 + ": 4]", "images: {" + "é\x85" * 50_000 + "]"):
+    for text in (
+        "images " + "x" * 100_000 + "\nframe: {}\n",
+        "images: [" + "x " * 50_000 + ": 4]",
+        "images: {" + "é\x85" * 50_000 + "]",
+    ):
         problem = trouble(text)
         assert len(problem.message) < 300

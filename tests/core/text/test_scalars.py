@@ -12,9 +12,12 @@ from msaa_lint.core.text.scalars import MAX_DIGITS, MAX_FLOAT, resolve
     ("text", "value"),
     [
         ("", None), ("~", None), ("null", None), ("Null", None), ("NULL", None),
-        ("true", True), ("True", True), ("TRUE", True), ("false", False), ("False", False), ("FALSE", False),
-        ("0", 0), ("-0", 0), ("+12", 12), ("-12", -12), ("010", 10), ("0o10", 8), ("0o17", 15), ("0x1F", 31), ("0xffffffff", 0xFFFFFFFF),
-        ("1.", 1.0), (".5", 0.5), ("-.5", -0.5), ("+1.5", 1.5), ("1e3", 1000.0), ("1E-3", 0.001), ("1.5e+3", 1500.0), ("0.0", 0.0),
+        ("true", True), ("True", True), ("TRUE", True), ("false", False), ("False", False),
+        ("FALSE", False),
+        ("0", 0), ("-0", 0), ("+12", 12), ("-12", -12), ("010", 10), ("0o10", 8), ("0o17", 15),
+        ("0x1F", 31), ("0xffffffff", 0xFFFFFFFF),
+        ("1.", 1.0), (".5", 0.5), ("-.5", -0.5), ("+1.5", 1.5), ("1e3", 1000.0), ("1E-3", 0.001),
+        ("1.5e+3", 1500.0), ("0.0", 0.0),
         (".inf", math.inf), ("+.Inf", math.inf), ("-.INF", -math.inf), ("1e999", math.inf),
     ],
 )  # fmt: skip
@@ -33,9 +36,11 @@ def test_nan(text: str) -> None:
 @pytest.mark.parametrize(
     "text",
     [
-        "yes", "no", "on", "off", "y", "n", "Yes", "NO", "tRUE", "nULL", "1_000", "1:30", "0b11", "0o8", "0xG",
+        "yes", "no", "on", "off", "y", "n", "Yes", "NO", "tRUE", "nULL", "1_000", "1:30", "0b11",
+        "0o8", "0xG",
         "-0x1", "+0o7", "2020-01-01",
-        "+", "-", ".", "..", "+.", "e3", ".e3", "1e", "1e+", "--1", "1.2.3", "1 2", "-.nan", "+.nan", "inf", "NaN", "Infinity", "=", "<<",
+        "+", "-", ".", "..", "+.", "e3", ".e3", "1e", "1e+", "--1", "1.2.3", "1 2", "-.nan",
+        "+.nan", "inf", "NaN", "Infinity", "=", "<<",
         "１２", "1²", "٣", "1\n", " 1", "nullx",
     ],
 )  # fmt: skip

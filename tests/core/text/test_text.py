@@ -71,13 +71,25 @@ def test_lines_end_as_in_yaml() -> None:
     assert [source.line(n) for n in range(1, 5)] == ["one", "two", "three", "four\x85\u2028five"]
 
 
-@pytest.mark.parametrize(("text", "count"), [("", 1), ("a", 1), ("a\n", 1), ("a\n\n", 2), ("\n", 1), ("a\r\r", 2)])
+@pytest.mark.parametrize(
+    ("text", "count"), [("", 1), ("a", 1), ("a\n", 1), ("a\n\n", 2), ("\n", 1), ("a\r\r", 2)]
+)
 def test_line_count(text: str, count: int) -> None:
     assert Source("x", text).line_count == count
 
 
 @pytest.mark.parametrize(
-    ("offset", "place"), [(0, (1, 1)), (1, (1, 2)), (3, (1, 4)), (4, (2, 1)), (5, (2, 2)), (7, (2, 4)), (8, (3, 1)), (9, (3, 2))]
+    ("offset", "place"),
+    [
+        (0, (1, 1)),
+        (1, (1, 2)),
+        (3, (1, 4)),
+        (4, (2, 1)),
+        (5, (2, 2)),
+        (7, (2, 4)),
+        (8, (3, 1)),
+        (9, (3, 2)),
+    ],
 )
 def test_columns_count_code_points(offset: int, place: tuple[int, int]) -> None:
     # Offsets: 𝄞 0, e 1, combining acute 2, \n 3; é 4, \t 5, \r 6, \n 7; z 8.
@@ -94,7 +106,10 @@ def test_position_finds_the_character_in_its_line(text: str, data: st.DataObject
         assert source.line(line)[column - 1] == text[offset]
 
 
-@pytest.mark.parametrize("bad", ["\0", "\x08", "\x0b", "\x1b", "\x7f", "\x80", "\x9f", "\ud800", "\udfff", "\ufffe", "\uffff"])
+@pytest.mark.parametrize(
+    "bad",
+    ["\0", "\x08", "\x0b", "\x1b", "\x7f", "\x80", "\x9f", "\ud800", "\udfff", "\ufffe", "\uffff"],
+)
 def test_forbidden_characters(bad: str) -> None:
     assert forbidden(bad) == 0
     assert forbidden("ab" + bad + bad) == 2

@@ -1,4 +1,6 @@
-"""Values and exact places. A place is checked by its offsets, or by the text there where that text stands only once."""
+"""Values and exact places. A place is checked by its offsets, or by the text there where that text
+stands only once.
+"""
 
 from __future__ import annotations
 
@@ -40,7 +42,17 @@ def test_a_pair_in_a_list_is_a_mapping() -> None:
 
 def test_a_list_that_is_not_indented() -> None:
     text = "a:\n- 1\n-   - 2\n    - 3\nb: 4\n"
-    assert spelled(text) == [text[:-1], "a", "- 1\n-   - 2\n    - 3", "1", "- 2\n    - 3", "2", "3", "b", "4"]
+    assert spelled(text) == [
+        text[:-1],
+        "a",
+        "- 1\n-   - 2\n    - 3",
+        "1",
+        "- 2\n    - 3",
+        "2",
+        "3",
+        "b",
+        "4",
+    ]
 
 
 @pytest.mark.parametrize(
@@ -59,7 +71,9 @@ def test_a_list_that_is_not_indented() -> None:
     ],
 )
 def test_nothing_stands_after_its_colon_or_dash(text: str, at: int) -> None:
-    (nothing,) = [node for node in nodes(one(text)) if node.kind == "scalar" and node.value is None][:1]
+    (nothing,) = [
+        node for node in nodes(one(text)) if node.kind == "scalar" and node.value is None
+    ][:1]
     assert nothing.span == Span(at, at)
     assert (nothing.text, nothing.plain) == ("", True)
 
@@ -136,7 +150,8 @@ def test_offsets_are_code_points_of_the_text(end: str, mark: str) -> None:
 
 
 def test_yaml_1_2_has_three_line_ends_less() -> None:
-    # YAML 1.1 ends the comment at U+0085, and so hides `b` from whoever reads it in an editor that does not.
+    # YAML 1.1 ends the comment at U+0085, and so hides `b` from whoever reads it in an editor that
+    # does not.
     text = "a: 1 # x\x85b: 2\u2028c: 3\n'd \u2028 e': \"f\x85  g\u2029\"\nh: i\u2029j\n"
     root = one(text)
     assert plain(root) == {"a": 1, "d \u2028 e": "f\x85  g\u2029", "h": "i\u2029j"}
@@ -144,16 +159,37 @@ def test_yaml_1_2_has_three_line_ends_less() -> None:
 
 
 class TestDocuments:
-    @pytest.mark.parametrize("text", ["", " ", "\n\n", "# only\n# this", "---\n", "---\n# nothing\n...\n", "\ufeff", "%YAML 1.2\n---\n"])
+    @pytest.mark.parametrize(
+        "text",
+        [
+            "",
+            " ",
+            "\n\n",
+            "# only\n# this",
+            "---\n",
+            "---\n# nothing\n...\n",
+            "\ufeff",
+            "%YAML 1.2\n---\n",
+        ],
+    )
     def test_nothing_is_no_document(self, text: str) -> None:
         assert reading(text) == ([], [])
 
     def test_several(self) -> None:
-        text = "%YAML 1.2\n--- # one\na: &x 1\n...\n---\n- 2\n---\n# none\n--- null\n--- ''\n--- {a: 3}"
+        text = (
+            "%YAML 1.2\n--- # one\na: &x 1\n...\n---\n- 2\n---\n# none\n--- null\n--- ''\n--- "
+            "{a: 3}"
+        )
         documents, problems = reading(text)
         assert problems == []
         assert [plain(document) for document in documents] == [{"a": 1}, [2], None, "", {"a": 3}]
-        assert [text[d.start : d.end] for d in documents] == ["a: &x 1", "- 2", "null", "''", "{a: 3}"]
+        assert [text[d.start : d.end] for d in documents] == [
+            "a: &x 1",
+            "- 2",
+            "null",
+            "''",
+            "{a: 3}",
+        ]
 
     def test_an_anchor_ends_with_its_document(self) -> None:
         problem = trouble("a: &x 1\n---\nb: *x\n")
@@ -183,7 +219,11 @@ class TestAliases:
         root = one(text)
         assert plain(root) == {"a": "4", "b": ["4", "a"], "4": 1}
         assert text[root.keys["4"].start : root.keys["4"].end] == "*x"
-        assert [(n.text, n.plain) for n in (*root.value["b"].value, root.keys["4"])] == [("4", False), ("a", True), ("4", False)]
+        assert [(n.text, n.plain) for n in (*root.value["b"].value, root.keys["4"])] == [
+            ("4", False),
+            ("a", True),
+            ("4", False),
+        ]
 
     def test_an_alias_of_what_has_an_alias(self) -> None:
         root = one("a: &a 1\nb: &b [*a]\nc: *b")
@@ -245,7 +285,10 @@ class TestMerge:
         assert plain(root.value["c"]) == {"x": 1, "y": 2, "z": 3}
         assert plain(root.value["d"]) == {"x": 1, "y": 2}
 
-    @pytest.mark.parametrize(("text", "span"), [("{<<: 1}", (5, 6)), ("{<<: [{}, [1]]}", (10, 13)), ("<<:\na: 1", (3, 4))])
+    @pytest.mark.parametrize(
+        ("text", "span"),
+        [("{<<: 1}", (5, 6)), ("{<<: [{}, [1]]}", (10, 13)), ("<<:\na: 1", (3, 4))],
+    )
     def test_only_mappings_are_merged(self, text: str, span: tuple[int, int]) -> None:
         problem = trouble(text)
         assert (problem.code, problem.span) == ("MSAA903", span)
@@ -393,11 +436,23 @@ class TestSyntax:
             ("a:\n\t- 1", (3, 4), "a tab cannot be used here"),
             ("a: 1\n\tb: 2", (5, 6), "a tab cannot be used here"),
             ("\ta: 1", (0, 1), "a tab cannot be used here"),
-            ("a: b: c", (4, 5), "a second `:` on the line of `a`: write `a` and `b` on lines of their own"),
-            ("a: [1, 2", (3, 4), "`[` is never closed: the text ends at line 1, column 9 before its `]`"),
+            (
+                "a: b: c",
+                (4, 5),
+                "a second `:` on the line of `a`: write `a` and `b` on lines of their own",
+            ),
+            (
+                "a: [1, 2",
+                (3, 4),
+                "`[` is never closed: the text ends at line 1, column 9 before its `]`",
+            ),
             ('a: "x', (3, 4), 'the quote `"x` is never closed; add the closing `"`'),
             ("a: 'x\n", (3, 4), "the quote `'x` is never closed; add the closing `'`"),
-            ("a: 1\n- b", (5, 6), "a list item cannot stand among the keys of the mapping that `a: 1` begins"),
+            (
+                "a: 1\n- b",
+                (5, 6),
+                "a list item cannot stand among the keys of the mapping that `a: 1` begins",
+            ),
             ("a: }", (3, 4), ""),
             ("a: `x`", (3, 4), "a value cannot begin with a backtick"),
             ("a: @x", (3, 4), 'a value cannot begin with `@`; write "@x"'),
@@ -418,7 +473,10 @@ class TestSyntax:
         problem = trouble(text)
         assert problem.code == "MSAA901"
         # Within a quoted scalar the two parsers stop at different characters.
-        assert problem.span == span or (text[3:4] == '"' and span[0] <= problem.span.start <= problem.span.end <= max(span[1], len(text)))
+        assert problem.span == span or (
+            text[3:4] == '"'
+            and span[0] <= problem.span.start <= problem.span.end <= max(span[1], len(text))
+        )
         assert said in problem.message
 
     def test_where_the_broken_thing_begins_is_a_label(self) -> None:

@@ -22,11 +22,35 @@ HERE = Span(0, 0)
 TEXTS = st.one_of(
     st.text(st.characters(codec="utf-8"), max_size=12),
     st.sampled_from(
-        ["", "null", "true", "No", "~", "<<", "4", "0x10", "1e3", ".nan", "- a", "? b", "a: b", "a #b", "2D", "y", "=", "\u2028", "\x00"]
+        [
+            "",
+            "null",
+            "true",
+            "No",
+            "~",
+            "<<",
+            "4",
+            "0x10",
+            "1e3",
+            ".nan",
+            "- a",
+            "? b",
+            "a: b",
+            "a #b",
+            "2D",
+            "y",
+            "=",
+            "\u2028",
+            "\x00",
+        ]
     ),
 )
 SCALARS = st.none() | st.booleans() | st.integers(-(10**39), 10**39) | st.floats() | TEXTS
-TREES = st.recursive(SCALARS, lambda inner: st.lists(inner, max_size=5) | st.dictionaries(TEXTS, inner, max_size=5), max_leaves=30)
+TREES = st.recursive(
+    SCALARS,
+    lambda inner: st.lists(inner, max_size=5) | st.dictionaries(TEXTS, inner, max_size=5),
+    max_leaves=30,
+)
 
 
 def node(value: Any) -> Node:
@@ -61,7 +85,9 @@ def test_reads_back_as_itself(value: Any) -> None:
     assert data(read(emit(tree))) == data(tree)
 
 
-@pytest.mark.parametrize("path", sorted((ROOT / "examples").rglob("*.msaa.yaml")), ids=lambda path: path.name)
+@pytest.mark.parametrize(
+    "path", sorted((ROOT / "examples").rglob("*.msaa.yaml")), ids=lambda path: path.name
+)
 def test_examples_read_back_in_lines_of_a_page(path: Path) -> None:
     for document in parse(Source(path.name, path.read_text(encoding="utf-8")), Limits()).documents:
         text = emit(document)

@@ -13,7 +13,13 @@ from msaa_lint.experiments.confirm.execute import RunOptions, Session, devices, 
 WIDTH = 66
 
 
-def run(session: Session, plan: Any, passes: Sequence[int], want: RunOptions, emit: Callable[[dict[str, Any]], None]) -> None:
+def run(
+    session: Session,
+    plan: Any,
+    passes: Sequence[int],
+    want: RunOptions,
+    emit: Callable[[dict[str, Any]], None],
+) -> None:
     if any(image.width == WIDTH for image in plan.images):
         emit({"event": "pass", "pass": passes[0]})
         os.kill(os.getpid(), signal.SIGSEGV)

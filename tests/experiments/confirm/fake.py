@@ -1,4 +1,6 @@
-"""Runs plans as a driver of any temper would. A plan is a list of deeds, one a pass; each may name the driver's death."""
+"""Runs plans as a driver of any temper would. A plan is a list of deeds, one a pass; each may name
+the driver's death.
+"""
 
 from __future__ import annotations
 
@@ -39,7 +41,9 @@ def from_json(data: Any) -> Any:
     return data
 
 
-def run(session: Session, plan: dict[str, Any], passes: Sequence[int], want: RunOptions, tell: Tell) -> None:
+def run(
+    session: Session, plan: dict[str, Any], passes: Sequence[int], want: RunOptions, tell: Tell
+) -> None:
     session.runs += 1
     before = plan.get("before")
     if before is not None:
@@ -53,18 +57,51 @@ def run(session: Session, plan: dict[str, Any], passes: Sequence[int], want: Run
             os.kill(os.getpid(), getattr(signal, deed))
             time.sleep(60)
         DEEDS.get(deed, lambda *_: None)(session, tell)
-        tell({"event": "created", "pass": number, "ok": deed != "refuses", "error": "VK_ERROR_UNKNOWN" if deed == "refuses" else ""})
-        tell({"event": "message", "pass": number, "id": f"process {os.getpid()}", "severity": "warning", "text": f"run {session.runs}"})
+        tell(
+            {
+                "event": "created",
+                "pass": number,
+                "ok": deed != "refuses",
+                "error": "VK_ERROR_UNKNOWN" if deed == "refuses" else "",
+            }
+        )
+        tell(
+            {
+                "event": "message",
+                "pass": number,
+                "id": f"process {os.getpid()}",
+                "severity": "warning",
+                "text": f"run {session.runs}",
+            }
+        )
         for count in range(want.repeats):
             tell({"event": "time", "pass": number, "ms": 1 + count / 1000, "source": "timestamp"})
         for count in range(300 if deed == "chatters" else 0):
-            tell({"event": "message", "pass": number, "id": "again", "severity": "warning", "text": str(count)})
+            tell(
+                {
+                    "event": "message",
+                    "pass": number,
+                    "id": "again",
+                    "severity": "warning",
+                    "text": str(count),
+                }
+            )
     if want.pixels is not None:
         path = os.path.join(want.pixels, "0.raw")
         with open(path, "wb") as file:
             file.write(bytes([plan.get("pixel", 0)]) + bytes(15))
         states = {"defined": True, "discarded": False}
-        tell({"event": "pixels", "image": "color", "format": 37, "width": 2, "height": 2, "path": path, **states})
+        tell(
+            {
+                "event": "pixels",
+                "image": "color",
+                "format": 37,
+                "width": 2,
+                "height": 2,
+                "path": path,
+                **states,
+            }
+        )
     tell({"event": "done"})
 
 
@@ -111,6 +148,7 @@ def _grandchild(*_: Any) -> None:
 
 
 DEEDS: dict[str, Callable[..., None]] = {
-    "sleeps": _sleep, "prints": _print, "aborts": _abort, "garbage": _garbage, "eats": _eat, "raises": _raise, "exits": _exit,
+    "sleeps": _sleep, "prints": _print, "aborts": _abort, "garbage": _garbage, "eats": _eat,
+    "raises": _raise, "exits": _exit,
     "forks": _grandchild,
 }  # fmt: skip

@@ -1,4 +1,6 @@
-"""Makes the SPIR-V of the shaders: `python -m tests.experiments.confirm.generate_shaders`, with `glslangValidator` on the path."""
+"""Makes the SPIR-V of the shaders: `python -m tests.experiments.confirm.generate_shaders`, with
+`glslangValidator` on the path.
+"""
 
 from __future__ import annotations
 
@@ -19,11 +21,17 @@ def sources() -> list[str]:
 
 
 def compiled(name: str) -> bytes:
-    """The SPIR-V of a shader. CalledProcessError where it does not compile, FileNotFoundError without a compiler."""
+    """The SPIR-V of a shader. CalledProcessError where it does not compile, FileNotFoundError
+    without a compiler.
+    """
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "out.spv")
         source = os.path.join(FOLDER, name)
-        subprocess.run(["glslangValidator", "--target-env", "vulkan1.0", "-o", path, source], check=True, stdout=subprocess.PIPE)
+        subprocess.run(
+            ["glslangValidator", "--target-env", "vulkan1.0", "-o", path, source],
+            check=True,
+            stdout=subprocess.PIPE,
+        )
         with open(path, "rb") as file:
             return file.read()
 

@@ -13,10 +13,25 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from msaa_lint.experiments.confirm.agreement import BOTH, EXPLAINED, NO_CHECK, NOISE, OURS, SILENT, THEIRS, agreement
+from msaa_lint.experiments.confirm.agreement import (
+    BOTH,
+    EXPLAINED,
+    NO_CHECK,
+    NOISE,
+    OURS,
+    SILENT,
+    THEIRS,
+    agreement,
+)
 from msaa_lint.experiments.confirm.explanations import CONSEQUENCES, EXPLANATIONS, Noise
 from msaa_lint.experiments.confirm.explanations import NOISE as LEFT_OUT
-from msaa_lint.experiments.confirm.families import FAMILIES, RENDER_PASS, RENDER_PASS_2, RENDERING, Family
+from msaa_lint.experiments.confirm.families import (
+    FAMILIES,
+    RENDER_PASS,
+    RENDER_PASS_2,
+    RENDERING,
+    Family,
+)
 from msaa_lint.experiments.confirm.layer_scope import LayerScope, layer_scope, pass_kind
 from msaa_lint.experiments.confirm.messages import Message, bare, classify, sentence
 from msaa_lint.experiments.confirm.outcome import AgreementRow
@@ -42,23 +57,56 @@ def references(rule: str) -> list[str]:
 
 
 ASIDE = {
-    ("attachment-untouched", "BestPractices-vkCmdEndRenderPass-redundant-attachment-on-tile"),  # confirm draws a scene of its own
-    ("attachment-untouched", "VUID-VkRenderPassFragmentDensityMapCreateInfoEXT-fragmentDensityMapAttachment-02548"),  # why one is excused
-    ("clear-command-instead-of-load-op", "BestPractices-AMD-ClearAttachment-ClearImage-color,"),  # AMD's, for reasons of its own
-    ("clear-value-without-clear", "BestPractices-ClearValueCountHigherThanAttachmentCount"),  # confirm gives values of its own
-    ("clear-value-without-clear", "VUID-VkRenderPassBeginInfo-clearValueCount-00902"),  # what must hold besides
-    ("depth-resolve-unread", "VUID-VkSubpassDescriptionDepthStencilResolve-pDepthStencilResolveAttachment-03178"),  # likewise
-    ("multisampled-image-not-transient", "VUID-VkImageCreateInfo-usage-00963"),  # why some images are excused
-    ("sample-shading-feature-missing", "VUID-VkShaderModuleCreateInfo-pCode-08740"),  # of this capability only: its text tells
-    ("sample-shading-ineffective", "VUID-VkPipelineMultisampleStateCreateInfo-sampleShadingEnable-00784"),  # what must hold besides
-    ("resolve-read-unsynchronised", "VUID-VkSubpassDependency-srcAccessMask-00868"),  # what must hold besides
+    (
+        "attachment-untouched",
+        "BestPractices-vkCmdEndRenderPass-redundant-attachment-on-tile",
+    ),  # confirm draws a scene of its own
+    (
+        "attachment-untouched",
+        "VUID-VkRenderPassFragmentDensityMapCreateInfoEXT-fragmentDensityMapAttachment-02548",
+    ),  # why one is excused
+    (
+        "clear-command-instead-of-load-op",
+        "BestPractices-AMD-ClearAttachment-ClearImage-color,",
+    ),  # AMD's, for reasons of its own
+    (
+        "clear-value-without-clear",
+        "BestPractices-ClearValueCountHigherThanAttachmentCount",
+    ),  # confirm gives values of its own
+    (
+        "clear-value-without-clear",
+        "VUID-VkRenderPassBeginInfo-clearValueCount-00902",
+    ),  # what must hold besides
+    (
+        "depth-resolve-unread",
+        "VUID-VkSubpassDescriptionDepthStencilResolve-pDepthStencilResolveAttachment-03178",
+    ),  # likewise
+    (
+        "multisampled-image-not-transient",
+        "VUID-VkImageCreateInfo-usage-00963",
+    ),  # why some images are excused
+    (
+        "sample-shading-feature-missing",
+        "VUID-VkShaderModuleCreateInfo-pCode-08740",
+    ),  # of this capability only: its text tells
+    (
+        "sample-shading-ineffective",
+        "VUID-VkPipelineMultisampleStateCreateInfo-sampleShadingEnable-00784",
+    ),  # what must hold besides
+    (
+        "resolve-read-unsynchronised",
+        "VUID-VkSubpassDependency-srcAccessMask-00868",
+    ),  # what must hold besides
     # How a program comes to its count, of which no device is asked.
     ("source-sample-count-maximum", "BestPractices-Arm-vkCreateImage-too-large-sample-count"),
     ("source-sample-count-maximum", "BestPractices-IMG-vkCreateImage-too-large-sample-count"),
     ("source-sample-masks-compared", "VUID-VkImageCreateInfo-samples-02258"),
     ("integer-multisampled-target", "VUID-VkRenderingAttachmentInfo-imageView-06130"),
     ("source-stencil-counts-ignored", "VUID-VkImageCreateInfo-samples-02258"),
-    ("multisampling-unused", "VUID-VkGraphicsPipelineCreateInfo-multisampledRenderToSingleSampled-06853"),  # what must hold besides
+    (
+        "multisampling-unused",
+        "VUID-VkGraphicsPipelineCreateInfo-multisampledRenderToSingleSampled-06853",
+    ),  # what must hold besides
 }
 """Pages that refer to an id that says something else than their rule."""
 
@@ -99,12 +147,16 @@ def test_explanations_are_of_families_and_facts_that_there_are() -> None:
         assert set(consequence.rules) <= set(RULES)
         assert {id for id in consequence.ids if not id.isdecimal()} <= set(BY_NAME)
         for name in set(consequence.ids) & set(BY_NAME):
-            assert not set(BY_NAME[name].rules) & set(consequence.rules), "it is an answer, not a consequence"
+            assert not set(BY_NAME[name].rules) & set(consequence.rules), (
+                "it is an answer, not a consequence"
+            )
     for family in FAMILIES:
         for subject, when, words in family.scope.when:
             check(when, subject)
             assert words.startswith("it checks ")
-            assert all(RULES[rule].subject == subject for rule in family.rules), f"{family.name}: the condition is about another subject"
+            assert all(RULES[rule].subject == subject for rule in family.rules), (
+                f"{family.name}: the condition is about another subject"
+            )
 
 
 @pytest.mark.parametrize(
@@ -147,12 +199,17 @@ def test_explanations_are_of_families_and_facts_that_there_are() -> None:
     }.items(),
     ids=lambda value: value if isinstance(value, str) else "",
 )
-def test_an_id_is_of_its_family_in_every_version_of_the_layer(family: str, ids: Sequence[str]) -> None:
+def test_an_id_is_of_its_family_in_every_version_of_the_layer(
+    family: str, ids: Sequence[str]
+) -> None:
     for id in ids:
         assert classify(id) is BY_NAME[family], id
 
 
-SAID = dict(line.split(" ", 1) for line in (ROOT / "tests" / "data" / "layer_messages.txt").read_text().splitlines())
+SAID = dict(
+    line.split(" ", 1)
+    for line in (ROOT / "tests" / "data" / "layer_messages.txt").read_text().splitlines()
+)
 """What the layer says: of what version 1.3.239 does not check, the words of 1.4.360."""
 
 
@@ -162,7 +219,13 @@ def test_a_renumbered_vuid_is_known_by_its_structure_and_its_words(id: str) -> N
     assert isinstance(family, Family)
     assert classify(WITHOUT_NUMBER.sub("-99999", id), SAID[id]) is family
     assert classify(WITHOUT_NUMBER.sub("-99999", id), "It is wrong.") is None
-    assert classify(re.sub(r"^VUID-\w+", "VUID-VkBufferCreateInfo", WITHOUT_NUMBER.sub("-99999", id)), SAID[id]) is None
+    assert (
+        classify(
+            re.sub(r"^VUID-\w+", "VUID-VkBufferCreateInfo", WITHOUT_NUMBER.sub("-99999", id)),
+            SAID[id],
+        )
+        is None
+    )
 
 
 @pytest.mark.parametrize(
@@ -187,19 +250,44 @@ def test_what_every_run_says_is_noise_with_a_reason(id: str) -> None:
     assert found.reason
 
 
-@pytest.mark.parametrize("id", ["", "Loader Message", "VUID-", "BestPractices-", "VUID-vkDestroyDevice-device-00378", "SYNC-HAZARD-X"])
+@pytest.mark.parametrize(
+    "id",
+    [
+        "",
+        "Loader Message",
+        "VUID-",
+        "BestPractices-",
+        "VUID-vkDestroyDevice-device-00378",
+        "SYNC-HAZARD-X",
+    ],
+)
 def test_what_nobody_answers_to_has_no_family(id: str) -> None:
-    assert classify(id, "OBJ ERROR : For VkDevice 0x55b60970d0d0[], VkImage 0x20000000002[] has not been destroyed.") is None
+    assert (
+        classify(
+            id,
+            "OBJ ERROR : For VkDevice 0x55b60970d0d0[], VkImage 0x20000000002[] has not been "
+            "destroyed.",
+        )
+        is None
+    )
 
 
 def test_a_sentence_is_what_the_layer_says_without_its_surroundings() -> None:
     text = (
-        "Validation Performance Warning: [ UNASSIGNED-BestPractices-vkCreateImage-x ] Object 0: handle = 0x55b60970d0d0, type = "
-        "VK_OBJECT_TYPE_DEVICE; | MessageID = 0x331044c2 | [Arm] [IMG] vkCreateImage(): VkImage 0x2000[color_ms] is\nlarge, "
-        "0x55b60970d0d0[] of format 0x00000005 too. The Vulkan spec states: small is good (https://example.org/#VUID)"
+        "Validation Performance Warning: [ UNASSIGNED-BestPractices-vkCreateImage-x ] Object 0: "
+        "handle = 0x55b60970d0d0, type = "
+        "VK_OBJECT_TYPE_DEVICE; | MessageID = 0x331044c2 | [Arm] [IMG] vkCreateImage(): VkImage "
+        "0x2000[color_ms] is\nlarge, "
+        "0x55b60970d0d0[] of format 0x00000005 too. The Vulkan spec states: small is good "
+        "(https://example.org/#VUID)"
     )
-    assert sentence(text) == "vkCreateImage(): VkImage 0x2000[color_ms] is large, ... of format 0x00000005 too."
-    assert sentence(text.replace("0x2000[", "0x200000002[")).startswith("vkCreateImage(): VkImage `color_ms` is large")
+    assert (
+        sentence(text)
+        == "vkCreateImage(): VkImage 0x2000[color_ms] is large, ... of format 0x00000005 too."
+    )
+    assert sentence(text.replace("0x2000[", "0x200000002[")).startswith(
+        "vkCreateImage(): VkImage `color_ms` is large"
+    )
     assert bare("UNASSIGNED-BestPractices-Arm-x") == "x"
 
 
@@ -226,21 +314,29 @@ AFTER = """\
 NON_TRANSIENT = "UNASSIGNED-BestPractices-vkCreateImage-non-transient-ms-image"
 REQUIRES_MEMORY = "UNASSIGNED-BestPractices-vkCreateRenderPass-image-requires-memory"
 READBACK = "UNASSIGNED-BestPractices-vkCmdBeginRenderPass-attachment-needs-readback"
-EVERYTHING = LayerScope((1, 4, 309), frozenset({"arm", "img", "amd", "nvidia"}), {0: RENDER_PASS, 1: RENDER_PASS}, True)
+EVERYTHING = LayerScope(
+    (1, 4, 309), frozenset({"arm", "img", "amd", "nvidia"}), {0: RENDER_PASS, 1: RENDER_PASS}, True
+)
 
 
-def described(usage: str = "", load: str = "CLEAR", store: str = "DONT_CARE", more: str = "") -> str:
+def described(
+    usage: str = "", load: str = "CLEAR", store: str = "DONT_CARE", more: str = ""
+) -> str:
     return FRAME.format(usage=usage, load=load, store=store) + more
 
 
 @cache
 def linted_of(text: str) -> FileResult:
-    linted = ENGINE.lint(text.encode(), "frame", LintOptions(lambda rule, suggested, vendor: suggested))
+    linted = ENGINE.lint(
+        text.encode(), "frame", LintOptions(lambda rule, suggested, vendor: suggested)
+    )
     assert not [found for found in linted.findings if found.fatal], linted.findings
     return linted
 
 
-def rows(text: str, *messages: Message, at: LayerScope = EVERYTHING) -> dict[int, list[AgreementRow]]:
+def rows(
+    text: str, *messages: Message, at: LayerScope = EVERYTHING
+) -> dict[int, list[AgreementRow]]:
     linted = linted_of(text)
     (judged,) = linted.documents
     frame = Frame(judged.document)
@@ -254,13 +350,21 @@ def said(id: str, number: int | None = 0, text: str = "It is so.") -> Message:
     return Message(id, text, number)
 
 
-def only(found: Mapping[int, Sequence[AgreementRow]], verdict: str, number: int = 0) -> list[AgreementRow]:
+def only(
+    found: Mapping[int, Sequence[AgreementRow]], verdict: str, number: int = 0
+) -> list[AgreementRow]:
     return [row for row in found[number] if row.verdict == verdict]
 
 
 def test_both() -> None:
     found = rows(described(), said(NON_TRANSIENT))
-    assert found[0][0] == AgreementRow(BOTH, NON_TRANSIENT, "non-transient-ms-image", "multisampled-image-not-transient", "It is so.")
+    assert found[0][0] == AgreementRow(
+        BOTH,
+        NON_TRANSIENT,
+        "non-transient-ms-image",
+        "multisampled-image-not-transient",
+        "It is so.",
+    )
     assert "multisampled-image-not-transient" not in [row.rule for row in only(found, OURS)]
     assert not only(found, THEIRS)
 
@@ -268,11 +372,18 @@ def test_both() -> None:
 def test_a_message_that_two_findings_answer_to_is_told_with_each() -> None:
     text = DEPTH.replace("loadOp: CLEAR, storeOp: DONT_CARE", "loadOp: LOAD, storeOp: DONT_CARE")
     found = rows(text, said(REQUIRES_MEMORY), said(REQUIRES_MEMORY))
-    assert [row.rule for row in only(found, BOTH)] == ["multisampled-attachment-loaded", "multisampled-depth-stored"]
+    assert [row.rule for row in only(found, BOTH)] == [
+        "multisampled-attachment-loaded",
+        "multisampled-depth-stored",
+    ]
 
 
 def test_theirs_alone_is_shown() -> None:
-    found = rows(described(usage=", TRANSIENT_ATTACHMENT"), said(NON_TRANSIENT), said("VUID-vkDestroyDevice-device-00378"))
+    found = rows(
+        described(usage=", TRANSIENT_ATTACHMENT"),
+        said(NON_TRANSIENT),
+        said("VUID-vkDestroyDevice-device-00378"),
+    )
     assert only(found, THEIRS) == [
         AgreementRow(THEIRS, NON_TRANSIENT, "non-transient-ms-image", text="It is so."),
         AgreementRow(THEIRS, "VUID-vkDestroyDevice-device-00378", text="It is so."),
@@ -297,7 +408,9 @@ def test_what_the_description_does_not_say_explains_our_silence() -> None:
     """Without `usage` it is unknown whether the image is transient."""
     text = described().replace("usage: [COLOR_ATTACHMENT], ", "", 1)
     (row,) = only(rows(text, said(NON_TRANSIENT)), EXPLAINED)
-    assert row.reason.startswith("multisampled-image-not-transient is undecided: the description does not state ")
+    assert row.reason.startswith(
+        "multisampled-image-not-transient is undecided: the description does not state "
+    )
     assert row.reason.endswith(" images.ms.usage")
 
 
@@ -315,7 +428,9 @@ def test_a_message_of_one_pass_is_not_answered_by_a_finding_of_another() -> None
     (row,) = only(rows(text, said(READBACK, 0)), THEIRS, 0)
     assert row.family == "attachment-needs-readback"
     # What the pass finds is not lost by that.
-    assert "framebuffer-readback" in [row.rule for row in only(rows(text, said(READBACK, 0)), OURS, 1)]
+    assert "framebuffer-readback" in [
+        row.rule for row in only(rows(text, said(READBACK, 0)), OURS, 1)
+    ]
 
 
 def test_a_message_of_no_pass_goes_to_the_pass_that_it_is_about() -> None:
@@ -335,7 +450,11 @@ def test_a_message_about_two_passes_may_be_answered_by_the_other() -> None:
 
 
 def test_a_finding_about_what_passes_share_is_answered_once() -> None:
-    second = AFTER.replace("image: out", "image: ms").replace("SHADER_READ_ONLY", "COLOR_ATTACHMENT").replace("LOAD,", "DONT_CARE,")
+    second = (
+        AFTER.replace("image: out", "image: ms")
+        .replace("SHADER_READ_ONLY", "COLOR_ATTACHMENT")
+        .replace("LOAD,", "DONT_CARE,")
+    )
     found = rows(described(more=second), said(NON_TRANSIENT, 0))
     assert [row.rule for row in only(found, BOTH, 0)] == ["multisampled-image-not-transient"]
     assert "multisampled-image-not-transient" not in [row.rule for row in found[1]]
@@ -353,8 +472,15 @@ def reason(text: str, rule: str, at: LayerScope) -> AgreementRow:
 
 DEPTH = (
     described()
-    .replace("  out: {f", "  depth: {format: D32_SFLOAT, samples: 4, usage: [DEPTH_STENCIL_ATTACHMENT]}\n  out: {f")
-    .replace("    subpasses", "      depth: {image: depth, loadOp: CLEAR, storeOp: STORE, initialLayout: UNDEFINED}\n    subpasses")
+    .replace(
+        "  out: {f",
+        "  depth: {format: D32_SFLOAT, samples: 4, usage: [DEPTH_STENCIL_ATTACHMENT]}\n  out: {f",
+    )
+    .replace(
+        "    subpasses",
+        "      depth: {image: depth, loadOp: CLEAR, storeOp: STORE, initialLayout: UNDEFINED}\n    "
+        "subpasses",
+    )
     .replace("[out]}", "[out], depthStencilAttachment: depth}")
 )
 
@@ -362,18 +488,25 @@ DEPTH = (
 @pytest.mark.parametrize(
     ("text", "rule", "changed", "expected"),
     [
-        (DEPTH, "multisampled-depth-stored", {"kinds": {0: RENDER_PASS_2}, "vendors": frozenset({"arm"})},
+        (DEPTH, "multisampled-depth-stored", {"kinds": {0: RENDER_PASS_2},
+        "vendors": frozenset({"arm"})},
          "it checks passes of vkCreateRenderPass only; it checks what a later pass clears"),
         (DEPTH, "multisampled-depth-stored", {"kinds": {0: RENDERING}},
          "it checks passes of vkCreateRenderPass only; it checks render passes only"),
-        (described(), "multisampled-image-not-transient", {"vendors": frozenset({"amd"}), "lazy_memory": False, "device": "llvmpipe"},
+        (described(), "multisampled-image-not-transient", {"vendors": frozenset({"amd"}),
+        "lazy_memory": False, "device": "llvmpipe"},
          "the checks for Arm and IMG are off; llvmpipe has no lazily allocated memory"),
-        ("device: mali-g76\n" + described().replace("samples: 4", "samples: 16"), "sample-count-unsupported", {"device": "llvmpipe"},
-         "it checks against llvmpipe and what is enabled there, not against the device that the description is for"),
+        ("device: mali-g76\n" + described().replace("samples: 4", "samples: 16"),
+        "sample-count-unsupported", {"device": "llvmpipe"},
+         "it checks against llvmpipe and what is enabled there, not against the device that the "
+         "description is for"),
     ],
-    ids=["kind of pass and another matter", "dynamic rendering", "vendors and memory", "another device"],
+    ids=["kind of pass and another matter", "dynamic rendering", "vendors and memory", "another "
+        "device"],
 )  # fmt: skip
-def test_ours_alone_says_why_the_layer_does_not_look(text: str, rule: str, changed: Mapping[str, object], expected: str) -> None:
+def test_ours_alone_says_why_the_layer_does_not_look(
+    text: str, rule: str, changed: Mapping[str, object], expected: str
+) -> None:
     row = reason(text, rule, EVERYTHING._replace(**changed))  # type: ignore[arg-type]
     assert row.reason == expected
     assert not row.expected
@@ -396,9 +529,15 @@ commands:
 def test_ours_alone_where_the_layer_is_too_old_or_looks_at_colour_alone() -> None:
     rendering = EVERYTHING._replace(kinds={0: RENDERING})
     color = RENDERED.replace("MODE", "NONE", 1)
-    found = [row for row in only(rows(color, at=rendering._replace(version=(1, 3, 239))), OURS) if row.rule == "resolve-mode-none"]
+    found = [
+        row
+        for row in only(rows(color, at=rendering._replace(version=(1, 3, 239))), OURS)
+        if row.rule == "resolve-mode-none"
+    ]
     assert {row.reason for row in found} == {"layers have this check since 1.3.278"}
-    found = [row for row in only(rows(color, at=rendering), OURS) if row.rule == "resolve-mode-none"]
+    found = [
+        row for row in only(rows(color, at=rendering), OURS) if row.rule == "resolve-mode-none"
+    ]
     assert [(row.expected, row.reason) for row in found] == [
         (True, f"{SILENT} (resolve-mode-none)"),
         (False, "it checks color only"),
@@ -406,10 +545,16 @@ def test_ours_alone_where_the_layer_is_too_old_or_looks_at_colour_alone() -> Non
 
 
 def test_ours_alone_without_any_check_of_the_layer() -> None:
-    text = described().replace("loadOp: DONT_CARE, storeOp: STORE", "loadOp: CLEAR, storeOp: DONT_CARE")
+    text = described().replace(
+        "loadOp: DONT_CARE, storeOp: STORE", "loadOp: CLEAR, storeOp: DONT_CARE"
+    )
     row = reason(text, "resolve-target-not-stored", EVERYTHING._replace(kinds={0: RENDERING}))
     assert row.reason == "it checks render passes only"
-    row = reason("scene: {color: LDR}\n" + described().replace("samples: 4", "samples: 8"), "sample-count-not-portable", EVERYTHING)
+    row = reason(
+        "scene: {color: LDR}\n" + described().replace("samples: 4", "samples: 8"),
+        "sample-count-not-portable",
+        EVERYTHING,
+    )
     assert row.reason == NO_CHECK
     assert not row.expected
 
@@ -429,18 +574,29 @@ def _names() -> tuple[str, ...]:
     st.lists(
         st.builds(
             Message,
-            st.sampled_from([of + id for id in _names() for of in ("BestPractices-", "VUID-VkX-y-")]) | st.text(min_size=1, max_size=30),
+            st.sampled_from(
+                [of + id for id in _names() for of in ("BestPractices-", "VUID-VkX-y-")]
+            )
+            | st.text(min_size=1, max_size=30),
             st.text(max_size=40),
             st.sampled_from([None, 0, 1, 7]),
         ),
         max_size=8,
     ),
-    st.sampled_from([described(more=AFTER), described(load="LOAD", store="STORE", more=AFTER), described(usage=", SAMPLED", more=AFTER)]),
+    st.sampled_from(
+        [
+            described(more=AFTER),
+            described(load="LOAD", store="STORE", more=AFTER),
+            described(usage=", SAMPLED", more=AFTER),
+        ]
+    ),
 )
 def test_nothing_that_is_said_or_found_is_lost(messages: list[Message], text: str) -> None:
     found = [row for each in rows(text, *messages).values() for row in each]
     assert {row.id for row in found if row.verdict != OURS} == {message.id for message in messages}
-    assert {row.rule for row in found if row.rule} == {finding.rule for finding in linted_of(text).findings}
+    assert {row.rule for row in found if row.rule} == {
+        finding.rule for finding in linted_of(text).findings
+    }
     for row in found:
         assert bool(row.id) != (row.verdict == OURS)
         assert bool(row.rule) == (row.verdict in (BOTH, OURS))
@@ -448,26 +604,43 @@ def test_nothing_that_is_said_or_found_is_lost(messages: list[Message], text: st
 
 
 def test_what_the_layer_looks_at_is_read_from_what_the_child_says() -> None:
-    device = {"properties": {"deviceName": "llvmpipe"}, "memory": {"memoryTypes": [{"propertyFlags": 15}, {"propertyFlags": 17}]}}
+    device = {
+        "properties": {"deviceName": "llvmpipe"},
+        "memory": {"memoryTypes": [{"propertyFlags": 15}, {"propertyFlags": 17}]},
+    }
     layer = {"name": "VK_LAYER_KHRONOS_validation", "version": "1.3.239", "vendors": ["arm"]}
-    assert layer_scope(layer, device, {0: RENDERING}) == LayerScope((1, 3, 239), frozenset({"arm"}), {0: RENDERING}, True, "llvmpipe")
+    assert layer_scope(layer, device, {0: RENDERING}) == LayerScope(
+        (1, 3, 239), frozenset({"arm"}), {0: RENDERING}, True, "llvmpipe"
+    )
     newer = layer_scope({"version": "1.4.309"}, {}, {}, ["img"])
     assert newer == LayerScope((1, 4, 309), frozenset({"img"}), {}, None, "unnamed device")
-    desktop = layer_scope({"version": "1.3.250"}, {"memory": {"memoryTypes": [{"propertyFlags": 15}]}}, {})
+    desktop = layer_scope(
+        {"version": "1.3.250"}, {"memory": {"memoryTypes": [{"propertyFlags": 15}]}}, {}
+    )
     assert (desktop.version, desktop.lazy_memory) == ((1, 3, 250), False)
     assert layer_scope({"version": "?", "vendors": 7}, {"memory": 7}, {}).version is None
     assert layer_scope(None, {}, {}).vendors == frozenset()
 
 
 def test_the_kind_of_a_pass_is_what_creates_it() -> None:
-    assert [pass_kind(1, False), pass_kind(2, False), pass_kind(1, True)] == [RENDER_PASS, RENDER_PASS_2, RENDERING]
+    assert [pass_kind(1, False), pass_kind(2, False), pass_kind(1, True)] == [
+        RENDER_PASS,
+        RENDER_PASS_2,
+        RENDERING,
+    ]
 
 
 def test_the_page_of_the_agreement_is_fresh() -> None:
     """It has every rule."""
     environment = {**os.environ, "PYTHONPATH": str(ROOT)}
-    done = subprocess.run([sys.executable, str(ROOT / "docs" / "agreement.py"), "--check"], env=environment, check=False)
-    assert done.returncode == 0, "stale: `PYTHONPATH=. python docs/agreement.py` writes docs/agreement.md anew"
+    done = subprocess.run(
+        [sys.executable, str(ROOT / "docs" / "agreement.py"), "--check"],
+        env=environment,
+        check=False,
+    )
+    assert done.returncode == 0, (
+        "stale: `PYTHONPATH=. python docs/agreement.py` writes docs/agreement.md anew"
+    )
 
 
 def test_an_error_of_the_layer_agrees_with_no_rule_about_what_is_allowed() -> None:

@@ -1,4 +1,6 @@
-"""The package `vulkan`, mended: structures read back, results by name, one messenger, devices opened and closed."""
+"""The package `vulkan`, mended: structures read back, results by name, one messenger, devices
+opened and closed.
+"""
 
 from __future__ import annotations
 
@@ -35,10 +37,15 @@ def churn() -> None:
 def test_what_elements_of_a_list_point_to_is_kept() -> None:
     def made() -> Any:
         resolve = vk.VkAttachmentReference2(attachment=0x33, layout=2)
-        below = vk.VkSubpassDescriptionDepthStencilResolve(depthResolveMode=1, pDepthStencilResolveAttachment=resolve)
+        below = vk.VkSubpassDescriptionDepthStencilResolve(
+            depthResolveMode=1, pDepthStencilResolveAttachment=resolve
+        )
         subpass = vk.VkSubpassDescription2(
             pNext=below,
-            pColorAttachments=[vk.VkAttachmentReference2(attachment=0x11), vk.VkAttachmentReference2(attachment=0x12)],
+            pColorAttachments=[
+                vk.VkAttachmentReference2(attachment=0x11),
+                vk.VkAttachmentReference2(attachment=0x12),
+            ],
             pDepthStencilAttachment=vk.VkAttachmentReference2(attachment=0x22),
         )
         return vk.VkRenderPassCreateInfo2(pSubpasses=[subpass])
@@ -50,12 +57,17 @@ def test_what_elements_of_a_list_point_to_is_kept() -> None:
         assert [subpass.pColorAttachments[n].attachment for n in range(2)] == [0x11, 0x12]
         assert subpass.pDepthStencilAttachment.attachment == 0x22
         below = vk.ffi.cast("VkSubpassDescriptionDepthStencilResolve*", subpass.pNext)
-        assert (below.depthResolveMode, below.pDepthStencilResolveAttachment.attachment) == (1, 0x33)
+        assert (below.depthResolveMode, below.pDepthStencilResolveAttachment.attachment) == (
+            1,
+            0x33,
+        )
 
 
 def test_names_in_stages_are_kept() -> None:
     every = [
-        vk.VkGraphicsPipelineCreateInfo(pStages=[vk.VkPipelineShaderStageCreateInfo(stage=bit, pName="main") for bit in (1, 16)])
+        vk.VkGraphicsPipelineCreateInfo(
+            pStages=[vk.VkPipelineShaderStageCreateInfo(stage=bit, pName="main") for bit in (1, 16)]
+        )
         for _ in range(50)
     ]
     churn()
@@ -64,7 +76,9 @@ def test_names_in_stages_are_kept() -> None:
 
 def test_what_a_nested_structure_points_to_is_kept() -> None:
     def made() -> Any:
-        return vk.VkComputePipelineCreateInfo(stage=vk.VkPipelineShaderStageCreateInfo(stage=32, pName="main"))
+        return vk.VkComputePipelineCreateInfo(
+            stage=vk.VkPipelineShaderStageCreateInfo(stage=32, pName="main")
+        )
 
     every = [made() for _ in range(50)]
     churn()
@@ -80,19 +94,27 @@ def test_code_is_kept() -> None:
 def test_a_list_that_is_emptied_later_is_kept() -> None:
     names = ["one", "two"]
     made = vk.VkInstanceCreateInfo(ppEnabledLayerNames=names)
-    subpasses = [vk.VkSubpassDescription2(pColorAttachments=[vk.VkAttachmentReference2(attachment=5)]) for _ in range(20)]
+    subpasses = [
+        vk.VkSubpassDescription2(pColorAttachments=[vk.VkAttachmentReference2(attachment=5)])
+        for _ in range(20)
+    ]
     render_pass = vk.VkRenderPassCreateInfo2(pSubpasses=subpasses)
     names.clear()
     subpasses.clear()
     churn()
-    assert [binding.text(made.ppEnabledLayerNames[n]) for n in range(made.enabledLayerCount)] == ["one", "two"]
+    assert [binding.text(made.ppEnabledLayerNames[n]) for n in range(made.enabledLayerCount)] == [
+        "one",
+        "two",
+    ]
     assert {render_pass.pSubpasses[n].pColorAttachments[0].attachment for n in range(20)} == {5}
 
 
 def test_chains_are_kept() -> None:
     def made() -> Any:
         return binding.chain(
-            vk.VkPhysicalDeviceProperties2(), vk.VkPhysicalDeviceVulkan11Properties(), vk.VkPhysicalDeviceVulkan12Properties()
+            vk.VkPhysicalDeviceProperties2(),
+            vk.VkPhysicalDeviceVulkan11Properties(),
+            vk.VkPhysicalDeviceVulkan12Properties(),
         )
 
     every = [made() for _ in range(20)]
@@ -109,7 +131,13 @@ def test_nothing_is_kept_for_ever() -> None:
     gc.collect()
     before = len(kept)
     for _ in range(2000):
-        vk.VkRenderPassCreateInfo2(pSubpasses=[vk.VkSubpassDescription2(pColorAttachments=[vk.VkAttachmentReference2(attachment=1)])])
+        vk.VkRenderPassCreateInfo2(
+            pSubpasses=[
+                vk.VkSubpassDescription2(
+                    pColorAttachments=[vk.VkAttachmentReference2(attachment=1)]
+                )
+            ]
+        )
     gc.collect()
     assert len(kept) <= before + 10
 
@@ -126,7 +154,11 @@ def test_any_sequence_is_an_array() -> None:
 def test_results_have_vulkans_names() -> None:
     with pytest.raises(VulkanError) as error:
         vk.vkCreateInstance(vk.VkInstanceCreateInfo(ppEnabledExtensionNames=["VK_OWN_none"]), None)
-    assert (error.value.name, error.value.result, error.value.call) == ("VK_ERROR_EXTENSION_NOT_PRESENT", -7, "vkCreateInstance")
+    assert (error.value.name, error.value.result, error.value.call) == (
+        "VK_ERROR_EXTENSION_NOT_PRESENT",
+        -7,
+        "vkCreateInstance",
+    )
     assert str(error.value) == "vkCreateInstance: VK_ERROR_EXTENSION_NOT_PRESENT"
     assert VulkanError(-1000069000, "vkX").name == "VK_ERROR_OUT_OF_POOL_MEMORY"
     assert VulkanError(-12345, "vkX").name == "VkResult -12345"
@@ -138,7 +170,10 @@ def test_results_have_vulkans_names() -> None:
 def test_constants() -> None:
     assert (vk.VK_API_VERSION_1_1, vk.VK_API_VERSION_1_3) == (0x401000, 0x403000)
     assert vk.VK_MAKE_API_VERSION(0, 1, 2, 3) == 0x402003
-    assert (vk.VK_ERROR_OUT_OF_POOL_MEMORY, vk.VK_ERROR_VALIDATION_FAILED) == (-1000069000, -1000011001)
+    assert (vk.VK_ERROR_OUT_OF_POOL_MEMORY, vk.VK_ERROR_VALIDATION_FAILED) == (
+        -1000069000,
+        -1000011001,
+    )
     assert binding.version_of(0x402003) == (1, 2, 3)
 
 
@@ -178,13 +213,20 @@ def test_a_device_is_opened_and_closed(instance: Instance) -> None:
 
 
 def _render_pass() -> Any:
-    attachment = vk.VkAttachmentDescription2(format=37, samples=1, loadOp=1, storeOp=0, stencilLoadOp=2, stencilStoreOp=1, finalLayout=2)
-    subpass = vk.VkSubpassDescription2(pColorAttachments=[vk.VkAttachmentReference2(attachment=0, layout=2, aspectMask=1)])
+    attachment = vk.VkAttachmentDescription2(
+        format=37, samples=1, loadOp=1, storeOp=0, stencilLoadOp=2, stencilStoreOp=1, finalLayout=2
+    )
+    subpass = vk.VkSubpassDescription2(
+        pColorAttachments=[vk.VkAttachmentReference2(attachment=0, layout=2, aspectMask=1)]
+    )
     return vk.VkRenderPassCreateInfo2(pAttachments=[attachment], pSubpasses=[subpass])
 
 
 def test_a_layer_that_is_missing() -> None:
-    with pytest.raises(Unusable, match="VK_LAYER_OWN_none is not installed"), Instance(["VK_LAYER_OWN_none"]):
+    with (
+        pytest.raises(Unusable, match="VK_LAYER_OWN_none is not installed"),
+        Instance(["VK_LAYER_OWN_none"]),
+    ):
         pass
 
 
@@ -194,12 +236,21 @@ def test_messages_and_their_guard() -> None:
         pytest.skip("the validation layer is not installed")
     said: list[Message] = []
     with Instance([name], on_message=said.append) as made:
-        with pytest.raises(RuntimeError, match="already a debug messenger"), Instance(on_message=said.append):
+        with (
+            pytest.raises(RuntimeError, match="already a debug messenger"),
+            Instance(on_message=said.append),
+        ):
             pass
         physical = devices(made)[0]
         with Device(physical) as device:
             bad = vk.VkImageCreateInfo(
-                imageType=1, format=37, extent=vk.VkExtent3D(width=8, height=8, depth=1), mipLevels=1, arrayLayers=1, samples=64, usage=16
+                imageType=1,
+                format=37,
+                extent=vk.VkExtent3D(width=8, height=8, depth=1),
+                mipLevels=1,
+                arrayLayers=1,
+                samples=64,
+                usage=16,
             )
             try:
                 vk.vkDestroyImage(device.handle, vk.vkCreateImage(device.handle, bad, None), None)
@@ -218,7 +269,9 @@ def test_a_sink_that_raises_is_told_of() -> None:
     def fails(message: Message) -> None:
         raise KeyError(message.id)
 
-    with Instance([name], on_message=fails, severities=("error", "warning", "info", "verbose")) as made:
+    with Instance(
+        [name], on_message=fails, severities=("error", "warning", "info", "verbose")
+    ) as made:
         pass
     assert isinstance(made.sink_error, KeyError)
 
@@ -231,8 +284,14 @@ def test_no_driver(name: str, tmp_path: Path) -> None:
         "try:\n    with Instance() as i: i.physical_devices()\n"
         "except Unusable as e: print(e)\n"
     )
-    environment = {"PATH": "/usr/bin:/bin", "PYTHONPATH": str(ROOT), name: str(tmp_path / "none.json")}
-    done = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=True)
+    environment = {
+        "PATH": "/usr/bin:/bin",
+        "PYTHONPATH": str(ROOT),
+        name: str(tmp_path / "none.json"),
+    }
+    done = subprocess.run(
+        [sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=True
+    )
     assert "the Vulkan loader finds no driver" in done.stdout
     assert "mesa-vulkan-drivers" in done.stdout
     assert f"{name} is set" in done.stdout

@@ -1,4 +1,6 @@
-"""What frames of real programs contain besides mistakes: none of it may look like a disagreement between the layer and the rules."""
+"""What frames of real programs contain besides mistakes: none of it may look like a disagreement
+between the layer and the rules.
+"""
 
 from __future__ import annotations
 
@@ -30,7 +32,10 @@ pipelines:
     dynamicState: [VIEWPORT, SCISSOR, RASTERIZATION_SAMPLES_EXT, SAMPLE_MASK_EXT, ALPHA_TO_COVERAGE_ENABLE_EXT]
 """
 
-RESOLVED = "{image: color_ms, loadOp: CLEAR, storeOp: DONT_CARE, resolveMode: AVERAGE, resolveImage: texture}"
+RESOLVED = (
+    "{image: color_ms, loadOp: CLEAR, storeOp: DONT_CARE, resolveMode: AVERAGE, "
+    "resolveImage: texture}"
+)
 TEXTURE = "beginRendering: {colorAttachments: [{image: texture, loadOp: CLEAR, storeOp: STORE}]}"
 COLOR = "beginRendering: {colorAttachments: [{image: color, loadOp: CLEAR, storeOp: STORE}]}"
 DRAW = "draw: {pipeline: dynamic}"
@@ -46,8 +51,14 @@ def confirmed(folder: Path, text: str, code: int = 0) -> dict[str, Any]:
     done = run(folder, "confirm", "--isolated", "--output", "json", "--no-time", "frame.msaa.yaml")
     assert done.stderr == ""
     report = json.loads(done.stdout)
-    assert report["layer"] is not None, "the validation layer is missing: apt install vulkan-validationlayers"
-    assert [(each["name"], each["status"], each["reason"]) for each in report["passes"] if each["status"] != "confirmed"] == []
+    assert report["layer"] is not None, (
+        "the validation layer is missing: apt install vulkan-validationlayers"
+    )
+    assert [
+        (each["name"], each["status"], each["reason"])
+        for each in report["passes"]
+        if each["status"] != "confirmed"
+    ] == []
     assert done.returncode == code
     assert report["agreement"]["theirs"] == 0
     return {each["name"]: each for each in report["passes"]}
@@ -55,24 +66,39 @@ def confirmed(folder: Path, text: str, code: int = 0) -> dict[str, Any]:
 
 def rows(found: dict[str, Any], id: str) -> list[tuple[str, str | None]]:
     """The verdicts on the messages of a pass with an id, and the rules that report the same."""
-    return sorted((each["verdict"], each["rule"]) for each in found["messages"] if each["id"] and id in each["id"])
+    return sorted(
+        (each["verdict"], each["rule"])
+        for each in found["messages"]
+        if each["id"] and id in each["id"]
+    )
 
 
-STAGES = "[GEOMETRY_SHADER, TESSELLATION_CONTROL_SHADER, TESSELLATION_EVALUATION_SHADER, TRANSFORM_FEEDBACK_EXT, FRAGMENT_SHADER]"
+STAGES = (
+    "[GEOMETRY_SHADER, TESSELLATION_CONTROL_SHADER, TESSELLATION_EVALUATION_SHADER, "
+    "TRANSFORM_FEEDBACK_EXT, FRAGMENT_SHADER]"
+)
 
 
 @pytest.mark.parametrize(
     "text",
     {
         "a pass that reads an image, with dynamic sample count, mask, and alpha to coverage": DYNAMIC
-        + commands(COLOR, "endRendering", TEXTURE, "readImage: {image: color, stage: FRAGMENT}", "setRasterizationSamples: 1", DRAW),
+        + commands(
+            COLOR,
+            "endRendering",
+            TEXTURE,
+            "readImage: {image: color, stage: FRAGMENT}",
+            "setRasterizationSamples: 1",
+            DRAW,
+        ),
         "a dynamic sample count that outlives the pass in which it was set": DYNAMIC
         + commands(
             f"beginRendering: {{colorAttachments: [{RESOLVED}]}}",
             "setRasterizationSamples: 4",
             DRAW,
             "endRendering",
-            "beginRendering: {colorAttachments: [{image: other_ms, loadOp: CLEAR, storeOp: DONT_CARE}]}",
+            "beginRendering: {colorAttachments: [{image: other_ms, loadOp: CLEAR, storeOp: "
+            "DONT_CARE}]}",
             DRAW,
         ),
         "the levels of a texture, by blits from each to the next": commands(
@@ -82,12 +108,16 @@ STAGES = "[GEOMETRY_SHADER, TESSELLATION_CONTROL_SHADER, TESSELLATION_EVALUATION
             "copyImage: {srcImage: texture, dstImage: texture}",
         ),
         "a copy between formats of different sizes": commands(
-            TEXTURE, "endRendering", "copyImage: {srcImage: texture, dstImage: wide}", "blitImage: {srcImage: texture, dstImage: wide}"
+            TEXTURE,
+            "endRendering",
+            "copyImage: {srcImage: texture, dstImage: wide}",
+            "blitImage: {srcImage: texture, dstImage: wide}",
         ),
         "barriers for stages of features and extensions": commands(
             TEXTURE,
             "endRendering",
-            f"pipelineBarrier: {{srcStageMask: {STAGES}, dstStageMask: {STAGES}, srcAccessMask: [SHADER_READ],"
+            f"pipelineBarrier: {{srcStageMask: {STAGES}, dstStageMask: {STAGES}, srcAccessMask: "
+            f"[SHADER_READ],"
             " dstAccessMask: [SHADER_READ, TRANSFORM_FEEDBACK_WRITE_EXT]}",
         ),
     }.items(),
@@ -117,7 +147,10 @@ renderPasses:
       - {colorAttachments: [other_ms], resolveAttachments: [texture]}
 """
 
-BARRIER = "pipelineBarrier: {images: [{image: %s, oldLayout: UNDEFINED, newLayout: COLOR_ATTACHMENT_OPTIMAL}]}"
+BARRIER = (
+    "pipelineBarrier: {images: [{image: %s, oldLayout: UNDEFINED, newLayout: "
+    "COLOR_ATTACHMENT_OPTIMAL}]}"
+)
 
 
 def begin(name: str) -> str:
@@ -129,17 +162,29 @@ NOT_TRANSIENT = "non-transient-ms-image"
 
 def test_image_of_a_barrier_is_reported_with_the_pass_that_renders_to_it(tmp_path: Path) -> None:
     found = confirmed(
-        tmp_path, IMAGES + LEGACY + commands(begin("first"), "endRenderPass", BARRIER % "other_ms", begin("third"), "endRenderPass")
+        tmp_path,
+        IMAGES
+        + LEGACY
+        + commands(
+            begin("first"), "endRenderPass", BARRIER % "other_ms", begin("third"), "endRenderPass"
+        ),
     )
     assert rows(found["first"], NOT_TRANSIENT) == []
     assert ("both", "multisampled-image-not-transient") in rows(found["third"], NOT_TRANSIENT)
 
 
 def test_image_of_a_read_is_reported_with_the_pass_that_renders_to_it(tmp_path: Path) -> None:
-    reads = (begin("first"), "readImage: {image: color_ms, stage: FRAGMENT}", "endRenderPass", begin("second"), "endRenderPass")
+    reads = (
+        begin("first"),
+        "readImage: {image: color_ms, stage: FRAGMENT}",
+        "endRenderPass",
+        begin("second"),
+        "endRenderPass",
+    )
     found = confirmed(tmp_path, IMAGES + LEGACY + commands(*reads, begin("third"), "endRenderPass"))
     assert rows(found["first"], NOT_TRANSIENT) == []
-    # The samples of one image are read; the finding about the other does not account for the message about it.
+    # The samples of one image are read; the finding about the other does not account for the
+    # message about it.
     assert rows(found["second"], NOT_TRANSIENT) == [("explained", None)]
     assert rows(found["third"], NOT_TRANSIENT) == [("both", "multisampled-image-not-transient")]
 
@@ -150,7 +195,11 @@ def test_resolve_command_is_reported_with_the_pass_of_its_source(tmp_path: Path)
         IMAGES
         + LEGACY
         + commands(
-            begin("second"), "endRenderPass", begin("third"), "endRenderPass", "resolveImage: {srcImage: color_ms, dstImage: color}"
+            begin("second"),
+            "endRenderPass",
+            begin("third"),
+            "endRenderPass",
+            "resolveImage: {srcImage: color_ms, dstImage: color}",
         ),
     )
     assert rows(found["second"], "resolving-image") == [("both", "resolve-outside-pass")]
@@ -169,10 +218,15 @@ renderPasses:
 
 
 def test_message_about_a_resolve_target_is_not_laid_to_its_source(tmp_path: Path) -> None:
-    """The render area is a part of the images: the load of the target preserves the rest, whereas that of the source is a finding."""
+    """The render area is a part of the images: the load of the target preserves the rest, whereas
+    that of the source is a finding.
+    """
     area = "beginRenderPass: {renderPass: forward, renderArea: {x: 0, y: 0, width: 32, height: 64}}"
     found = confirmed(tmp_path, IMAGES + PARTS + commands(area, "endRenderPass"))
-    assert rows(found["forward"], "attachment-needs-readback") == [("both", "multisampled-attachment-loaded"), ("explained", None)]
+    assert rows(found["forward"], "attachment-needs-readback") == [
+        ("both", "multisampled-attachment-loaded"),
+        ("explained", None),
+    ]
 
 
 CLEARED = """\
@@ -183,14 +237,31 @@ renderPasses:
     subpasses:
       - {colorAttachments: [color]}
 """
-CLEAR = "clearAttachments: {attachments: [{aspect: [COLOR], colorAttachment: 0}], rects: [{x: 0, y: 0, width: 64, height: %d}]}"
+CLEAR = (
+    "clearAttachments: {attachments: [{aspect: [COLOR], colorAttachment: 0}], rects: [{x: 0, "
+    "y: 0, width: 64, height: %d}]}"
+)
 
 
-@pytest.mark.parametrize(("height", "size"), [(63, "16x16"), (63, "64x64"), (64, "64x64"), (64, "16x16")])
+@pytest.mark.parametrize(
+    ("height", "size"), [(63, "16x16"), (63, "64x64"), (64, "64x64"), (64, "16x16")]
+)
 def test_clear_of_a_part_is_one_at_any_size(height: int, size: str, tmp_path: Path) -> None:
-    text = IMAGES + CLEARED + commands(begin("forward"), CLEAR % height, "draw: {}", "endRenderPass")
+    text = (
+        IMAGES + CLEARED + commands(begin("forward"), CLEAR % height, "draw: {}", "endRenderPass")
+    )
     (tmp_path / "frame.msaa.yaml").write_text(text)
-    done = run(tmp_path, "confirm", "--isolated", "--output", "json", "--no-time", "--size", size, "frame.msaa.yaml")
+    done = run(
+        tmp_path,
+        "confirm",
+        "--isolated",
+        "--output",
+        "json",
+        "--no-time",
+        "--size",
+        size,
+        "frame.msaa.yaml",
+    )
     (found,) = json.loads(done.stdout)["passes"]
     whole = height == 64
     assert found["status"] == "confirmed"
@@ -225,10 +296,19 @@ commands:
 
 
 def test_what_one_kind_of_frame_shows_explains_messages_about_the_others(tmp_path: Path) -> None:
-    """One kind of frame loads the image, which therefore cannot be transient; no kind loads the other one."""
-    (tmp_path / "frame.msaa.yaml").write_text(SHARED % ("CLEAR", "STORE") + "---\n" + SHARED % ("LOAD", "STORE"))
-    done = run(tmp_path, "confirm", "--isolated", "--output", "json", "--no-time", "frame.msaa.yaml")
+    """One kind of frame loads the image, which therefore cannot be transient; no kind loads the
+    other one.
+    """
+    (tmp_path / "frame.msaa.yaml").write_text(
+        SHARED % ("CLEAR", "STORE") + "---\n" + SHARED % ("LOAD", "STORE")
+    )
+    done = run(
+        tmp_path, "confirm", "--isolated", "--output", "json", "--no-time", "frame.msaa.yaml"
+    )
     report = json.loads(done.stdout)
     assert [each["status"] for each in report["passes"]] == ["confirmed", "confirmed"]
     for each in report["passes"]:
-        assert rows(each, NOT_TRANSIENT) == [("both", "multisampled-image-not-transient"), ("explained", None)]
+        assert rows(each, NOT_TRANSIENT) == [
+            ("both", "multisampled-image-not-transient"),
+            ("explained", None),
+        ]

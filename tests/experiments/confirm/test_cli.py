@@ -26,12 +26,30 @@ COMMAND = (sys.executable, "-m", "msaa_lint", "confirm", "--isolated")
 GOOD = "frame: {width: 64, height: 64, fps: 60}\n" + CLEAN
 
 
-def run(folder: Path, *arguments: str, text: str | None = None, **environment: str) -> subprocess.CompletedProcess[str]:
-    """The command in a folder; temporary files go to a folder of their own, in which nothing may be left."""
+def run(
+    folder: Path, *arguments: str, text: str | None = None, **environment: str
+) -> subprocess.CompletedProcess[str]:
+    """The command in a folder; temporary files go to a folder of their own, in which nothing may be
+    left.
+    """
     scratch = folder / "scratch"
     scratch.mkdir(exist_ok=True)
-    given = {**os.environ, "PYTHONPATH": str(ROOT), "TMPDIR": str(scratch), "NO_COLOR": "1", **environment}
-    done = subprocess.run([*COMMAND, *arguments], cwd=folder, env=given, input=text, capture_output=True, text=True, check=False)
+    given = {
+        **os.environ,
+        "PYTHONPATH": str(ROOT),
+        "TMPDIR": str(scratch),
+        "NO_COLOR": "1",
+        **environment,
+    }
+    done = subprocess.run(
+        [*COMMAND, *arguments],
+        cwd=folder,
+        env=given,
+        input=text,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
     assert list(scratch.iterdir()) == []
     assert "Traceback" not in done.stderr
     return done
@@ -56,9 +74,15 @@ def test_schema_is_one() -> None:
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (["--timeout", "0"], "`--timeout` must be seconds, above 0 and at most a day (86400); found `0`"),
+        (
+            ["--timeout", "0"],
+            "`--timeout` must be seconds, above 0 and at most a day (86400); found `0`",
+        ),
         (["--timeout", "nan"], "at most a day (86400); found `nan`"),
-        (["--size", "1920"], "`--size` must be WIDTHxHEIGHT in pixels, as in 1920x1080; found `1920`"),
+        (
+            ["--size", "1920"],
+            "`--size` must be WIDTHxHEIGHT in pixels, as in 1920x1080; found `1920`",
+        ),
         (["--size", "0x5"], "found `0x5`"),
         (["--size", "99999x5"], "`--size` must be at most 16384x16384; found `99999x5`"),
         (["--samples", "3"], "`--samples` must be one of 1, 2, 4, 8, 16, 32, 64; found `3`"),
@@ -67,7 +91,9 @@ def test_schema_is_one() -> None:
         (["--output", "json", "--output", "full"], "only one output can go to standard output"),
     ],
 )
-def test_options_that_say_nothing_end_with_2(tmp_path: Path, arguments: list[str], words: str) -> None:
+def test_options_that_say_nothing_end_with_2(
+    tmp_path: Path, arguments: list[str], words: str
+) -> None:
     done = run(tmp_path, frame(tmp_path), *arguments)
     assert (done.returncode, done.stdout) == (2, "")
     assert words in done.stderr
@@ -78,10 +104,35 @@ def test_no_path_ends_with_2(tmp_path: Path) -> None:
 
 
 def test_options_are_read_without_typer() -> None:
-    given = parse("confirm", ["a.yaml", "--device", "llvm", "--device=nvidia", "--no-gate", "--timeout", "3", "--repeats", "9"])
-    assert given == {"paths": ["a.yaml"], "device": ["llvm", "nvidia"], "no_gate": True, "timeout": "3", "repeats": 9}
+    given = parse(
+        "confirm",
+        [
+            "a.yaml",
+            "--device",
+            "llvm",
+            "--device=nvidia",
+            "--no-gate",
+            "--timeout",
+            "3",
+            "--repeats",
+            "9",
+        ],
+    )
+    assert given == {
+        "paths": ["a.yaml"],
+        "device": ["llvm", "nvidia"],
+        "no_gate": True,
+        "timeout": "3",
+        "repeats": 9,
+    }
     assert parse("confirm", ["--list-devices"]) == {"paths": [], "list_devices": True}
-    for wrong in (["a", "--repeats", "0"], ["a", "--nothing"], ["a", "--no-gate=1"], [], ["a", "--size"]):
+    for wrong in (
+        ["a", "--repeats", "0"],
+        ["a", "--nothing"],
+        ["a", "--no-gate=1"],
+        [],
+        ["a", "--size"],
+    ):
         with pytest.raises(UsageError):
             parse("confirm", wrong)
     options = COMMANDS["confirm"].options
@@ -91,13 +142,17 @@ def test_options_are_read_without_typer() -> None:
 def test_help_names_every_option(tmp_path: Path) -> None:
     done = run(tmp_path, "--help")
     assert done.returncode == 0
-    assert [option.flag for option in COMMANDS["confirm"].options if option.flag not in done.stdout] == []
+    assert [
+        option.flag for option in COMMANDS["confirm"].options if option.flag not in done.stdout
+    ] == []
 
 
 def test_no_driver_says_what_to_install(tmp_path: Path) -> None:
     done = run(tmp_path, frame(tmp_path), "--output", "json", VK_DRIVER_FILES="/nonexistent.json")
     assert done.returncode == 2
-    assert "apt install mesa-vulkan-drivers" in done.stderr and "VK_DRIVER_FILES is set" in done.stderr
+    assert (
+        "apt install mesa-vulkan-drivers" in done.stderr and "VK_DRIVER_FILES is set" in done.stderr
+    )
     assert report(done)["device"] is None
 
 
@@ -120,7 +175,11 @@ def test_no_loader_says_what_to_install(tmp_path: Path) -> None:
 def test_unknown_device_names_those_there_are(tmp_path: Path) -> None:
     done = run(tmp_path, frame(tmp_path), "--device", "no such \x1b thing")
     assert done.returncode == 2
-    assert "no such \\x1b thing" in done.stderr and "llvmpipe" in done.stderr and "\x1b" not in done.stderr
+    assert (
+        "no such \\x1b thing" in done.stderr
+        and "llvmpipe" in done.stderr
+        and "\x1b" not in done.stderr
+    )
 
 
 def test_devices_are_listed(tmp_path: Path) -> None:
@@ -129,7 +188,10 @@ def test_devices_are_listed(tmp_path: Path) -> None:
     data = json.loads(run(tmp_path, "--list-devices", "--output", "json").stdout)
     assert any(each["type"] == "CPU" and "llvmpipe" in each["name"] for each in data["devices"])
     missing = run(tmp_path, "--list-devices", VK_DRIVER_FILES="/nonexistent.json")
-    assert (missing.returncode, missing.stdout) == (2, "") and "mesa-vulkan-drivers" in missing.stderr
+    assert (missing.returncode, missing.stdout) == (
+        2,
+        "",
+    ) and "mesa-vulkan-drivers" in missing.stderr
 
 
 def test_broken_input_ends_with_2_and_the_others_are_tried(tmp_path: Path) -> None:
@@ -146,7 +208,12 @@ def test_good_pass_is_confirmed(tmp_path: Path) -> None:
     data = report(done)
     assert done.returncode == 0, done.stdout + done.stderr
     (found,) = data["passes"]  # type: ignore[misc]
-    assert (found["status"], found["created"], found["agrees"], found["findings"]) == ("confirmed", True, True, [])
+    assert (found["status"], found["created"], found["agrees"], found["findings"]) == (
+        "confirmed",
+        True,
+        True,
+        [],
+    )
     assert data["layer"] is not None and "llvmpipe" in data["device"]["name"]  # type: ignore[index]
 
 
@@ -176,7 +243,9 @@ def test_without_the_layer_the_run_goes_on_and_says_so(tmp_path: Path) -> None:
 
 def test_same_run_gives_the_same_bytes(tmp_path: Path) -> None:
     name = frame(tmp_path, GOOD.replace("storeOp: DONT_CARE", "storeOp: STORE"))
-    outputs = {run(tmp_path, name, "--output", "json", "--image", "pictures").stdout for _ in range(2)}
+    outputs = {
+        run(tmp_path, name, "--output", "json", "--image", "pictures").stdout for _ in range(2)
+    }
     assert len(outputs) == 1
 
 
@@ -185,7 +254,10 @@ def test_pictures_are_named_by_file_and_image(tmp_path: Path) -> None:
     done = run(tmp_path, name, "--image", "pictures")
     assert done.returncode == 0, done.stdout
     names = sorted(path.name for path in (tmp_path / "pictures").iterdir())
-    assert names == [f"frame.msaa.yaml-color-{kind}.png" for kind in ("as-written", "difference", "edge", "fixed")]
+    assert names == [
+        f"frame.msaa.yaml-color-{kind}.png"
+        for kind in ("as-written", "difference", "edge", "fixed")
+    ]
 
 
 def test_pictures_that_cannot_be_written_end_with_2(tmp_path: Path) -> None:
@@ -197,17 +269,28 @@ def test_pictures_that_cannot_be_written_end_with_2(tmp_path: Path) -> None:
 def test_report_goes_to_a_file(tmp_path: Path) -> None:
     done = run(tmp_path, frame(tmp_path), "--output", "json=out.json", "--output", "full")
     assert done.returncode == 0 and "1 confirmed" in done.stdout
-    jsonschema.Draft202012Validator(SCHEMA).validate(json.loads((tmp_path / "out.json").read_text()))
+    jsonschema.Draft202012Validator(SCHEMA).validate(
+        json.loads((tmp_path / "out.json").read_text())
+    )
 
 
 @pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
-def test_interrupt_leaves_no_process_and_no_file(tmp_path: Path, number: signal.Signals, code: int) -> None:
+def test_interrupt_leaves_no_process_and_no_file(
+    tmp_path: Path, number: signal.Signals, code: int
+) -> None:
     names = [frame(tmp_path, name=f"{n}.msaa.yaml") for n in range(60)]
     scratch = tmp_path / "scratch"
     scratch.mkdir()
     environment = {**os.environ, "PYTHONPATH": str(ROOT), "TMPDIR": str(scratch)}
     command = [*COMMAND, "--time", "--repeats", "200", *names]
-    process = subprocess.Popen(command, cwd=tmp_path, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    process = subprocess.Popen(
+        command,
+        cwd=tmp_path,
+        env=environment,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
     for _ in range(200):
         if any(scratch.iterdir()):
             break

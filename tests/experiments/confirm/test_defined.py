@@ -31,14 +31,18 @@ def outputs(text: str, **arguments: Any) -> list[str]:
     """The outputs of a description: `image`, `image:depth`, `image:stencil`."""
     made = planned(text, **arguments)
     assert not any(each.refused for each in made.passes)
-    return [made.images[number].name + ASPECTS[aspect] for number, aspect in followed(made).outputs()]
+    return [
+        made.images[number].name + ASPECTS[aspect] for number, aspect in followed(made).outputs()
+    ]
 
 
 def inline(**changes: str) -> str:
     """A pass that resolves inline; `changes` take the place of its parts."""
     own = {
-        "size": "frame: {width: 64, height: 32}", "ms": "", "o": "", "color": "loadOp: CLEAR, storeOp: DONT_CARE",
-        "target": "loadOp: DONT_CARE, storeOp: STORE", "resolve": "resolveAttachments: [o]", "rest": "",
+        "size": "frame: {width: 64, height: 32}", "ms": "", "o": "", "color": "loadOp: CLEAR, "
+            "storeOp: DONT_CARE",
+        "target": "loadOp: DONT_CARE, storeOp: STORE", "resolve": "resolveAttachments: [o]",
+        "rest": "",
     }  # fmt: skip
     assert set(changes) <= set(own)
     own.update(changes)
@@ -55,7 +59,9 @@ renderPasses:
 """
 
 
-def plain(color: str = "loadOp: CLEAR, storeOp: STORE", image: str = "samples: 1", rest: str = "") -> str:
+def plain(
+    color: str = "loadOp: CLEAR, storeOp: STORE", image: str = "samples: 1", rest: str = ""
+) -> str:
     """A pass that draws to one image."""
     return f"""\
 frame: {{width: 64, height: 32}}
@@ -69,7 +75,10 @@ renderPasses:
 def commands(*each: str) -> str:
     """The commands of a frame; `begin` stands for the whole of pass p."""
     begin = ["{beginRenderPass: {renderPass: p}}", "endRenderPass"]
-    return f"commands: [{', '.join(word for one in each for word in (begin if one == 'begin' else [one]))}]\n"
+    return (
+        f"commands: "
+        f"[{', '.join(word for one in each for word in (begin if one == 'begin' else [one]))}]\n"
+    )
 
 
 def begin(area: str = "") -> str:
@@ -98,7 +107,8 @@ def begin(area: str = "") -> str:
         (
             {
                 "color": "loadOp: DONT_CARE, storeOp: DONT_CARE",
-                "rest": "pipelines: {x: {renderPass: p, colorBlendState: {attachments: [{blendEnable: true}]}}}",
+                "rest": "pipelines: {x: {renderPass: p, colorBlendState: {attachments: "
+                "[{blendEnable: true}]}}}",
             },
             [],
         ),
@@ -109,10 +119,18 @@ def begin(area: str = "") -> str:
         ({"o": "arrayLayers: 2"}, []),
         ({"o": "mipLevels: 2"}, []),
         ({"o": "extent: {width: 128, height: 32}"}, []),
-        ({"ms": "usage: COLOR_ATTACHMENT | TRANSIENT_ATTACHMENT", "o": "usage: COLOR_ATTACHMENT | SAMPLED"}, ["o"]),
+        (
+            {
+                "ms": "usage: COLOR_ATTACHMENT | TRANSIENT_ATTACHMENT",
+                "o": "usage: COLOR_ATTACHMENT | SAMPLED",
+            },
+            ["o"],
+        ),
     ],
 )
-def test_an_inline_resolve_gives_what_is_drawn(changes: Mapping[str, str], expected: list[str]) -> None:
+def test_an_inline_resolve_gives_what_is_drawn(
+    changes: Mapping[str, str], expected: list[str]
+) -> None:
     assert outputs(inline(**changes)) == expected
 
 
@@ -137,15 +155,31 @@ def test_a_pass_gives_what_it_stores(image: str, color: str, expected: list[str]
 
 @pytest.mark.parametrize(
     ("area", "expected"),
-    [("", ["o"]), (", renderArea: {x: 0, y: 0, width: 64, height: 32}", ["o"]), (", renderArea: {width: 100, height: 100}", ["o"]),
-     (", renderArea: {x: 1, y: 0, width: 63, height: 32}", []), (", renderArea: {x: 0, y: 0, width: 64, height: 31}", [])],
+    [("", ["o"]), (", renderArea: {x: 0, y: 0, width: 64, height: 32}", ["o"]), (", renderArea: "
+        "{width: 100, height: 100}", ["o"]),
+     (", renderArea: {x: 1, y: 0, width: 63, height: 32}", []), (", renderArea: {x: 0, y: 0, "
+         "width: 64, height: 31}", [])],
 )  # fmt: skip
 @pytest.mark.parametrize("load", ["CLEAR", "DONT_CARE"])
-def test_an_area_that_is_not_whole_leaves_the_rest(load: str, area: str, expected: list[str]) -> None:
+def test_an_area_that_is_not_whole_leaves_the_rest(
+    load: str, area: str, expected: list[str]
+) -> None:
     extent = "extent: {width: 64, height: 32}"
-    assert outputs(plain(f"loadOp: {load}, storeOp: STORE", f"samples: 1, {extent}", f"commands: [{begin(area)}]")) == expected
+    assert (
+        outputs(
+            plain(
+                f"loadOp: {load}, storeOp: STORE",
+                f"samples: 1, {extent}",
+                f"commands: [{begin(area)}]",
+            )
+        )
+        == expected
+    )
     color = f"loadOp: {load}, storeOp: DONT_CARE"
-    assert outputs(inline(ms=extent, o=extent, color=color, rest=f"commands: [{begin(area)}]")) == expected
+    assert (
+        outputs(inline(ms=extent, o=extent, color=color, rest=f"commands: [{begin(area)}]"))
+        == expected
+    )
 
 
 @pytest.mark.parametrize(
@@ -158,17 +192,33 @@ def test_an_area_that_is_not_whole_leaves_the_rest(load: str, area: str, expecte
         ("UNDEFINED", "CLEAR", []),
     ],
 )
-def test_a_part_of_what_was_there_before_is_defined_where_it_is_kept(initial: str, load: str, expected: list[str]) -> None:
+def test_a_part_of_what_was_there_before_is_defined_where_it_is_kept(
+    initial: str, load: str, expected: list[str]
+) -> None:
     area = ", renderArea: {width: 8, height: 8}"
     color = f"loadOp: {load}, storeOp: STORE, initialLayout: {initial}"
-    assert outputs(plain(color, rest=f"commands: [{{clearColorImage: {{image: o}}}}, {begin(area)}]")) == expected
+    assert (
+        outputs(plain(color, rest=f"commands: [{{clearColorImage: {{image: o}}}}, {begin(area)}]"))
+        == expected
+    )
     assert outputs(plain(color, rest=f"commands: [{begin(area)}]")) == []
 
 
 def test_one_draw_that_covers_is_enough() -> None:
-    pipelines = "pipelines: {x: {renderPass: p}, y: {renderPass: p, colorBlendState: {attachments: [{blendEnable: true}]}}}"
+    pipelines = (
+        "pipelines: {x: {renderPass: p}, y: {renderPass: p, colorBlendState: {attachments: "
+        "[{blendEnable: true}]}}}"
+    )
     assert outputs(plain("loadOp: DONT_CARE, storeOp: STORE", rest=pipelines)) == ["o"]
-    assert outputs(plain("loadOp: DONT_CARE, storeOp: STORE", rest=pipelines.replace("x: {renderPass: p}, ", ""))) == []
+    assert (
+        outputs(
+            plain(
+                "loadOp: DONT_CARE, storeOp: STORE",
+                rest=pipelines.replace("x: {renderPass: p}, ", ""),
+            )
+        )
+        == []
+    )
 
 
 def test_a_later_pass_takes_back_what_it_leaves_undefined() -> None:
@@ -180,14 +230,18 @@ renderPasses:
 """
     assert outputs(text.replace("OP}", "STORE}")) == ["o"]
     assert outputs(text.replace("OP}", "DONT_CARE}")) == []
-    unused = text.replace("OP}", "STORE}").replace("{colorAttachments: [c]}]}", "{colorAttachments: [null]}]}")
+    unused = text.replace("OP}", "STORE}").replace(
+        "{colorAttachments: [c]}]}", "{colorAttachments: [null]}]}"
+    )
     assert outputs(unused) == []
 
 
 # Depth and stencil
 
 
-def depth(attachment: str, format: str = "D24_UNORM_S8_UINT", samples: int = 1, rest: str = "") -> str:
+def depth(
+    attachment: str, format: str = "D24_UNORM_S8_UINT", samples: int = 1, rest: str = ""
+) -> str:
     return f"""\
 frame: {{width: 64, height: 32}}
 images: {{d: {{format: {format}, samples: {samples}}}, r: {{format: {format}, samples: 1}}}}
@@ -203,11 +257,26 @@ renderPasses:
 @pytest.mark.parametrize(
     ("operations", "expected"),
     [
-        ("loadOp: CLEAR, storeOp: STORE, stencilLoadOp: CLEAR, stencilStoreOp: STORE", ["d:depth", "d:stencil"]),
-        ("loadOp: CLEAR, storeOp: STORE, stencilLoadOp: DONT_CARE, stencilStoreOp: STORE", ["d:depth"]),
-        ("loadOp: CLEAR, storeOp: STORE, stencilLoadOp: CLEAR, stencilStoreOp: DONT_CARE", ["d:depth"]),
-        ("loadOp: DONT_CARE, storeOp: STORE, stencilLoadOp: CLEAR, stencilStoreOp: STORE", ["d:stencil"]),
-        ("loadOp: CLEAR, storeOp: DONT_CARE, stencilLoadOp: CLEAR, stencilStoreOp: STORE", ["d:stencil"]),
+        (
+            "loadOp: CLEAR, storeOp: STORE, stencilLoadOp: CLEAR, stencilStoreOp: STORE",
+            ["d:depth", "d:stencil"],
+        ),
+        (
+            "loadOp: CLEAR, storeOp: STORE, stencilLoadOp: DONT_CARE, stencilStoreOp: STORE",
+            ["d:depth"],
+        ),
+        (
+            "loadOp: CLEAR, storeOp: STORE, stencilLoadOp: CLEAR, stencilStoreOp: DONT_CARE",
+            ["d:depth"],
+        ),
+        (
+            "loadOp: DONT_CARE, storeOp: STORE, stencilLoadOp: CLEAR, stencilStoreOp: STORE",
+            ["d:stencil"],
+        ),
+        (
+            "loadOp: CLEAR, storeOp: DONT_CARE, stencilLoadOp: CLEAR, stencilStoreOp: STORE",
+            ["d:stencil"],
+        ),
         ("loadOp: LOAD, storeOp: STORE, stencilLoadOp: LOAD, stencilStoreOp: STORE", []),
     ],
 )
@@ -216,23 +285,36 @@ def test_depth_and_stencil_are_apart(operations: str, expected: list[str]) -> No
 
 
 def test_an_image_is_whole_with_all_of_its_aspects() -> None:
-    contents = followed(planned(depth("loadOp: CLEAR, storeOp: STORE, stencilLoadOp: DONT_CARE, stencilStoreOp: STORE")))
+    contents = followed(
+        planned(
+            depth("loadOp: CLEAR, storeOp: STORE, stencilLoadOp: DONT_CARE, stencilStoreOp: STORE")
+        )
+    )
     assert not contents.whole(0)
     assert contents.whole(0, DEPTH) and not contents.whole(0, STENCIL)
-    assert followed(planned(depth("loadOp: CLEAR, storeOp: STORE, stencilLoadOp: CLEAR, stencilStoreOp: STORE"))).whole(0)
+    assert followed(
+        planned(depth("loadOp: CLEAR, storeOp: STORE, stencilLoadOp: CLEAR, stencilStoreOp: STORE"))
+    ).whole(0)
 
 
 @pytest.mark.parametrize(
     ("modes", "expected"),
     [
-        ("depthResolveMode: SAMPLE_ZERO, stencilResolveMode: SAMPLE_ZERO", ["r:depth", "r:stencil"]),
+        (
+            "depthResolveMode: SAMPLE_ZERO, stencilResolveMode: SAMPLE_ZERO",
+            ["r:depth", "r:stencil"],
+        ),
         ("depthResolveMode: SAMPLE_ZERO, stencilResolveMode: NONE", ["r:depth"]),
         ("depthResolveMode: NONE, stencilResolveMode: MAX", ["r:stencil"]),
         ("depthResolveMode: NONE, stencilResolveMode: NONE", []),
     ],
 )
-def test_a_depth_resolve_gives_the_aspects_that_it_resolves(modes: str, expected: list[str]) -> None:
-    operations = "loadOp: CLEAR, storeOp: DONT_CARE, stencilLoadOp: CLEAR, stencilStoreOp: DONT_CARE"
+def test_a_depth_resolve_gives_the_aspects_that_it_resolves(
+    modes: str, expected: list[str]
+) -> None:
+    operations = (
+        "loadOp: CLEAR, storeOp: DONT_CARE, stencilLoadOp: CLEAR, stencilStoreOp: DONT_CARE"
+    )
     rest = f"depthStencilResolve: {{attachment: r, {modes}}}"
     assert outputs(depth(operations, samples=4, rest=rest)) == expected
     assert outputs(depth(operations.replace("CLEAR", "DONT_CARE"), samples=4, rest=rest)) == []
@@ -243,13 +325,22 @@ def test_a_depth_resolve_gives_the_aspects_that_it_resolves(modes: str, expected
     [
         ("initialLayout: DEPTH_STENCIL_ATTACHMENT_OPTIMAL", ["d:depth", "d:stencil"]),
         ("initialLayout: UNDEFINED", []),
-        ("initialLayout: DEPTH_STENCIL_ATTACHMENT_OPTIMAL, stencilInitialLayout: UNDEFINED", ["d:depth"]),
-        ("initialLayout: UNDEFINED, stencilInitialLayout: STENCIL_ATTACHMENT_OPTIMAL", ["d:stencil"]),
+        (
+            "initialLayout: DEPTH_STENCIL_ATTACHMENT_OPTIMAL, stencilInitialLayout: UNDEFINED",
+            ["d:depth"],
+        ),
+        (
+            "initialLayout: UNDEFINED, stencilInitialLayout: STENCIL_ATTACHMENT_OPTIMAL",
+            ["d:stencil"],
+        ),
     ],
 )
 def test_stencil_has_a_layout_of_its_own(initial: str, expected: list[str]) -> None:
     operations = "loadOp: LOAD, storeOp: STORE, stencilLoadOp: LOAD, stencilStoreOp: STORE"
-    cleared = "commands: [{clearDepthStencilImage: {image: d}}, {beginRenderPass: {renderPass: p}}, endRenderPass]\n"
+    cleared = (
+        "commands: [{clearDepthStencilImage: {image: d}}, {beginRenderPass: {renderPass: "
+        "p}}, endRenderPass]\n"
+    )
     assert outputs(depth(f"{operations}, {initial}") + cleared) == expected
     assert outputs(depth(f"{operations}, {initial}")) == []
 
@@ -287,8 +378,13 @@ pipelines: {x: {renderPass: p, depthStencilState: {depthTestEnable: TEST, depthC
         ("DONT_CARE", "true", "NEVER", ["o"]),
     ],
 )
-def test_what_is_tested_against_undefined_depth_is_undefined(load: str, test: str, compare: str, expected: list[str]) -> None:
-    assert outputs(TESTED.replace("LOAD_OP", load).replace("TEST", test).replace("COMPARE", compare)) == expected
+def test_what_is_tested_against_undefined_depth_is_undefined(
+    load: str, test: str, compare: str, expected: list[str]
+) -> None:
+    assert (
+        outputs(TESTED.replace("LOAD_OP", load).replace("TEST", test).replace("COMPARE", compare))
+        == expected
+    )
 
 
 def test_depth_that_an_earlier_pass_left_is_tested_against() -> None:
@@ -298,7 +394,12 @@ renderPasses:
 """
     text = TESTED.replace("LOAD_OP", "LOAD").replace("TEST", "true").replace("COMPARE", "LESS")
     assert outputs(text.replace("renderPasses:\n", before)) == ["o"]
-    assert outputs(text.replace("renderPasses:\n", before.replace("storeOp: STORE", "storeOp: DONT_CARE"))) == []
+    assert (
+        outputs(
+            text.replace("renderPasses:\n", before.replace("storeOp: STORE", "storeOp: DONT_CARE"))
+        )
+        == []
+    )
 
 
 # Layers and views
@@ -327,14 +428,21 @@ framebuffers: {{f: {{renderPass: p, attachments: [o], layers: {layers}}}}}
         ("DONT_CARE", 0, 2, []),
     ],
 )
-def test_layers_are_defined_where_all_of_them_are(load: str, views: int, layers: int, expected: list[str]) -> None:
+def test_layers_are_defined_where_all_of_them_are(
+    load: str, views: int, layers: int, expected: list[str]
+) -> None:
     assert outputs(layered(load, views, layers)) == expected
 
 
 # Dynamic rendering
 
 
-def rendering(flags: str = "", color: str = "loadOp: CLEAR, storeOp: DONT_CARE", area: str = "", then: str = "") -> str:
+def rendering(
+    flags: str = "",
+    color: str = "loadOp: CLEAR, storeOp: DONT_CARE",
+    area: str = "",
+    then: str = "",
+) -> str:
     return f"""\
 frame: {{width: 64, height: 32}}
 images: {{ms: {{format: R8G8B8A8_UNORM, samples: 4}}, o: {{format: R8G8B8A8_UNORM, samples: 1}}}}
@@ -363,7 +471,10 @@ def test_a_rendering_gives_what_it_resolves(arguments: dict[str, str], expected:
 def test_what_is_suspended_is_there_when_it_is_resumed() -> None:
     again = rendering("FLAGS")
     again = again[again.index("  - begin") :].rstrip() + "\n"
-    resumed, both = again.replace("FLAGS", "RESUMING"), again.replace("FLAGS", "RESUMING, SUSPENDING")
+    resumed, both = (
+        again.replace("FLAGS", "RESUMING"),
+        again.replace("FLAGS", "RESUMING, SUSPENDING"),
+    )
     assert outputs(rendering("SUSPENDING", then=resumed)) == ["o"]
     assert outputs(rendering("SUSPENDING", then=both)) == []
     assert outputs(rendering("SUSPENDING", then=both + resumed)) == ["o"]
@@ -383,7 +494,9 @@ commands:
     assert outputs(text) == []
 
 
-@pytest.mark.parametrize(("load", "expected"), [("LOAD", ["o"]), ("CLEAR", ["o"]), ("DONT_CARE", [])])
+@pytest.mark.parametrize(
+    ("load", "expected"), [("LOAD", ["o"]), ("CLEAR", ["o"]), ("DONT_CARE", [])]
+)
 def test_a_rendering_keeps_what_it_loads(load: str, expected: list[str]) -> None:
     text = f"""\
 frame: {{width: 64, height: 32}}
@@ -425,8 +538,23 @@ def test_a_rendering_stores_what_it_says() -> None:
         (["{copyImage: {srcImage: o, dstImage: t}}", "begin"], ["o"]),
         (["begin", "{copyImage: {srcImage: t, dstImage: o}}"], []),
         (["begin", "{copyBufferToImage: {dstImage: o}}"], []),
-        (["begin", "{copyImageToBuffer: {srcImage: o}}", "{present: {image: o}}", "{pipelineBarrier: {images: [o]}}"], ["o"]),
-        (["begin", "{blitImage: {srcImage: o, dstImage: t}}", "{blitImage: {srcImage: t, dstImage: o}}"], ["o", "t"]),
+        (
+            [
+                "begin",
+                "{copyImageToBuffer: {srcImage: o}}",
+                "{present: {image: o}}",
+                "{pipelineBarrier: {images: [o]}}",
+            ],
+            ["o"],
+        ),
+        (
+            [
+                "begin",
+                "{blitImage: {srcImage: o, dstImage: t}}",
+                "{blitImage: {srcImage: t, dstImage: o}}",
+            ],
+            ["o", "t"],
+        ),
     ],
 )
 def test_commands_carry_what_is_defined(each: list[str], expected: list[str]) -> None:
@@ -451,7 +579,12 @@ def test_a_resolve_command_gives_what_is_stored() -> None:
 )
 def test_a_part_of_an_image_is_no_image(size: str, kind: str, expected: list[str]) -> None:
     text = plain(rest=commands("begin", f"{{{kind}: {{srcImage: o, dstImage: t}}}}"))
-    assert outputs(text.replace("t: {format: R8G8B8A8_UNORM,", f"t: {{format: R8G8B8A8_UNORM, {size},")) == expected
+    assert (
+        outputs(
+            text.replace("t: {format: R8G8B8A8_UNORM,", f"t: {{format: R8G8B8A8_UNORM, {size},")
+        )
+        == expected
+    )
 
 
 # What a shader reads
@@ -478,15 +611,28 @@ commands:
         ("D32_SFLOAT", 1, "", "clearDepthStencilImage", ["a:depth", "o"]),
         ("R8G8B8A8_UNORM", 1, "", "present", []),
         ("R8G8B8A8_UNORM", 1, "usage: TRANSFER_DST", "clearColorImage", ["a"]),
-        ("R8G8B8A8_UNORM", 1, "usage: TRANSFER_DST | SAMPLED | TRANSIENT_ATTACHMENT", "clearColorImage", ["a"]),
+        (
+            "R8G8B8A8_UNORM",
+            1,
+            "usage: TRANSFER_DST | SAMPLED | TRANSIENT_ATTACHMENT",
+            "clearColorImage",
+            ["a"],
+        ),
         ("R32_UINT", 1, "", "clearColorImage", ["a"]),
         ("R32_SINT", 4, "", "clearColorImage", []),
         ("S8_UINT", 1, "", "clearDepthStencilImage", ["a:stencil"]),
         ("R8G8B8A8_UNORM", 1, "imageType: 1D", "clearColorImage", ["a"]),
     ],
 )
-def test_what_is_read_is_put_on_every_pixel(format: str, samples: int, usage: str, command: str, expected: list[str]) -> None:
-    text = READ.replace("FORMAT", format).replace("SAMPLES", str(samples)).replace("USAGE", usage).replace("COMMAND", command)
+def test_what_is_read_is_put_on_every_pixel(
+    format: str, samples: int, usage: str, command: str, expected: list[str]
+) -> None:
+    text = (
+        READ.replace("FORMAT", format)
+        .replace("SAMPLES", str(samples))
+        .replace("USAGE", usage)
+        .replace("COMMAND", command)
+    )
     assert outputs(text) == expected
     made = planned(text)
     (step,) = [step for step in made.steps if step.kind == "begin"]
@@ -500,32 +646,67 @@ def test_what_is_read_is_put_on_every_pixel(format: str, samples: int, usage: st
 
 
 def image(samples: int, aspects: int) -> Image:
-    return Image("i", 37, samples, 0x10, 8, 8, 1, 1, 1, 1, 0, 0, False, aspects, "UNORM" if aspects == COLOR else "")
+    return Image(
+        "i",
+        37,
+        samples,
+        0x10,
+        8,
+        8,
+        1,
+        1,
+        1,
+        1,
+        0,
+        0,
+        False,
+        aspects,
+        "UNORM" if aspects == COLOR else "",
+    )
 
 
-KINDS = st.sampled_from(["resolve", "copy", "blit", "clear", "copyIn", "copyOut", "present", "barrier"])
+KINDS = st.sampled_from(
+    ["resolve", "copy", "blit", "clear", "copyIn", "copyOut", "present", "barrier"]
+)
 
 
 @given(
-    st.lists(st.builds(image, st.sampled_from([1, 4]), st.sampled_from([COLOR, DEPTH, DEPTH | STENCIL, STENCIL])), min_size=2, max_size=5),
+    st.lists(
+        st.builds(
+            image,
+            st.sampled_from([1, 4]),
+            st.sampled_from([COLOR, DEPTH, DEPTH | STENCIL, STENCIL]),
+        ),
+        min_size=2,
+        max_size=5,
+    ),
     st.lists(st.tuples(KINDS, st.integers(0, 99), st.integers(0, 99)), max_size=12),
 )
-def test_what_commands_define_comes_from_a_clear(images: list[Image], chosen: list[tuple[str, int, int]]) -> None:
-    steps = tuple(Step(kind, 0, source=a % len(images), target=b % len(images)) for kind, a, b in chosen)
+def test_what_commands_define_comes_from_a_clear(
+    images: list[Image], chosen: list[tuple[str, int, int]]
+) -> None:
+    steps = tuple(
+        Step(kind, 0, source=a % len(images), target=b % len(images)) for kind, a, b in chosen
+    )
     contents = followed(Plan("f", tuple(images), steps=steps))
     found = contents.outputs()
-    assert all(images[number].samples == 1 and images[number].aspects & aspect for number, aspect in found)
+    assert all(
+        images[number].samples == 1 and images[number].aspects & aspect for number, aspect in found
+    )
     assert found == sorted(set(found))
     for number, aspect in found:
         assert whence(images, steps, number, aspect), "what an output holds was cleared once"
     assert all(
-        contents.whole(number) == all((number, a) in contents.known for a in ASPECTS if each.aspects & a)
+        contents.whole(number)
+        == all((number, a) in contents.known for a in ASPECTS if each.aspects & a)
         for number, each in enumerate(images)
     )
 
 
 def whence(images: list[Image], steps: tuple[Step, ...], number: int, aspect: int) -> bool:
-    """Whether what an aspect holds in the end goes back to a clear, by the last command that wrote it."""
+    """Whether what an aspect holds in the end goes back to a clear, by the last command that wrote
+    it.
+    """
     for at in range(len(steps) - 1, -1, -1):
         step = steps[at]
         if step.target != number or step.kind in ("copyOut", "present", "barrier"):
@@ -542,10 +723,13 @@ def whence(images: list[Image], steps: tuple[Step, ...], number: int, aspect: in
 
 @pytest.mark.parametrize(
     ("changes", "expected"),
-    [({}, ["o"]), ({"target": "loadOp: DONT_CARE, storeOp: DONT_CARE"}, ["o"]), ({"color": "loadOp: LOAD, storeOp: DONT_CARE"}, []),
+    [({}, ["o"]), ({"target": "loadOp: DONT_CARE, storeOp: DONT_CARE"}, ["o"]),
+    ({"color": "loadOp: LOAD, storeOp: DONT_CARE"}, []),
      ({"color": "loadOp: CLEAR, storeOp: STORE", "resolve": ""}, ["ms"])],
 )  # fmt: skip
-def test_one_sample_gives_what_is_drawn_to_directly(changes: Mapping[str, str], expected: list[str]) -> None:
+def test_one_sample_gives_what_is_drawn_to_directly(
+    changes: Mapping[str, str], expected: list[str]
+) -> None:
     assert outputs(inline(**changes), samples=1) == expected
 
 

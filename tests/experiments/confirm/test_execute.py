@@ -1,4 +1,6 @@
-"""Plans run on lavapipe, in a child process as `confirm` does it: what is told of them, what is drawn, and that nothing is left."""
+"""Plans run on lavapipe, in a child process as `confirm` does it: what is told of them, what is
+drawn, and that nothing is left.
+"""
 
 from __future__ import annotations
 
@@ -40,14 +42,18 @@ def session() -> Iterator[Session]:
 
 @pytest.fixture(scope="module")
 def plain() -> Iterator[Session]:
-    """The same without vendors' checks, which have a word on every multisampled image that is kept."""
+    """The same without vendors' checks, which have a word on every multisampled image that is
+    kept.
+    """
     with Session(environment=environment(None), vendors=()) as opened:
         opened.open()
         yield opened
 
 
 class Done(NamedTuple):
-    """What came of a frame: every event in order, the run, and the images that were read back, by name."""
+    """What came of a frame: every event in order, the run, and the images that were read back, by
+    name.
+    """
 
     events: list[Event]
     run: FrameRun
@@ -59,9 +65,18 @@ class Done(NamedTuple):
 
 
 def done(session: Session, plan: Plan, **wanted: Any) -> Done:
-    """A plan, run; its images without their own names where these are of an aspect (`depth:stencil`)."""
+    """A plan, run; its images without their own names where these are of an aspect
+    (`depth:stencil`).
+    """
     folder = session.folder("drawn")
-    want = {"pixels": folder, "repeats": 0, "warmups": 0, "size": None, "samples_of": None, **wanted}
+    want = {
+        "pixels": folder,
+        "repeats": 0,
+        "warmups": 0,
+        "size": None,
+        "samples_of": None,
+        **wanted,
+    }
     every: list[Event] = []
 
     class Recorded(RunCollector):
@@ -74,24 +89,38 @@ def done(session: Session, plan: Plan, **wanted: Any) -> Done:
         run = session.run(plan, range(len(plan.passes)), want)
     images = {}
     for name, event in run.images.items():
-        form = format_of(next(short for short, number in VALUES["VkFormat"].items() if number == event["format"]))
+        form = format_of(
+            next(short for short, number in VALUES["VkFormat"].items() if number == event["format"])
+        )
         if event["event"] == "pixels" and form is not None:
-            made = texels(form, Path(event["path"]).read_bytes(), event["width"], str(event["aspect"]))
-            assert made is not None and (made.width, made.height) == (event["width"], event["height"])
+            made = texels(
+                form, Path(event["path"]).read_bytes(), event["width"], str(event["aspect"])
+            )
+            assert made is not None and (made.width, made.height) == (
+                event["width"],
+                event["height"],
+            )
             images[name] = made
     return Done(every, run, images)
 
 
 def well(session: Session, plan: Plan, **wanted: Any) -> Done:
-    """A well-formed plan, run: everything was created and went through, and the layer said nothing but noise."""
+    """A well-formed plan, run: everything was created and went through, and the layer said nothing
+    but noise.
+    """
     assert not any(each.refused for each in plan.passes)
     found = done(session, plan, **wanted)
     assert found.run.whole and not found.run.failed
-    assert [(number, ran.created, ran.error, ran.end) for number, ran in found.run.passes.items()] == [
-        (number, True, "", "") for number in range(len(plan.passes))
+    assert [
+        (number, ran.created, ran.error, ran.end) for number, ran in found.run.passes.items()
+    ] == [(number, True, "", "") for number in range(len(plan.passes))]
+    said = [
+        *found.run.messages,
+        *(message for ran in found.run.passes.values() for message in ran.messages),
     ]
-    said = [*found.run.messages, *(message for ran in found.run.passes.values() for message in ran.messages)]
-    assert [each["text"] for each in said if not isinstance(classify(each["id"], each["text"]), Noise)] == []
+    assert [
+        each["text"] for each in said if not isinstance(classify(each["id"], each["text"]), Noise)
+    ] == []
     assert not any(ran.dropped for ran in found.run.passes.values())
     return found
 
@@ -119,10 +148,12 @@ renderPasses:
 )
 DEPTH_RESOLVE = INLINE.replace(
     "    subpasses:\n",
-    "      near: {image: near, loadOp: DONT_CARE, storeOp: STORE, finalLayout: DEPTH_STENCIL_ATTACHMENT_OPTIMAL}\n    subpasses:\n",
+    "      near: {image: near, loadOp: DONT_CARE, storeOp: STORE, finalLayout: "
+    "DEPTH_STENCIL_ATTACHMENT_OPTIMAL}\n    subpasses:\n",
 ).replace(
     "depthStencilAttachment: depth}",
-    "depthStencilAttachment: depth, depthStencilResolve: {attachment: near, depthResolveMode: SAMPLE_ZERO, stencilResolveMode: NONE}}",
+    "depthStencilAttachment: depth, depthStencilResolve: {attachment: near, depthResolveMode: "
+    "SAMPLE_ZERO, stencilResolveMode: NONE}}",
 )
 RENDERING = (
     IMAGES
@@ -144,15 +175,23 @@ def kinds(events: list[Event]) -> list[tuple[str, int | None]]:
 def test_events_in_order(session: Session) -> None:
     plan = planned(INLINE + RENDERING.partition("commands:")[0].replace(IMAGES, ""))
     found = well(session, plan)
-    assert kinds(found.events) == [*(("pass", 0), ("created", 0)), *2 * [("pass", 0)], ("pixels", None), ("done", None)]
+    assert kinds(found.events) == [
+        *(("pass", 0), ("created", 0)),
+        *2 * [("pass", 0)],
+        ("pixels", None),
+        ("done", None),
+    ]
     assert found.events[-1] == {"event": "done"}
-    assert found.events.index({"event": "pass", "pass": 0}) < found.events.index({"event": "created", "pass": 0, "ok": True, "error": ""})
+    assert found.events.index({"event": "pass", "pass": 0}) < found.events.index(
+        {"event": "created", "pass": 0, "ok": True, "error": ""}
+    )
 
 
 def test_events_of_several_passes_are_told_pass_by_pass(plain: Session) -> None:
     plan = planned(TWO_PASSES)
     assert kinds(done(plain, plan).events) == [
-        *((kind, number) for number in (0, 1) for kind in ("pass", "created")), *2 * [("pass", 0), ("pass", 1)], ("pixels", None),
+        *((kind, number) for number in (0, 1) for kind in ("pass", "created")), *2 * [("pass", 0),
+        ("pass", 1)], ("pixels", None),
         ("defined", None), ("done", None),
     ]  # fmt: skip
 
@@ -322,8 +361,17 @@ pipelines:
 
 def test_loading_keeps_what_a_pass_before_drew(plain: Session) -> None:
     loaded = well(plain, planned(TWO_PASSES))
-    assert loaded.pixels("output") == well(plain, planned(INLINE.replace(", depthStencilAttachment: depth", ""))).pixels("output")
-    cleared = done(plain, planned(TWO_PASSES.replace("LOAD, storeOp: STORE, initialLayout", "CLEAR, storeOp: STORE, initialLayout")))
+    assert loaded.pixels("output") == well(
+        plain, planned(INLINE.replace(", depthStencilAttachment: depth", ""))
+    ).pixels("output")
+    cleared = done(
+        plain,
+        planned(
+            TWO_PASSES.replace(
+                "LOAD, storeOp: STORE, initialLayout", "CLEAR, storeOp: STORE, initialLayout"
+            )
+        ),
+    )
     assert set(cleared.pixels("output")) == {CLEARED}
 
 
@@ -360,7 +408,9 @@ def test_transfer_commands(plain: Session) -> None:
     inline = found.pixels("inline")
     assert found.pixels("resolved") == inline == found.pixels("copied") and len(set(inline)) > 100
     # Without a filter, half the size is every second pixel of every second row.
-    assert found.pixels("half") == [inline[y * SIDE + x] for y in range(1, SIDE, 2) for x in range(1, SIDE, 2)]
+    assert found.pixels("half") == [
+        inline[y * SIDE + x] for y in range(1, SIDE, 2) for x in range(1, SIDE, 2)
+    ]
     assert set(found.pixels("cleared")) == {CLEARED}
     assert set(found.pixels("far")) == {(65535,)}
     assert set(found.pixels("integers")) == {(3, 5, 7, 11)}
@@ -384,23 +434,34 @@ def compiled(folder: Path, text: str) -> None:
     """SPIR-V as own.spv beside a description in a folder."""
     source = folder / "own.frag"
     source.write_text(text)
-    subprocess.run(["glslangValidator", "-V", "-o", str(folder / "own.spv"), str(source)], check=True, capture_output=True)
+    subprocess.run(
+        ["glslangValidator", "-V", "-o", str(folder / "own.spv"), str(source)],
+        check=True,
+        capture_output=True,
+    )
 
 
 def test_described_shader_is_run_with_its_constants(plain: Session, tmp_path: Path) -> None:
     compiled(tmp_path, SHADER)
     text = INLINE.replace(", depthStencilAttachment: depth", "") + SHADED
     plan = planned(text, file=str(tmp_path / "frame.msaa.yaml"))
-    assert [stage.path for stage in plan.passes[0].pipelines[0].stages] == [str(tmp_path / "own.spv"), ""]
+    assert [stage.path for stage in plan.passes[0].pipelines[0].stages] == [
+        str(tmp_path / "own.spv"),
+        "",
+    ]
     pixels = well(plain, plan).pixels("output")
     drawn = (0, 255, 128, 255)
     assert {CLEARED, drawn} < set(pixels)
     # What lies between is an average of nothing else.
-    assert all(0 <= pixel[0] <= 32 and 64 <= pixel[1] <= 255 and pixel[2] == 128 for pixel in pixels)
+    assert all(
+        0 <= pixel[0] <= 32 and 64 <= pixel[1] <= 255 and pixel[2] == 128 for pixel in pixels
+    )
     assert len(set(pixels)) == 5
 
 
-def test_described_shader_that_is_none_ends_neither_frame_nor_child(plain: Session, tmp_path: Path) -> None:
+def test_described_shader_that_is_none_ends_neither_frame_nor_child(
+    plain: Session, tmp_path: Path
+) -> None:
     compiled(tmp_path, SHADER)
     plan = planned(INLINE + SHADED, file=str(tmp_path / "frame.msaa.yaml"))
     (tmp_path / "own.spv").unlink()
@@ -446,9 +507,14 @@ def test_times_are_of_the_devices_clock(plain: Session) -> None:
     assert found.images == {}
     timed = [each for each in found.events if each["event"] == "time"]
     assert [each["pass"] for each in timed] == [0, 1] * 3
-    assert {each["source"] for each in timed} == {"timestamp"} and all(0 < each["ms"] < 10_000 for each in timed)
+    assert {each["source"] for each in timed} == {"timestamp"} and all(
+        0 < each["ms"] < 10_000 for each in timed
+    )
     for number in (0, 1):
-        assert len(found.run.passes[number].times) == 3 and found.run.passes[number].source == "timestamp"
+        assert (
+            len(found.run.passes[number].times) == 3
+            and found.run.passes[number].source == "timestamp"
+        )
     # A pass is announced once for being created and once for being drawn, not for every time.
     assert kinds(found.events).count(("pass", 0)) == 2
 
@@ -465,7 +531,11 @@ def test_samples_of_an_image(plain: Session) -> None:
     assert {key: event[key] for key in own} == own
     assert os.path.getsize(event["path"]) == SIDE * SIDE * 4 * 16
     assert found.run.images["color:samples"] == event
-    assert [each["event"] for each in found.events if each["event"] not in ("message", "pass", "created")] == [
+    assert [
+        each["event"]
+        for each in found.events
+        if each["event"] not in ("message", "pass", "created")
+    ] == [
         "pixels",
         "defined",
         "sample",
@@ -474,7 +544,10 @@ def test_samples_of_an_image(plain: Session) -> None:
 
 
 def test_samples_of_a_transient_image_are_read_all_the_same(plain: Session) -> None:
-    kept = INLINE.replace("image: color, loadOp: CLEAR, storeOp: DONT_CARE", "image: color, loadOp: CLEAR, storeOp: STORE")
+    kept = INLINE.replace(
+        "image: color, loadOp: CLEAR, storeOp: DONT_CARE",
+        "image: color, loadOp: CLEAR, storeOp: STORE",
+    )
     found = done(plain, planned(kept), samples_of="color")
     assert [each["event"] for each in found.events].count("sample") == 1 and found.run.whole
     whole = done(plain, planned(TWO_PASSES), samples_of="color").run.images["color:samples"]
@@ -489,7 +562,9 @@ def test_samples_of_no_image_are_none(plain: Session) -> None:
 def test_size_of_pictures_is_asked_for_or_bounded(plain: Session) -> None:
     found = well(plain, planned(TWO_PASSES), size=[48, 24])
     assert (found.images["output"].width, found.images["output"].height) == (48, 24)
-    large = planned(TWO_PASSES.replace(f"width: {SIDE}, height: {SIDE}", "width: 2048, height: 1024"))
+    large = planned(
+        TWO_PASSES.replace(f"width: {SIDE}, height: {SIDE}", "width: 2048, height: 1024")
+    )
     found = well(plain, large)
     assert (found.images["output"].width, found.images["output"].height) == (512, 256)
 
@@ -500,7 +575,12 @@ def test_every_frame_of_a_stream_runs_in_one_child(plain: Session) -> None:
 
     stream = "\n---\n".join([INLINE, RENDERING, TWO_PASSES, TRANSFERS])
     runs = [well(plain, plan(each)) for each in frames(stream)]
-    assert runs[0].pixels("output") == runs[1].pixels("output") != runs[2].pixels("output") == runs[3].pixels("inline")
+    assert (
+        runs[0].pixels("output")
+        == runs[1].pixels("output")
+        != runs[2].pixels("output")
+        == runs[3].pixels("inline")
+    )
 
 
 LEAKS = """
@@ -543,7 +623,10 @@ def leaks(tmp_path: Path, turns: int, *more: str) -> dict[str, Any]:
         plans[0]
         .passes[0]
         ._replace(
-            pipelines=tuple(each._replace(stages=(Stage(16, str(tmp_path / "none.spv"), "main"),)) for each in plans[0].passes[0].pipelines)
+            pipelines=tuple(
+                each._replace(stages=(Stage(16, str(tmp_path / "none.spv"), "main"),))
+                for each in plans[0].passes[0].pipelines
+            )
         )
     )
     plans.append(plans[0]._replace(passes=(broken,)))

@@ -1,4 +1,6 @@
-"""Every safe fix of every example of the rule pages, and of examples/, drawn on lavapipe before and after: none changes a picture."""
+"""Every safe fix of every example of the rule pages, and of examples/, drawn on lavapipe before and
+after: none changes a picture.
+"""
 
 from __future__ import annotations
 
@@ -38,12 +40,18 @@ def test_no_safe_fix_changes_a_pixel(every: DeviceRun) -> None:
 
 
 def test_no_safe_fix_keeps_a_pass_from_being_created(every: DeviceRun) -> None:
-    assert [(v.file, v.name, v.status, v.reason) for v in every.verdicts if v.status not in (CONFIRMED, REFUSED)] == []
+    assert [
+        (v.file, v.name, v.status, v.reason)
+        for v in every.verdicts
+        if v.status not in (CONFIRMED, REFUSED)
+    ] == []
 
 
 def test_what_is_not_compared_says_why(every: DeviceRun) -> None:
     untold = [v for v in every.verdicts if v.status == CONFIRMED and v.pixels_equal is None]
-    assert [(v.file, v.name, v.notes) for v in untold if not any("compare" in note for note in v.notes)] == []
+    assert [
+        (v.file, v.name, v.notes) for v in untold if not any("compare" in note for note in v.notes)
+    ] == []
 
 
 COMPARED = """\
@@ -58,13 +66,18 @@ commands:
 """
 
 
-RESOLVED = "{image: color_ms, loadOp: CLEAR, storeOp: DONT_CARE, resolveMode: AVERAGE, resolveImage: color}"
+RESOLVED = (
+    "{image: color_ms, loadOp: CLEAR, storeOp: DONT_CARE, resolveMode: AVERAGE, "
+    "resolveImage: color}"
+)
 
 
 def test_a_fix_that_changes_a_pixel_is_found(tmp_path: Path) -> None:
     """Should a fix draw with one sample where there were four, edges tell."""
     (tmp_path / "a.msaa.yaml").write_text(COMPARED.format(attachment=RESOLVED))
-    (tmp_path / "b.msaa.yaml").write_text(COMPARED.format(attachment="{image: color, loadOp: CLEAR, storeOp: STORE}"))
+    (tmp_path / "b.msaa.yaml").write_text(
+        COMPARED.format(attachment="{image: color, loadOp: CLEAR, storeOp: STORE}")
+    )
     average, single = inputs(Request(paths=[str(tmp_path)], isolated=True)).inputs
     (spoilt,) = ran([average._replace(fixed=single.frame)]).verdicts
     assert (spoilt.status, spoilt.pixels_equal) == (DISAGREES, False)

@@ -1,4 +1,6 @@
-"""Whatever a driver does to the process that it runs in: it is said of the pass that it did it at, and the next pass still runs."""
+"""Whatever a driver does to the process that it runs in: it is said of the pass that it did it at,
+and the next pass still runs.
+"""
 
 from __future__ import annotations
 
@@ -56,18 +58,30 @@ def children() -> list[int]:
     return [child for child in own if child not in OTHERS]
 
 
-def session(seconds: float = 20.0, memory: int = 8 << 30, device: str | None = None, **more: Any) -> Session:
+def session(
+    seconds: float = 20.0, memory: int = 8 << 30, device: str | None = None, **more: Any
+) -> Session:
     environment = {**os.environ, "PYTHONPATH": str(ROOT), "STARTED_BY": str(os.getpid())}
-    return Session(device, limits=Limits(seconds, memory), environment=environment, execute="tests.experiments.confirm.fake", **more)
+    return Session(
+        device,
+        limits=Limits(seconds, memory),
+        environment=environment,
+        execute="tests.experiments.confirm.fake",
+        **more,
+    )
 
 
-def ran(*deeds: str, seconds: float = 20.0, memory: int = 8 << 30, before: str | None = None) -> FrameRun:
+def ran(
+    *deeds: str, seconds: float = 20.0, memory: int = 8 << 30, before: str | None = None
+) -> FrameRun:
     with session(seconds, memory) as opened:
         return opened.run({"passes": list(deeds), "before": before}, range(len(deeds)), WANT)
 
 
 def processes(run: FrameRun) -> list[str]:
-    return [each.messages[0]["id"] if each.messages else "" for _, each in sorted(run.passes.items())]
+    return [
+        each.messages[0]["id"] if each.messages else "" for _, each in sorted(run.passes.items())
+    ]
 
 
 def test_frames_that_live_share_a_process(scratch: Path) -> None:
@@ -77,7 +91,11 @@ def test_frames_that_live_share_a_process(scratch: Path) -> None:
         runs = [opened.run({"passes": ["draws", "draws"]}, [0, 1], WANT) for _ in range(3)]
     assert len({process for run in runs for process in processes(run)}) == 1
     assert [run.passes[0].messages[0]["text"] for run in runs] == ["run 1", "run 2", "run 3"]
-    assert all(run.whole and each.created and each.end == "" for run in runs for each in run.passes.values())
+    assert all(
+        run.whole and each.created and each.end == ""
+        for run in runs
+        for each in run.passes.values()
+    )
 
 
 @pytest.mark.parametrize("name", ["SIGSEGV", "SIGABRT", "SIGFPE", "SIGKILL", "SIGILL", "SIGBUS"])
@@ -95,7 +113,10 @@ def test_sigkill_is_explained(scratch: Path) -> None:
 
 
 def test_last_words_are_told(scratch: Path) -> None:
-    assert ran("aborts").passes[0].reason == "SIGABRT; its last words: LLVM ERROR: \x1b[31mcannot select"
+    assert (
+        ran("aborts").passes[0].reason
+        == "SIGABRT; its last words: LLVM ERROR: \x1b[31mcannot select"
+    )
 
 
 def test_death_in_company_alone(scratch: Path) -> None:
@@ -179,7 +200,11 @@ def test_exception_in_the_child_is_said_and_the_next_frame_runs(scratch: Path) -
 
 def test_failed_creation_is_no_death(scratch: Path) -> None:
     run = ran("refuses")
-    assert (run.passes[0].created, run.passes[0].error, run.passes[0].end) == (False, "VK_ERROR_UNKNOWN", "")
+    assert (run.passes[0].created, run.passes[0].error, run.passes[0].end) == (
+        False,
+        "VK_ERROR_UNKNOWN",
+        "",
+    )
 
 
 def test_messages_are_bounded(scratch: Path) -> None:
@@ -197,15 +222,23 @@ def test_pixels_come_where_all_went_through(scratch: Path) -> None:
     assert dict(dead.images) == {} and not Path(path).exists()
 
 
-@pytest.mark.parametrize(("device", "words"), [("dies", "cannot open the driver: SIGSEGV"), ("sleeps", "it took longer than 1 s")])
-def test_driver_that_dies_at_once_is_no_device(scratch: Path, monkeypatch: pytest.MonkeyPatch, device: str, words: str) -> None:
+@pytest.mark.parametrize(
+    ("device", "words"),
+    [("dies", "cannot open the driver: SIGSEGV"), ("sleeps", "it took longer than 1 s")],
+)
+def test_driver_that_dies_at_once_is_no_device(
+    scratch: Path, monkeypatch: pytest.MonkeyPatch, device: str, words: str
+) -> None:
     monkeypatch.setattr("msaa_lint.experiments.confirm.session.OPENING", 1.0)
     with session(1.0, device=device) as opened, pytest.raises(Unusable, match=words):
         opened.open()
 
 
 def test_module_that_is_missing_is_named(scratch: Path) -> None:
-    with Session(execute="tests.experiments.confirm.nothing_there") as opened, pytest.raises(Unusable, match="nothing_there"):
+    with (
+        Session(execute="tests.experiments.confirm.nothing_there") as opened,
+        pytest.raises(Unusable, match="nothing_there"),
+    ):
         opened.open()
 
 
@@ -239,7 +272,12 @@ def test_child_ends_when_its_parent_is_killed(tmp_path: Path) -> None:
     )
     environment = {**os.environ, "PYTHONPATH": str(ROOT), "TMPDIR": str(tmp_path)}
     parent = subprocess.Popen(
-        [sys.executable, "-c", program], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, cwd=ROOT, env=environment
+        [sys.executable, "-c", program],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+        cwd=ROOT,
+        env=environment,
     )
     assert parent.stdout is not None and parent.stdin is not None
     child = int(parent.stdout.readline())
@@ -248,11 +286,19 @@ def test_child_ends_when_its_parent_is_killed(tmp_path: Path) -> None:
     parent.stdin.close()
     parent.stdout.close()
     for _ in range(100):
-        if not Path(f"/proc/{child}").exists() or Path(f"/proc/{child}/stat").read_text().rpartition(")")[2].split()[0] == "Z":
+        if (
+            not Path(f"/proc/{child}").exists()
+            or Path(f"/proc/{child}/stat").read_text().rpartition(")")[2].split()[0] == "Z"
+        ):
             return
         time.sleep(0.05)
     pytest.fail("the child goes on without its parent")
 
 
 def test_signals_have_names() -> None:
-    assert [signal_name(11), signal_name(6), signal_name(8), signal_name(40)] == ["SIGSEGV", "SIGABRT", "SIGFPE", "signal 40"]
+    assert [signal_name(11), signal_name(6), signal_name(8), signal_name(40)] == [
+        "SIGSEGV",
+        "SIGABRT",
+        "SIGFPE",
+        "signal 40",
+    ]

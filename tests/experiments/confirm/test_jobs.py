@@ -1,4 +1,6 @@
-"""`confirm --jobs`: inputs are tried by several processes, and the report is the same bytes as that of one."""
+"""`confirm --jobs`: inputs are tried by several processes, and the report is the same bytes as that
+of one.
+"""
 
 from __future__ import annotations
 
@@ -33,7 +35,8 @@ OPTIONS = ("--image", "pictures", "--force")
 
 @pytest.fixture
 def folder(tmp_path: Path) -> Path:
-    """Frames of two kinds, some with safe fixes and shaders, one in whose pass the driver dies, one that is broken, and a custom rule.
+    """Frames of two kinds, some with safe fixes and shaders, one in whose pass the driver dies, one
+    that is broken, and a custom rule.
 
     The names of the pictures of two of them would be the same."""
     frames = tmp_path / "frames"
@@ -44,12 +47,18 @@ def folder(tmp_path: Path) -> Path:
         (frames / f"{name}.msaa.yaml").write_text(SIZE + STORED)
     (frames / "3-deadly.msaa.yaml").write_text(SIZE.replace("64", str(WIDTH)) + CLEAN)
     (frames / "4-broken.msaa.yaml").write_text("images: {color: {samples: 3}}\n")
-    (frames / "5-example.msaa.yaml").write_text((ROOT / "examples/shader-resolve/note.msaa.yaml").read_text(encoding="utf-8"))
+    (frames / "5-example.msaa.yaml").write_text(
+        (ROOT / "examples/shader-resolve/note.msaa.yaml").read_text(encoding="utf-8")
+    )
     return tmp_path
 
 
-def confirmed(folder: Path, *options: str, before: str = "", paths: tuple[str, ...] = ("frames",)) -> subprocess.CompletedProcess[str]:
-    """The command, whose temporary files are in a folder of their own, in which nothing may be left."""
+def confirmed(
+    folder: Path, *options: str, before: str = "", paths: tuple[str, ...] = ("frames",)
+) -> subprocess.CompletedProcess[str]:
+    """The command, whose temporary files are in a folder of their own, in which nothing may be
+    left.
+    """
     code = f"""if True:
         import os, signal, sys
         from msaa_lint.__main__ import main
@@ -63,9 +72,18 @@ def confirmed(folder: Path, *options: str, before: str = "", paths: tuple[str, .
     scratch.mkdir(exist_ok=True)
     # Ray has a folder of its own, whose path must be short.
     environment = environment_of({"TMPDIR": str(scratch), "RAY_TMPDIR": tempfile.gettempdir()})
-    done = subprocess.run([sys.executable, "-c", code], cwd=folder, capture_output=True, text=True, check=False, env=environment)
+    done = subprocess.run(
+        [sys.executable, "-c", code],
+        cwd=folder,
+        capture_output=True,
+        text=True,
+        check=False,
+        env=environment,
+    )
     # Dask leaves an empty folder.
-    assert [path.name for path in scratch.iterdir() if path.name != "dask-scratch-space"] == [] and "Traceback" not in done.stderr
+    assert [
+        path.name for path in scratch.iterdir() if path.name != "dask-scratch-space"
+    ] == [] and "Traceback" not in done.stderr
     return done
 
 
@@ -73,19 +91,34 @@ def test_processes_report_what_one_reports(folder: Path) -> None:
     def outcome(jobs: str) -> tuple[int, str, str, dict[str, bytes]]:
         done = confirmed(folder, *reports, "--jobs", jobs)
         files = [*(folder / "pictures").iterdir(), folder / "report.html", folder / "report.json"]
-        return done.returncode, done.stdout, done.stderr, {path.name: path.read_bytes() for path in files}
+        return (
+            done.returncode,
+            done.stdout,
+            done.stderr,
+            {path.name: path.read_bytes() for path in files},
+        )
 
     reports = ("--output", "full", "--output", "html=report.html", "--output", "json=report.json")
     one = outcome("1")
-    assert one[0] == 2 and "4-broken" in one[2] and any("more-6" in name and name.endswith("-2.png") for name in one[3])
+    assert (
+        one[0] == 2
+        and "4-broken" in one[2]
+        and any("more-6" in name and name.endswith("-2.png") for name in one[3])
+    )
     assert outcome("3") == one
-    statuses = {each["file"]: each["status"] for each in json.loads(one[3]["report.json"])["passes"]}
-    assert [file for file, status in statuses.items() if status == "driver-died"] == ["frames/3-deadly.msaa.yaml"]
+    statuses = {
+        each["file"]: each["status"] for each in json.loads(one[3]["report.json"])["passes"]
+    }
+    assert [file for file, status in statuses.items() if status == "driver-died"] == [
+        "frames/3-deadly.msaa.yaml"
+    ]
     assert len(statuses) == 10 and set(statuses.values()) == {"driver-died", "confirmed"}
 
 
 @pytest.mark.parametrize("backend", CLUSTERS)
-def test_a_cluster_reports_what_one_process_reports(folder: Path, backend: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_cluster_reports_what_one_process_reports(
+    folder: Path, backend: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
     expected = confirmed(folder, "--output", "json")
     pictures = {path.name: path.read_bytes() for path in (folder / "pictures").iterdir()}
     monkeypatch.setenv("PYTHONPATH", str(ROOT))
@@ -94,20 +127,28 @@ def test_a_cluster_reports_what_one_process_reports(folder: Path, backend: str, 
         for name, value in address.items():
             monkeypatch.setenv(name, value)
         found = confirmed(folder, "--output", "json", "--backend", backend)
-    assert (found.returncode, found.stdout, found.stderr) == (expected.returncode, expected.stdout, expected.stderr)
+    assert (found.returncode, found.stdout, found.stderr) == (
+        expected.returncode,
+        expected.stdout,
+        expected.stderr,
+    )
     assert {path.name: path.read_bytes() for path in (folder / "pictures").iterdir()} == pictures
 
 
 def test_no_times_on_a_cluster(folder: Path) -> None:
     done = run_process(folder, "confirm", "frames", "--backend", "dask", "--time")
     assert (done.returncode, done.stdout) == (2, "")
-    assert done.stderr == "msaa-lint: `--time` measures times on this machine: leave out `--backend`\n"
+    assert (
+        done.stderr == "msaa-lint: `--time` measures times on this machine: leave out `--backend`\n"
+    )
 
 
 def test_an_idle_device_closes_and_opens_again(folder: Path) -> None:
     """The worker of a cluster is not told that a run has ended."""
     inputs = of_file(Workspace(Request([])), str(folder / "frames/1.msaa.yaml"))
-    device = divided_trials._Device(SessionOptions("llvmpipe", False, Limits()), TrialOptions(), 0.01)
+    device = divided_trials._Device(
+        SessionOptions("llvmpipe", False, Limits()), TrialOptions(), 0.01
+    )
     first = device.outcome(inputs)
     assert device._timer is not None and first.verdicts
     device._timer.join()
@@ -120,11 +161,23 @@ def test_workers_with_different_devices_are_no_device() -> None:
     merged = divided_trials._Merged(SessionOptions(None, False, Limits()), TrialOptions())
     for name in ("A", "A", "B", "A"):
         merged.add(divided_trials.Outcome(DeviceInfo(name, driver="1.0")))
-    assert merged.run().unusable == "the workers of the cluster have different devices, A (1.0) and B (1.0): name one with `--device`"
+    assert (
+        merged.run().unusable
+        == "the workers of the cluster have different devices, A (1.0) and B (1.0): name one with "
+        "`--device`"
+    )
 
 
 def test_each_device_has_its_verdicts(folder: Path) -> None:
-    devices = ("--device", "llvmpipe", "--device", "nothing of this name", "--output", "json", "--no-time")
+    devices = (
+        "--device",
+        "llvmpipe",
+        "--device",
+        "nothing of this name",
+        "--output",
+        "json",
+        "--no-time",
+    )
     one, two = (confirmed(folder, *devices, "--jobs", jobs) for jobs in ("1", "2"))
     assert (one.returncode, one.stdout, one.stderr) == (two.returncode, two.stdout, two.stderr)
     found = json.loads(two.stdout)["devices"]
@@ -148,15 +201,29 @@ def test_an_input_that_ends_processes_is_the_only_one_lost(folder: Path) -> None
         each for each in expected["passes"] if each["file"] == "frames/2.msaa.yaml"
     ]
     assert [each["message"] for each in found["errors"] if each not in expected["errors"]] == [
-        "not linted: it ended the process that read it (SIGKILL): memory probably ran out; use fewer `--jobs` or more memory"
+        "not linted: it ended the process that read it (SIGKILL): memory probably ran out; use "
+        "fewer `--jobs` or more memory"
     ]
 
 
 def test_times_are_measured_alone(folder: Path) -> None:
-    """Times differ from run to run, so that what else is done at the same time would show in them."""
+    """Times differ from run to run, so that what else is done at the same time would show in
+    them.
+    """
     forked = "divided_trials.divided_trials = None"
     paths = ("frames/0.msaa.yaml", "frames/2.msaa.yaml")
-    done = confirmed(folder, "--time", "--repeats", "2", "--output", "json", "--jobs", "3", before=forked, paths=paths)
+    done = confirmed(
+        folder,
+        "--time",
+        "--repeats",
+        "2",
+        "--output",
+        "json",
+        "--jobs",
+        "3",
+        before=forked,
+        paths=paths,
+    )
     assert all(each["time_ms"] for each in json.loads(done.stdout)["passes"])
     shown = run_process(folder, "confirm", "--help").stdout
     assert "unless times are measured" in " ".join(shown.split())

@@ -37,7 +37,11 @@ DEFAULT = Sizes()
 
 
 def frame(*commands: str) -> Plan:
-    return planned(TEXT + "commands:\n" + "".join(f"  - {command}\n" for command in (BEGIN, *commands, "endRendering")))
+    return planned(
+        TEXT
+        + "commands:\n"
+        + "".join(f"  - {command}\n" for command in (BEGIN, *commands, "endRendering"))
+    )
 
 
 def drawn(plan: Plan) -> list[PassCommand]:
@@ -45,7 +49,10 @@ def drawn(plan: Plan) -> list[PassCommand]:
 
 
 def meshed(*commands: str, sizes: Sizes = DEFAULT) -> list[Mesh | None]:
-    return [inner.mesh[0] if inner.mesh else None for inner in drawn(with_meshes(frame(*commands), sizes))]
+    return [
+        inner.mesh[0] if inner.mesh else None
+        for inner in drawn(with_meshes(frame(*commands), sizes))
+    ]
 
 
 @pytest.fixture(scope="module")
@@ -56,7 +63,10 @@ def session() -> Iterator[Session]:
 
 def test_cells_are_as_many_as_the_triangles_fill() -> None:
     """400 triangles in 64 x 32 pixels: 200 cells, 20 across and 10 down."""
-    assert meshed("draw: {pipeline: mesh, vertexCount: 300}", "draw: {pipeline: mesh, indexCount: 450, instanceCount: 2}") == [
+    assert meshed(
+        "draw: {pipeline: mesh, vertexCount: 300}",
+        "draw: {pipeline: mesh, indexCount: 450, instanceCount: 2}",
+    ) == [
         Mesh(20, 10, 300),
         Mesh(20, 10, 450, 2, first=100),
     ]
@@ -72,7 +82,10 @@ def test_overdraw_and_sides_decide_how_large_they_are() -> None:
 
 
 def test_several_draws_are_one_after_another() -> None:
-    (mesh, later) = meshed("draw: {pipeline: mesh, vertexCount: 6, drawCount: 50}", "draw: {pipeline: mesh, vertexCount: 3}")
+    (mesh, later) = meshed(
+        "draw: {pipeline: mesh, vertexCount: 6, drawCount: 50}",
+        "draw: {pipeline: mesh, vertexCount: 3}",
+    )
     assert (mesh.vertices, mesh.draws, mesh.first) == (6, 50, 0) if mesh else False
     assert later is not None and later.first == 100
 
@@ -99,7 +112,8 @@ def test_a_topology_has_its_triangles(topology: int, vertices: int, count: int) 
 
 def test_what_covers_the_screen_does() -> None:
     assert meshed(
-        "draw: {pipeline: screen, vertexCount: 3, instanceCount: 1}", "draw: {pipeline: screen, vertexCount: 6, instanceCount: 1}"
+        "draw: {pipeline: screen, vertexCount: 3, instanceCount: 1}",
+        "draw: {pipeline: screen, vertexCount: 6, instanceCount: 1}",
     ) == [
         Mesh(0, 0, 3),
         Mesh(1, 1, 6),
@@ -107,7 +121,9 @@ def test_what_covers_the_screen_does() -> None:
 
 
 def test_lines_are_left_out_and_unknown_draws_stay() -> None:
-    made = with_meshes(frame("draw: {pipeline: lines, vertexCount: 30}", "draw: {pipeline: strip}"), Sizes())
+    made = with_meshes(
+        frame("draw: {pipeline: lines, vertexCount: 30}", "draw: {pipeline: strip}"), Sizes()
+    )
     assert [inner.mesh for inner in drawn(made)] == [()]
     assert made.defaults[-2:] == (
         "the draws of points and lines of rendering0 are left out",
@@ -117,7 +133,9 @@ def test_lines_are_left_out_and_unknown_draws_stay() -> None:
 
 def test_a_side_says_how_many_an_unknown_draw_has() -> None:
     """Half of the 2 * 16 * 8 triangles that cover the screen three times, for each of two draws."""
-    made = meshed("draw: {pipeline: strip}", "draw: {pipeline: mesh}", sizes=Sizes(overdraw=3, side=32**0.5))
+    made = meshed(
+        "draw: {pipeline: strip}", "draw: {pipeline: mesh}", sizes=Sizes(overdraw=3, side=32**0.5)
+    )
     assert made == [Mesh(16, 8, 3 * 384), Mesh(16, 8, 3 * 384, first=384)]
 
 
@@ -135,7 +153,11 @@ def test_draws_and_vertices_are_limited(monkeypatch: pytest.MonkeyPatch) -> None
     made = [inner.mesh[0] for inner in drawn(plan)]
     assert sum(each.vertices * each.instances * each.draws for each in made) <= 10_000
     assert all(each.vertices * each.instances <= 3000 and each.draws <= 4 for each in made)
-    assert plan.defaults[-1] == "some vertices of rendering0 are left out: a draw has at most 3,000 vertices, and a frame 10,000"
+    assert (
+        plan.defaults[-1]
+        == "some vertices of rendering0 are left out: a draw has at most 3,000 vertices, and a "
+        "frame 10,000"
+    )
 
 
 DEPTH = """\
@@ -164,7 +186,9 @@ commands:
 
 @pytest.mark.parametrize("draw", ["opaque, vertexCount: 384", "glass, vertexCount: 96"])
 def test_what_is_drawn_passes_the_depth_test(session: Session, tmp_path: Path, draw: str) -> None:
-    """After a depth pass: the same triangles with EQUAL, and others, which are nearer, with LESS."""
+    """After a depth pass: the same triangles with EQUAL, and others, which are nearer, with
+    LESS.
+    """
     plan = with_meshes(planned(DEPTH.replace("DRAW", f"draw: {{pipeline: {draw}}}")), Sizes())
     run = session.run(plan, [0, 1], {"pixels": str(tmp_path)})
     assert not run.failed
@@ -174,7 +198,9 @@ def test_what_is_drawn_passes_the_depth_test(session: Session, tmp_path: Path, d
 
 
 def test_as_many_triangles_are_drawn_as_are_stated(session: Session, tmp_path: Path) -> None:
-    """Every triangle has 32 pixels; neighbors differ in color, so that their edges are where they should be."""
+    """Every triangle has 32 pixels; neighbors differ in color, so that their edges are where they
+    should be.
+    """
     plan = with_meshes(frame("draw: {pipeline: mesh, vertexCount: 192}"), Sizes())
     (mesh,) = (inner.mesh[0] for inner in drawn(plan))
     assert (mesh.columns, mesh.rows) == (8, 4)
@@ -185,4 +211,8 @@ def test_as_many_triangles_are_drawn_as_are_stated(session: Session, tmp_path: P
     assert len(np.unique(cell)) == 2
     upper = np.add.outer(np.arange(8), np.arange(8)) < 7
     assert len(np.unique(cell[upper])) == 1
-    assert math.prod(codes.shape) / len(np.unique(codes.reshape(4, 8, 8, 8).swapaxes(1, 2).reshape(32, 64), axis=0)) == 64
+    assert (
+        math.prod(codes.shape)
+        / len(np.unique(codes.reshape(4, 8, 8, 8).swapaxes(1, 2).reshape(32, 64), axis=0))
+        == 64
+    )

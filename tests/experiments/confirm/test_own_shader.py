@@ -1,4 +1,6 @@
-"""Fragment shaders from outside, drawn on lavapipe under the validation layer: their descriptors, their inputs, what cannot be created."""
+"""Fragment shaders from outside, drawn on lavapipe under the validation layer: their descriptors,
+their inputs, what cannot be created.
+"""
 
 from __future__ import annotations
 
@@ -51,13 +53,19 @@ def plan_of(folder: Path, code: bytes, text: str = FRAME) -> Plan:
     return from_json(made)
 
 
-def drawn(session: Session, folder: Path, text: str, environment: str = "vulkan1.1") -> list[tuple[float, ...]]:
-    """The pixels that a fragment shader draws over the whole picture and in the triangles of the scene."""
+def drawn(
+    session: Session, folder: Path, text: str, environment: str = "vulkan1.1"
+) -> list[tuple[float, ...]]:
+    """The pixels that a fragment shader draws over the whole picture and in the triangles of the
+    scene.
+    """
     made = plan_of(folder, spirv(text, environment=environment))
     assert len(made.passes[0].pipelines[0].stages) == 2, made.defaults
     # From the backdrop on: it covers every pixel.
     (step,) = made.steps
-    made = made._replace(steps=(step._replace(inner=tuple(each._replace(backdrop=True) for each in step.inner)),))
+    made = made._replace(
+        steps=(step._replace(inner=tuple(each._replace(backdrop=True) for each in step.inner)),)
+    )
     assert supported(made, session.device) == made
     return well(session, made).pixels("output")
 
@@ -65,7 +73,9 @@ def drawn(session: Session, folder: Path, text: str, environment: str = "vulkan1
 # Contents
 
 
-def test_buffers_and_push_constants_have_the_stated_contents(plain: Session, tmp_path: Path) -> None:
+def test_buffers_and_push_constants_have_the_stated_contents(
+    plain: Session, tmp_path: Path
+) -> None:
     text = """
 layout(binding = 0) uniform U { vec4 floats; int one; mat3 identity; } u;
 layout(binding = 1) readonly buffer S { uint count; float tail[]; } s;
@@ -80,7 +90,9 @@ void main() {
 
 
 def test_images_have_the_stated_contents(plain: Session, tmp_path: Path) -> None:
-    """The pattern repeats every 32 texels, in every layer and level; other images are of one value."""
+    """The pattern repeats every 32 texels, in every layer and level; other images are of one
+    value.
+    """
     text = """
 layout(binding = 0) uniform sampler2D t;
 layout(binding = 1) uniform sampler2DArray layers;
@@ -104,7 +116,11 @@ void main() {
 }
 """
     pixels = drawn(plain, tmp_path, COLOR + text.replace("textureSamples(samples)", "4"))
-    expected = [(x * 255 // 31, y * 255 // 31, (x ^ y) * 255 // 31, 255) for y in range(SIDE) for x in range(SIDE)]
+    expected = [
+        (x * 255 // 31, y * 255 // 31, (x ^ y) * 255 // 31, 255)
+        for y in range(SIDE)
+        for x in range(SIDE)
+    ]
     assert pixels == expected
 
 
@@ -121,11 +137,16 @@ void main() {
     color = right ? vec4(across, float(parity.w), 1.0) : vec4(0.0);
 }
 """
-    pixels = drawn(plain, tmp_path, COLOR + text.replace("block.a.z == across.y", "block.a.y == across.y"))
+    pixels = drawn(
+        plain, tmp_path, COLOR + text.replace("block.a.z == across.y", "block.a.y == across.y")
+    )
     assert {pixel[3] for pixel in pixels} == {255} and {pixel[2] for pixel in pixels} == {0, 255}
     for number, (red, green, _, _) in enumerate(pixels):
         # The centers of pixels, from 0 to 1 over the picture.
-        assert abs(red - 255 * (number % SIDE + 0.5) / SIDE) <= 1 and abs(green - 255 * (number // SIDE + 0.5) / SIDE) <= 1
+        assert (
+            abs(red - 255 * (number % SIDE + 0.5) / SIDE) <= 1
+            and abs(green - 255 * (number // SIDE + 0.5) / SIDE) <= 1
+        )
 
 
 # Shaders as programs have them
@@ -197,7 +218,9 @@ void main() { if (edge < 0.25) discard; color = vec4(fwidth(edge)); }
 
 @pytest.mark.parametrize("environment", ["vulkan1.0", "vulkan1.1", "vulkan1.2", "vulkan1.3"])
 @pytest.mark.parametrize("program", PROGRAMS)
-def test_programs_are_drawn_without_a_word_of_the_layer(plain: Session, tmp_path: Path, program: str, environment: str) -> None:
+def test_programs_are_drawn_without_a_word_of_the_layer(
+    plain: Session, tmp_path: Path, program: str, environment: str
+) -> None:
     code = spirv(COLOR + PROGRAMS[program], environment=environment)
     (tmp_path / "own.spv").write_bytes(code)
     stages = own_shader(str(tmp_path / "own.spv"))
@@ -226,23 +249,29 @@ renderPasses:
 pipelines:
   own: {{renderPass: p, subpass: 1, stages: [{{stage: FRAGMENT, module: own.spv}}]}}
 """
-LOADS = "layout(input_attachment_index = 0, binding = 0) uniform subpassInput first;\nvoid main() { color = 1.0 - subpassLoad(first); }"
+LOADS = (
+    "layout(input_attachment_index = 0, binding = 0) uniform subpassInput first;\nvoid main() "
+    "{ color = 1.0 - subpassLoad(first); }"
+)
 
 
 def test_input_attachments_are_those_of_the_subpass(plain: Session, tmp_path: Path) -> None:
     made = plan_of(tmp_path, spirv(COLOR + LOADS), INPUTS.replace("SAMPLES", "1"))
     assert supported(made, plain.device) == made
-    # What is cleared to 32, 64, and 128 is read where a triangle of both subpasses is, and elsewhere.
+    # What is cleared to 32, 64, and 128 is read where a triangle of both subpasses is, and
+    # elsewhere.
     assert len(set(well(plain, made).pixels("output"))) > 5
 
 
 @pytest.mark.parametrize(
     ("frame", "shader", "reason"),
     [
-        (INPUTS.replace("SAMPLES", "4"), LOADS, "reads input attachment 0 at set 0, binding 0, whose image has 4 samples"),
+        (INPUTS.replace("SAMPLES", "4"), LOADS, "reads input attachment 0 at set 0, binding 0, "
+            "whose image has 4 samples"),
         (INPUTS.replace("SAMPLES", "1"), LOADS.replace("index = 0", "index = 1"),
          "reads input attachment 1 at set 0, binding 0, which the pass does not have"),
-        (FRAME, LOADS, "reads input attachment 0 at set 0, binding 0, which the pass does not have"),
+        (FRAME, LOADS,
+        "reads input attachment 0 at set 0, binding 0, which the pass does not have"),
     ],
 )  # fmt: skip
 def test_input_attachments_that_do_not_fit_leave_the_built_in_shader(
@@ -260,16 +289,22 @@ def test_input_attachments_that_do_not_fit_leave_the_built_in_shader(
 @pytest.mark.parametrize(
     ("text", "reason"),
     [
-        ("#extension GL_EXT_ray_query : enable\nlayout(binding = 0) uniform accelerationStructureEXT a;\nvoid main() { rayQueryEXT q; "
+        ("#extension GL_EXT_ray_query : enable\nlayout(binding = 0) uniform "
+            "accelerationStructureEXT a;\nvoid main() { rayQueryEXT q; "
          "rayQueryInitializeEXT(q, a, 0u, 255u, vec3(0), 0.0, vec3(1), 1.0); color = vec4(0); }",
          "needs the capability RayQueryKHR, which is not supported"),
-        ("layout(binding = 0) uniform U { double d[4]; };\nvoid main() { color = vec4(d[1]); }", ""),
+        ("layout(binding = 0) uniform U { double d[4]; };\nvoid main() { color = vec4(d[1]); }",
+        ""),
         ("layout(location = 1) flat in dvec2 d;\nvoid main() { color = vec4(d.x); }",
-         "the input at location 1, of type dvec2, cannot be written: only components of 32 bits are supported, not 64"),
-        ("layout(binding = 0) buffer B { uint a[8000000]; };\nvoid main() { color = vec4(a[3]); }", "a block is larger than 16 MiB"),
-        ("layout(binding = 0) uniform sampler2D t[5000];\nvoid main() { color = texture(t[3], vec2(0)); }",
+         "the input at location 1, of type dvec2, cannot be written: only components of 32 bits "
+         "are supported, not 64"),
+        ("layout(binding = 0) buffer B { uint a[8000000]; };\nvoid main() { color = vec4(a[3]); }",
+        "a block is larger than 16 MiB"),
+        ("layout(binding = 0) uniform sampler2D t[5000];\nvoid main() { color = texture(t[3], "
+            "vec2(0)); }",
          "needs 5000 descriptors at set 0, binding 0; at most 4096 are created"),
-        (LOADS, "reads input attachment 0 at set 0, binding 0, and the passes of a study have none"),
+        (LOADS,
+        "reads input attachment 0 at set 0, binding 0, and the passes of a study have none"),
     ],
 )  # fmt: skip
 def test_what_cannot_be_created_is_named(tmp_path: Path, text: str, reason: str) -> None:
@@ -283,7 +318,9 @@ def test_what_cannot_be_created_is_named(tmp_path: Path, text: str, reason: str)
     # In a description the built-in shader takes its place.
     made = plan_of(tmp_path, (tmp_path / "own.spv").read_bytes())
     if text != LOADS:
-        assert made.passes[0].pipelines[0].stages == () and any("a built-in one is used" in note for note in made.defaults)
+        assert made.passes[0].pipelines[0].stages == () and any(
+            "a built-in one is used" in note for note in made.defaults
+        )
 
 
 def test_a_shader_of_a_description_that_reads_what_it_writes_is_replaced(tmp_path: Path) -> None:
@@ -296,8 +333,14 @@ def test_a_shader_of_a_description_that_reads_what_it_writes_is_replaced(tmp_pat
 @pytest.mark.parametrize(
     ("text", "reason"),
     [
-        ("layout(location = 1) out vec4 c;\nvoid main() { c = vec4(0); }", "it has no output at location 0"),
-        ("layout(location = 0) out uvec4 c;\nvoid main() { c = uvec4(0); }", "its output at location 0 is of type uvec4"),
+        (
+            "layout(location = 1) out vec4 c;\nvoid main() { c = vec4(0); }",
+            "it has no output at location 0",
+        ),
+        (
+            "layout(location = 0) out uvec4 c;\nvoid main() { c = uvec4(0); }",
+            "its output at location 0 is of type uvec4",
+        ),
     ],
 )
 def test_a_shader_must_write_a_color(tmp_path: Path, text: str, reason: str) -> None:
@@ -307,34 +350,59 @@ def test_a_shader_must_write_a_color(tmp_path: Path, text: str, reason: str) -> 
 
 
 def test_what_a_device_lacks_is_named(plain: Session, tmp_path: Path) -> None:
-    text = "layout(binding = 0) uniform samplerCubeArray t;\nlayout(push_constant) uniform P { vec4 v[8]; };\n" + COLOR
-    (tmp_path / "own.spv").write_bytes(spirv(text + "void main() { color = texture(t, v[7]); }", environment="vulkan1.3"))
+    text = (
+        "layout(binding = 0) uniform samplerCubeArray t;\nlayout(push_constant) uniform P { vec4 "
+        "v[8]; };\n" + COLOR
+    )
+    (tmp_path / "own.spv").write_bytes(
+        spirv(text + "void main() { color = texture(t, v[7]); }", environment="vulkan1.3")
+    )
     stages = own_shader(str(tmp_path / "own.spv"))
     assert unsupported(stages, plain.device) == ""
     device = plain.device
     without = {**device, "features": {**device["features"], "imageCubeArray": 0}}
-    assert unsupported(stages, without) == "needs the feature imageCubeArray, which the device does not have"
+    assert (
+        unsupported(stages, without)
+        == "needs the feature imageCubeArray, which the device does not have"
+    )
     assert unsupported(stages, without, ["imageCubeArray"]) == ""
     limits = {**device["properties"]["limits"], "maxPushConstantsSize": 64}
     small = {**device, "properties": {**device["properties"], "limits": limits}}
-    assert unsupported(stages, small) == "needs 128 bytes of push constants, and the device has maxPushConstantsSize 64"
+    assert (
+        unsupported(stages, small)
+        == "needs 128 bytes of push constants, and the device has maxPushConstantsSize 64"
+    )
     old = {**device, "properties": {**device["properties"], "apiVersion": 1 << 22 | 1 << 12}}
     assert unsupported(stages, old) == "is SPIR-V 1.6, and the device takes at most 1.3"
 
 
 def test_subgroup_operations_are_those_of_the_device(plain: Session, tmp_path: Path) -> None:
-    text = "#extension GL_KHR_shader_subgroup_quad : enable\n#extension GL_KHR_shader_subgroup_clustered : enable\n" + COLOR
+    text = (
+        "#extension GL_KHR_shader_subgroup_quad : enable\n#extension "
+        "GL_KHR_shader_subgroup_clustered : enable\n" + COLOR
+    )
     for operation, capability, bit in (
         ("subgroupQuadBroadcast(color.x, 1u)", "Quad", 0x80),
         ("subgroupClusteredAdd(1.0, 4u)", "Clustered", 0x40),
     ):
-        (tmp_path / "own.spv").write_bytes(spirv(f"{text}void main() {{ color = vec4({operation}); }}"))
+        (tmp_path / "own.spv").write_bytes(
+            spirv(f"{text}void main() {{ color = vec4({operation}); }}")
+        )
         stages = own_shader(str(tmp_path / "own.spv"))
         properties = {"subgroupSupportedStages": 0x10, "subgroupSupportedOperations": 0xFF}
         able = {**plain.device, "VkPhysicalDeviceVulkan11Properties": properties}
-        unable = {**plain.device, "VkPhysicalDeviceVulkan11Properties": {**properties, "subgroupSupportedOperations": 0xFF - bit}}
+        unable = {
+            **plain.device,
+            "VkPhysicalDeviceVulkan11Properties": {
+                **properties,
+                "subgroupSupportedOperations": 0xFF - bit,
+            },
+        }
         assert unsupported(stages, able) == ""
-        reason = f"needs the subgroup operations of GroupNonUniform{capability}, which the device does not have"
+        reason = (
+            f"needs the subgroup operations of GroupNonUniform{capability}, which the device "
+            f"does not have"
+        )
         assert unsupported(stages, unable) == reason
 
 
@@ -342,23 +410,37 @@ def test_extensions_of_spirv_that_are_not_enabled_are_named(tmp_path: Path) -> N
     words = array.array("I", spirv(COLOR + "void main() { color = vec4(1); }"))
     name = b"SPV_KHR_maximal_reconvergence\0\0\0"
     # After the only capability.
-    words[7:7] = array.array("I", [(len(name) // 4 + 1) << 16 | 10, *struct.unpack(f"<{len(name) // 4}I", name)])
+    words[7:7] = array.array(
+        "I", [(len(name) // 4 + 1) << 16 | 10, *struct.unpack(f"<{len(name) // 4}I", name)]
+    )
     (tmp_path / "own.spv").write_bytes(words.tobytes())
-    with pytest.raises(UnusableOwnShader, match="needs the extension `SPV_KHR_maximal_reconvergence`, which is not supported"):
+    with pytest.raises(
+        UnusableOwnShader,
+        match="needs the extension `SPV_KHR_maximal_reconvergence`, which is not supported",
+    ):
         own_shader(str(tmp_path / "own.spv"))
 
 
 def test_the_gate_refuses_shaders_that_do_not_fit(plain: Session, tmp_path: Path) -> None:
     """As where another sample count makes an input attachment multisampled."""
     made = plan_of(tmp_path, spirv(COLOR + LOADS), INPUTS.replace("SAMPLES", "4"))
-    assert gate(made, plain.device) == {0: "the shader of own reads input attachment 0 at set 0, binding 0, whose image has 4 samples"}
+    assert gate(made, plain.device) == {
+        0: "the shader of own reads input attachment 0 at set 0, binding 0, whose image has 4 "
+        "samples"
+    }
     assert gate(supported(made, plain.device), plain.device) == {}
 
 
-def test_every_feature_that_capabilities_need_is_enabled_or_of_the_first_version(plain: Session) -> None:
+def test_every_feature_that_capabilities_need_is_enabled_or_of_the_first_version(
+    plain: Session,
+) -> None:
     enabled = set().union(*shader_features.ENABLED.values())
     for feature in shader_features.FEATURES.values():
-        assert feature in plain.device["features"] or feature in enabled or feature in shader_features.SUBGROUPS, feature
+        assert (
+            feature in plain.device["features"]
+            or feature in enabled
+            or feature in shader_features.SUBGROUPS
+        ), feature
     for structure, names in shader_features.ENABLED.items():
         assert names <= plain.device[structure].keys(), structure
 
@@ -369,35 +451,59 @@ def test_every_feature_that_capabilities_need_is_enabled_or_of_the_first_version
 def test_glsl_is_compiled(tmp_path: Path) -> None:
     path = tmp_path / "own.frag"
     # Neither the input nor the image states a location or a binding.
-    path.write_text(HEAD + "uniform sampler2D t;\nin vec2 uv;\n" + COLOR + "void main() { color = texture(t, uv); }\n")
+    path.write_text(
+        HEAD
+        + "uniform sampler2D t;\nin vec2 uv;\n"
+        + COLOR
+        + "void main() { color = texture(t, uv); }\n"
+    )
     vertex, fragment = own_shader(str(path))
-    assert (vertex.stage, fragment.stage, [each.type for each in fragment.descriptors]) == (1, 16, [1])
+    assert (vertex.stage, fragment.stage, [each.type for each in fragment.descriptors]) == (
+        1,
+        16,
+        [1],
+    )
 
 
 def test_the_first_error_of_the_compiler_is_told_with_its_line(tmp_path: Path) -> None:
     path = tmp_path / "own.frag"
     path.write_text(HEAD + COLOR + "void main() {\n    color = vec4(missing);\n}\n")
-    with pytest.raises(UnusableOwnShader, match=r"own.frag` cannot be used: line 4: 'missing' : undeclared identifier$"):
+    with pytest.raises(
+        UnusableOwnShader,
+        match=r"own.frag` cannot be used: line 4: 'missing' : undeclared identifier$",
+    ):
         own_shader(str(path))
 
 
-def test_glslc_is_used_where_it_is_the_only_compiler(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_glslc_is_used_where_it_is_the_only_compiler(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     path, bin = tmp_path / "own.frag", tmp_path / "bin"
     path.write_text(HEAD)
     bin.mkdir()
     program = bin / "glslc"
-    program.write_text(f"#!/bin/sh\necho \"$*\" > {tmp_path}/arguments\necho '{path}:7: error: '\"'x'\"' : wrong' >&2\nexit 1\n")
+    program.write_text(
+        f"#!/bin/sh\necho \"$*\" > {tmp_path}/arguments\necho '{path}:7: error: '\"'x'\"' : wrong' "
+        f">&2\nexit 1\n"
+    )
     program.chmod(0o755)
     monkeypatch.setenv("PATH", str(bin))
     with pytest.raises(UnusableOwnShader, match="line 7: 'x' : wrong"):
         own_shader(str(path))
-    assert "-fshader-stage=fragment" in (tmp_path / "arguments").read_text() and str(path) in (tmp_path / "arguments").read_text()
+    assert (
+        "-fshader-stage=fragment" in (tmp_path / "arguments").read_text()
+        and str(path) in (tmp_path / "arguments").read_text()
+    )
 
 
-def test_without_a_compiler_the_message_says_what_to_install(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_without_a_compiler_the_message_says_what_to_install(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     (tmp_path / "own.frag").write_text(HEAD)
     monkeypatch.setenv("PATH", str(tmp_path))
-    with pytest.raises(UnusableOwnShader, match="no compiler is installed: install glslangValidator or glslc"):
+    with pytest.raises(
+        UnusableOwnShader, match="no compiler is installed: install glslangValidator or glslc"
+    ):
         own_shader(str(tmp_path / "own.frag"))
 
 
@@ -405,14 +511,28 @@ def test_without_a_compiler_the_message_says_what_to_install(tmp_path: Path, mon
     ("name", "data", "reason"),
     [
         ("own.spv", b"#version 450", "cannot be used: it is not SPIR-V"),
-        ("own.hlsl", b"float4 main() : SV_Target { return 1; }", "only SPIR-V and GLSL are supported: compile it to SPIR-V"),
-        ("own.spv", struct.pack("<5I", 0x07230203, 0x10000, 0, 1, 0), "cannot be used: it has no fragment shader"),
-        ("own.spv", spirv("void main() { gl_Position = vec4(0); }", stage="vert"), "cannot be used: it has no fragment shader"),
+        (
+            "own.hlsl",
+            b"float4 main() : SV_Target { return 1; }",
+            "only SPIR-V and GLSL are supported: compile it to SPIR-V",
+        ),
+        (
+            "own.spv",
+            struct.pack("<5I", 0x07230203, 0x10000, 0, 1, 0),
+            "cannot be used: it has no fragment shader",
+        ),
+        (
+            "own.spv",
+            spirv("void main() { gl_Position = vec4(0); }", stage="vert"),
+            "cannot be used: it has no fragment shader",
+        ),
         ("none.spv", None, "cannot be read: No such file or directory"),
         ("own.spv", bytes(5 << 20), "cannot be read"),
     ],
 )
-def test_files_that_cannot_be_used(tmp_path: Path, name: str, data: bytes | None, reason: str) -> None:
+def test_files_that_cannot_be_used(
+    tmp_path: Path, name: str, data: bytes | None, reason: str
+) -> None:
     if data is not None:
         (tmp_path / name).write_bytes(data)
     with pytest.raises(UnusableOwnShader, match=reason):
@@ -446,12 +566,23 @@ def scratch(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
 
 
 @examples(0.2)
-@given(types=st.lists(st.sampled_from(TYPES), max_size=5), block=st.lists(st.sampled_from(TYPES), max_size=3))
-def test_the_vertex_shader_is_valid_and_writes_every_input(scratch: Path, types: list[str], block: list[str]) -> None:
-    declared = [(kind, "flat " if "int" in kind or kind.startswith(("i", "u")) else "") for kind in types]
-    lines = [f"layout(location = {8 * n}) {flat}in {kind.partition('[')[0]} i{n}{kind[len(kind.partition('[')[0]):]};"
+@given(
+    types=st.lists(st.sampled_from(TYPES), max_size=5),
+    block=st.lists(st.sampled_from(TYPES), max_size=3),
+)
+def test_the_vertex_shader_is_valid_and_writes_every_input(
+    scratch: Path, types: list[str], block: list[str]
+) -> None:
+    declared = [
+        (kind, "flat " if "int" in kind or kind.startswith(("i", "u")) else "") for kind in types
+    ]
+    lines = [f"layout(location = {8 * n}) {flat}in {kind.partition('[')[0]} "
+        f"i{n}{kind[len(kind.partition('[')[0]):]};"
              for n, (kind, flat) in enumerate(declared)]  # fmt: skip
-    members = " ".join(f"flat {kind.partition('[')[0]} m{n}{kind[len(kind.partition('[')[0]) :]};" for n, kind in enumerate(block))
+    members = " ".join(
+        f"flat {kind.partition('[')[0]} m{n}{kind[len(kind.partition('[')[0]) :]};"
+        for n, kind in enumerate(block)
+    )
     lines += [f"layout(location = 48) in Block {{ {members} }} block;"] if block else []
     module = Module(spirv("\n".join(lines) + "\n" + COLOR + "void main() { color = vec4(0); }"))
     constants = Constants(module, {})
@@ -467,6 +598,15 @@ def test_the_vertex_shader_is_valid_and_writes_every_input(scratch: Path, types:
 
 
 def test_contents_are_small_in_a_plan(tmp_path: Path) -> None:
-    (tmp_path / "own.spv").write_bytes(spirv(COLOR + "layout(binding = 0) uniform U { mat4 m[1000]; };\nvoid main() { color = m[7][1]; }"))
+    (tmp_path / "own.spv").write_bytes(
+        spirv(
+            COLOR
+            + "layout(binding = 0) uniform U { mat4 m[1000]; };\nvoid main() { color = m[7][1]; }"
+        )
+    )
     (descriptor,) = own_shader(str(tmp_path / "own.spv"))[1].descriptors
-    assert (descriptor.size, len(unpacked(descriptor.contents)), len(descriptor.contents) < 1000) == (64000, 64000, True)
+    assert (
+        descriptor.size,
+        len(unpacked(descriptor.contents)),
+        len(descriptor.contents) < 1000,
+    ) == (64000, 64000, True)

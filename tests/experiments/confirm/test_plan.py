@@ -63,7 +63,10 @@ renderPasses:
 """
 
 CLEARED = "{format: R8G8B8A8_UNORM, samples: 4, loadOp: CLEAR, storeOp: STORE}"
-PLAIN = f"renderPasses: {{p: {{attachments: {{c: {CLEARED}}}, subpasses: [{{colorAttachments: [c]}}]}}}}\n"
+PLAIN = (
+    f"renderPasses: {{p: {{attachments: {{c: {CLEARED}}}, subpasses: [{{colorAttachments: "
+    f"[c]}}]}}}}\n"
+)
 
 
 def words(made: Plan, *some: str) -> list[str]:
@@ -74,11 +77,18 @@ def words(made: Plan, *some: str) -> list[str]:
 # Without a device
 
 
-@pytest.mark.parametrize("module", ["plan", "gate", "defined_contents", "resample", "parts", "shaders.spirv"])
+@pytest.mark.parametrize(
+    "module", ["plan", "gate", "defined_contents", "resample", "parts", "shaders.spirv"]
+)
 def test_planning_loads_no_binding(module: str) -> None:
     heavy = "{'vulkan', 'cffi', '_cffi_backend', 'numpy'}"
-    code = f"import sys, msaa_lint.experiments.confirm.{module}; print(sorted({heavy} & set(sys.modules)))"
-    done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True)
+    code = (
+        f"import sys, msaa_lint.experiments.confirm.{module}; print(sorted({heavy} & "
+        f"set(sys.modules)))"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True
+    )
     assert done.stdout == "[]\n"
 
 
@@ -91,28 +101,90 @@ def test_an_inline_resolve_is_planned_whole() -> None:
     assert made.defaults == () == made.extensions == made.without
     assert not made.reversed and not made.hdr
     ms, depth, shown = made.images
-    assert ms == parts.Image("ms", RGBA8, 4, COLOR | TRANSIENT, 128, 64, 1, 1, 1, 1, 0, 0, True, parts.COLOR, "UNORM", 4)
-    assert depth == parts.Image("depth", D24S8, 4, DEPTH, 128, 64, 1, 1, 1, 1, 0, 0, False, parts.DEPTH | parts.STENCIL, "", 4)
-    assert shown == parts.Image("shown", RGBA8, 1, COLOR, 128, 64, 1, 1, 1, 1, 0, 0, False, parts.COLOR, "UNORM", 4)
+    assert ms == parts.Image(
+        "ms", RGBA8, 4, COLOR | TRANSIENT, 128, 64, 1, 1, 1, 1, 0, 0, True, parts.COLOR, "UNORM", 4
+    )
+    assert depth == parts.Image(
+        "depth",
+        D24S8,
+        4,
+        DEPTH,
+        128,
+        64,
+        1,
+        1,
+        1,
+        1,
+        0,
+        0,
+        False,
+        parts.DEPTH | parts.STENCIL,
+        "",
+        4,
+    )
+    assert shown == parts.Image(
+        "shown", RGBA8, 1, COLOR, 128, 64, 1, 1, 1, 1, 0, 0, False, parts.COLOR, "UNORM", 4
+    )
     each = one(made)
-    assert (each.name, each.path, each.kind, each.api, each.refused) == ("main", "renderPasses.main", "renderPass", 2, "")
+    assert (each.name, each.path, each.kind, each.api, each.refused) == (
+        "main",
+        "renderPasses.main",
+        "renderPass",
+        2,
+        "",
+    )
     assert each.attachments == (
-        parts.Attachment(RGBA8, 4, 0, load=1, store=1, stencil_load=2, stencil_store=1, initial=UNDEFINED, final=COLOR_LAYOUT),
-        parts.Attachment(D24S8, 4, 0, load=1, store=1, stencil_load=1, stencil_store=1, initial=UNDEFINED, final=DEPTH_LAYOUT),
-        parts.Attachment(RGBA8, 1, 0, load=2, store=0, stencil_load=2, stencil_store=1, initial=UNDEFINED, final=PRESENT_LAYOUT),
+        parts.Attachment(
+            RGBA8,
+            4,
+            0,
+            load=1,
+            store=1,
+            stencil_load=2,
+            stencil_store=1,
+            initial=UNDEFINED,
+            final=COLOR_LAYOUT,
+        ),
+        parts.Attachment(
+            D24S8,
+            4,
+            0,
+            load=1,
+            store=1,
+            stencil_load=1,
+            stencil_store=1,
+            initial=UNDEFINED,
+            final=DEPTH_LAYOUT,
+        ),
+        parts.Attachment(
+            RGBA8,
+            1,
+            0,
+            load=2,
+            store=0,
+            stencil_load=2,
+            stencil_store=1,
+            initial=UNDEFINED,
+            final=PRESENT_LAYOUT,
+        ),
     )
     (subpass,) = each.subpasses
     assert subpass == parts.Subpass(
-        colors=(Reference(0, COLOR_LAYOUT),), resolves=(Reference(2, COLOR_LAYOUT),), depth_stencil=(Reference(1, DEPTH_LAYOUT),)
+        colors=(Reference(0, COLOR_LAYOUT),),
+        resolves=(Reference(2, COLOR_LAYOUT),),
+        depth_stencil=(Reference(1, DEPTH_LAYOUT),),
     )
     assert each.framebuffers == (Framebuffer((0, 1, 2), 128, 64, 1),)
     assert each.images == (0, 1, 2)
     (pipeline,) = each.pipelines
     assert pipeline == parts.Pipeline(
-        "built-in 0", 0, 4, dynamic=(0, 1), depth_test=True, depth_write=True, depth_compare=1, stencil_test=True,
+        "built-in 0", 0, 4, dynamic=(0, 1), depth_test=True, depth_write=True, depth_compare=1,
+        stencil_test=True,
         blends=(Blend(),), numerics=("UNORM",),
     )  # fmt: skip
-    assert made.steps == (Step("begin", 0, 0, (0, 0, 128, 64), (PassCommand("draw", 0, 0, draws=0),)),)
+    assert made.steps == (
+        Step("begin", 0, 0, (0, 0, 128, 64), (PassCommand("draw", 0, 0, draws=0),)),
+    )
 
 
 @pytest.mark.parametrize(
@@ -151,7 +223,12 @@ renderPasses:
     subpasses: [{depthStencilAttachment: d, depthStencilResolve: {attachment: r, depthResolveMode: MIN}}]
 """
     assert one(planned(resolve)).api == 2
-    assert one(planned(resolve.replace("subpasses: [", "subpasses: [{depthStencilAttachment: d}, "))).api == 2
+    assert (
+        one(
+            planned(resolve.replace("subpasses: [", "subpasses: [{depthStencilAttachment: d}, "))
+        ).api
+        == 2
+    )
     assert one(planned(re.sub(", depthStencilResolve: {.*?}", "", resolve))).api == 1
     single = """\
 enabled: {apiVersion: '1.1'}
@@ -189,7 +266,10 @@ renderPasses:
     )
     (subpass,) = one(made).subpasses
     assert (subpass.depth_mode, subpass.stencil_mode) == (depth, stencil)
-    assert (subpass.depth_stencil, subpass.depth_resolve) == ((Reference(0, DEPTH_LAYOUT),), (Reference(1, DEPTH_LAYOUT),))
+    assert (subpass.depth_stencil, subpass.depth_resolve) == (
+        (Reference(0, DEPTH_LAYOUT),),
+        (Reference(1, DEPTH_LAYOUT),),
+    )
     assert [each.usage for each in made.images] == [DEPTH, DEPTH]
 
 
@@ -269,7 +349,11 @@ renderPasses:
     assert (attachment.stencil_initial, attachment.stencil_final) == (1000241002, 1000241003)
     assert one(made).subpasses[0].depth_stencil == (Reference(0, DEPTH_READ_LAYOUT),)
     (pipeline,) = one(made).pipelines
-    assert (pipeline.depth_test, pipeline.depth_write, pipeline.stencil_test) == (True, False, False)
+    assert (pipeline.depth_test, pipeline.depth_write, pipeline.stencil_test) == (
+        True,
+        False,
+        False,
+    )
 
 
 @pytest.mark.parametrize(
@@ -286,7 +370,10 @@ renderPasses:
 )
 def test_what_is_loaded_keeps_its_layout(format: str, operations: str, initial: int) -> None:
     slot = "depthStencilAttachment: 0" if format.startswith("D") else "colorAttachments: [0]"
-    made = planned(f"renderPasses: {{p: {{attachments: [{{format: {format}, {operations}}}], subpasses: [{{{slot}}}]}}}}\n")
+    made = planned(
+        f"renderPasses: {{p: {{attachments: [{{format: {format}, {operations}}}], subpasses: "
+        f"[{{{slot}}}]}}}}\n"
+    )
     assert one(made).attachments[0].initial == initial
 
 
@@ -330,15 +417,27 @@ renderPasses:
 """
     )
     layouts = [(each.initial, each.final) for each in one(made).attachments]
-    assert layouts == [(READ_LAYOUT, READ_LAYOUT), (DEPTH_READ_LAYOUT, DEPTH_READ_LAYOUT), (COLOR_LAYOUT, COLOR_LAYOUT)]
+    assert layouts == [
+        (READ_LAYOUT, READ_LAYOUT),
+        (DEPTH_READ_LAYOUT, DEPTH_READ_LAYOUT),
+        (COLOR_LAYOUT, COLOR_LAYOUT),
+    ]
 
 
 @pytest.mark.parametrize(
-    ("stated", "final"), [("", COLOR_LAYOUT), ("initialLayout: UNDEFINED", COLOR_LAYOUT), ("initialLayout: GENERAL", GENERAL)]
+    ("stated", "final"),
+    [
+        ("", COLOR_LAYOUT),
+        ("initialLayout: UNDEFINED", COLOR_LAYOUT),
+        ("initialLayout: GENERAL", GENERAL),
+    ],
 )
 def test_what_no_subpass_uses_stays_as_it_is(stated: str, final: int) -> None:
     unused = f"{{format: R8G8B8A8_UNORM, samples: 1, loadOp: CLEAR, storeOp: STORE, {stated}}}"
-    made = planned(f"renderPasses: {{p: {{attachments: [{CLEARED}, {unused}], subpasses: [{{colorAttachments: [0]}}]}}}}\n")
+    made = planned(
+        f"renderPasses: {{p: {{attachments: [{CLEARED}, {unused}], subpasses: [{{colorAttachments: "
+        f"[0]}}]}}}}\n"
+    )
     assert one(made).attachments[1].final == final
 
 
@@ -349,18 +448,33 @@ def test_what_no_subpass_uses_stays_as_it_is(stated: str, final: int) -> None:
         ("initialLayout: DEPTH_STENCIL_ATTACHMENT_OPTIMAL", -1, -1),
         ("initialLayout: DEPTH_ATTACHMENT_OPTIMAL", 1000241002, 1000241002),
         ("finalLayout: DEPTH_READ_ONLY_OPTIMAL", 1000241002, 1000241002),
-        ("finalLayout: DEPTH_READ_ONLY_OPTIMAL, stencilFinalLayout: STENCIL_READ_ONLY_OPTIMAL", 1000241002, 1000241003),
+        (
+            "finalLayout: DEPTH_READ_ONLY_OPTIMAL, stencilFinalLayout: STENCIL_READ_ONLY_OPTIMAL",
+            1000241002,
+            1000241003,
+        ),
         ("finalLayout: DEPTH_READ_ONLY_OPTIMAL, stencilLoadOp: CLEAR", UNDEFINED, 1000241002),
     ],
 )
-def test_stencil_has_layouts_of_its_own_beside_those_of_depth_alone(layouts: str, initial: int, final: int) -> None:
+def test_stencil_has_layouts_of_its_own_beside_those_of_depth_alone(
+    layouts: str, initial: int, final: int
+) -> None:
     load = "" if "stencilLoadOp" in layouts else "stencilLoadOp: LOAD, "
     described = f"{{format: D24_UNORM_S8_UINT, samples: 4, loadOp: LOAD, {load}{layouts}}}"
-    made = planned(f"renderPasses: {{p: {{attachments: [{described}], subpasses: [{{depthStencilAttachment: 0}}]}}}}\n")
+    made = planned(
+        f"renderPasses: {{p: {{attachments: [{described}], subpasses: [{{depthStencilAttachment: "
+        f"0}}]}}}}\n"
+    )
     (attachment,) = one(made).attachments
     assert (attachment.stencil_initial, attachment.stencil_final) == (initial, final)
-    alone = planned(f"renderPasses: {{p: {{attachments: [{described.replace('D24_UNORM_S8_UINT', 'D32_SFLOAT')}], subpasses: [{{}}]}}}}\n")
-    assert (one(alone).attachments[0].stencil_initial, one(alone).attachments[0].stencil_final) == (-1, -1)
+    alone = planned(
+        f"renderPasses: {{p: {{attachments: "
+        f"[{described.replace('D24_UNORM_S8_UINT', 'D32_SFLOAT')}], subpasses: [{{}}]}}}}\n"
+    )
+    assert (one(alone).attachments[0].stencil_initial, one(alone).attachments[0].stencil_final) == (
+        -1,
+        -1,
+    )
 
 
 @pytest.mark.parametrize(
@@ -376,11 +490,15 @@ def test_stencil_has_layouts_of_its_own_beside_those_of_depth_alone(layouts: str
 def test_depth_is_not_written_where_its_layout_is_for_reading(layout: str, writes: bool) -> None:
     depth = "{format: D32_SFLOAT, samples: 4, loadOp: CLEAR, storeOp: STORE}"
     subpass = f"{{depthStencilAttachment: {{attachment: 0, layout: {layout}}}}}"
-    (pipeline,) = one(planned(f"renderPasses: {{p: {{attachments: [{depth}], subpasses: [{subpass}]}}}}\n")).pipelines
+    (pipeline,) = one(
+        planned(f"renderPasses: {{p: {{attachments: [{depth}], subpasses: [{subpass}]}}}}\n")
+    ).pipelines
     assert (pipeline.depth_test, pipeline.depth_write) == (True, writes)
     rendered = "{image: d, loadOp: CLEAR, storeOp: STORE, imageLayout: " + layout + "}"
     images = "images: {d: {format: D32_SFLOAT, samples: 4}}\n"
-    rendering = f"{images}commands: [{{beginRendering: {{depthAttachment: {rendered}}}}}, endRendering]\n"
+    rendering = (
+        f"{images}commands: [{{beginRendering: {{depthAttachment: {rendered}}}}}, endRendering]\n"
+    )
     (pipeline,) = one(planned(rendering)).pipelines
     assert (pipeline.depth_test, pipeline.depth_write) == (True, writes)
 
@@ -398,7 +516,8 @@ def test_depth_is_not_written_where_its_layout_is_for_reading(layout: str, write
             "one of its subpasses is not a graphics subpass",
         ),
         (
-            "attachments: [{}], subpasses: [{colorAttachments: [0]}], dependencies: [{srcSubpass: EXTERNAL, dstSubpass: EXTERNAL}]",
+            "attachments: [{}], subpasses: [{colorAttachments: [0]}], dependencies: [{srcSubpass: "
+            "EXTERNAL, dstSubpass: EXTERNAL}]",
             "one of its dependencies has no subpass on either end",
         ),
         (
@@ -406,11 +525,13 @@ def test_depth_is_not_written_where_its_layout_is_for_reading(layout: str, write
             "one of its dependencies has no subpass on either end",
         ),
         (
-            "attachments: [{samples: 4}, {samples: 1}], subpasses: [{flags: [CUSTOM_RESOLVE_EXT], colorAttachments: [0]}]",
+            "attachments: [{samples: 4}, {samples: 1}], subpasses: [{flags: [CUSTOM_RESOLVE_EXT], "
+            "colorAttachments: [0]}]",
             "it resolves with a shader of its own, which confirm does not support",
         ),
         (
-            "attachments: [{samples: 4}, {samples: 1}], subpasses: [{flags: [SHADER_RESOLVE_QCOM], colorAttachments: [0]}]",
+            "attachments: [{samples: 4}, {samples: 1}], subpasses: [{flags: [SHADER_RESOLVE_QCOM], "
+            "colorAttachments: [0]}]",
             "it resolves with a shader of its own, which confirm does not support",
         ),
         (
@@ -424,9 +545,17 @@ def test_depth_is_not_written_where_its_layout_is_for_reading(layout: str, write
     ],
 )
 def test_a_pass_that_nothing_can_run_says_why(text: str, reason: str) -> None:
-    made = planned(f"renderPasses:\n  p: {{{text}}}\n" + PLAIN.replace("renderPasses: {p:", "  q:").replace("}}\n", "}\n"))
+    made = planned(
+        f"renderPasses:\n  p: {{{text}}}\n"
+        + PLAIN.replace("renderPasses: {p:", "  q:").replace("}}\n", "}\n")
+    )
     refused, other = made.passes
-    assert (refused.name, refused.refused, refused.attachments, refused.pipelines) == ("p", reason, (), ())
+    assert (refused.name, refused.refused, refused.attachments, refused.pipelines) == (
+        "p",
+        reason,
+        (),
+        (),
+    )
     assert (other.name, other.refused) == ("q", "")
     assert [step.number for step in made.steps] == [1]
 
@@ -454,15 +583,55 @@ images:
 """
     )
     assert made.images == (
-        parts.Image("plain", 43, 2, COLOR | SAMPLED | SOURCE, 100, 50, 1, 1, 1, 1, 0, 0, False, parts.COLOR, "SRGB", 4),
-        parts.Image("cube", RGBA8, 1, COLOR, 100, 100, 1, 6, 1, 1, 0, 0x10, False, parts.COLOR, "UNORM", 4),
+        parts.Image(
+            "plain",
+            43,
+            2,
+            COLOR | SAMPLED | SOURCE,
+            100,
+            50,
+            1,
+            1,
+            1,
+            1,
+            0,
+            0,
+            False,
+            parts.COLOR,
+            "SRGB",
+            4,
+        ),
+        parts.Image(
+            "cube", RGBA8, 1, COLOR, 100, 100, 1, 6, 1, 1, 0, 0x10, False, parts.COLOR, "UNORM", 4
+        ),
         parts.Image("line", 100, 1, 8, 100, 1, 1, 1, 1, 0, 0, 0, False, parts.COLOR, "SFLOAT", 4),
         parts.Image("volume", 14, 1, COLOR, 4, 5, 6, 1, 2, 2, 1, 0, False, parts.COLOR, "SINT", 1),
-        parts.Image("array", D32S8, 1, DEPTH, 4, 50, 1, 3, 1, 1, 0, 0, False, parts.DEPTH | parts.STENCIL, "", 5),
-        parts.Image("stencil", 127, 1, DEPTH, 100, 50, 1, 1, 1, 1, 0, 0, False, parts.STENCIL, "", 1),
+        parts.Image(
+            "array",
+            D32S8,
+            1,
+            DEPTH,
+            4,
+            50,
+            1,
+            3,
+            1,
+            1,
+            0,
+            0,
+            False,
+            parts.DEPTH | parts.STENCIL,
+            "",
+            5,
+        ),
+        parts.Image(
+            "stencil", 127, 1, DEPTH, 100, 50, 1, 1, 1, 1, 0, 0, False, parts.STENCIL, "", 1
+        ),
     )
     assert made.defaults == ()
-    assert made.passes == (parts.Pass("frame", "images", parts.FRAME, 0, images=(0, 1, 2, 3, 4, 5)),)
+    assert made.passes == (
+        parts.Pass("frame", "images", parts.FRAME, 0, images=(0, 1, 2, 3, 4, 5)),
+    )
     assert made.steps == ()
 
 
@@ -475,7 +644,12 @@ def test_a_pipeline_alone_is_a_frame_of_its_own() -> None:
     made = planned("pipelines: {p: {multisampleState: {rasterizationSamples: 8}}}\n")
     (pipeline,) = one(made).pipelines
     assert (one(made).kind, one(made).images) == (parts.FRAME, ())
-    assert (pipeline.name, pipeline.subpass, pipeline.samples, pipeline.formats) == ("p", parts.NONE, 8, (RGBA8,))
+    assert (pipeline.name, pipeline.subpass, pipeline.samples, pipeline.formats) == (
+        "p",
+        parts.NONE,
+        8,
+        (RGBA8,),
+    )
     assert made.defaults == ("the attachments of p are not stated: R8G8B8A8_UNORM is assumed",)
 
 
@@ -496,7 +670,10 @@ def test_a_pipeline_alone_is_a_frame_of_its_own() -> None:
     ],
 )
 def test_a_usage_that_is_not_stated_is_what_the_commands_do(text: str, usage: int) -> None:
-    images = "images: {a: {format: R8G8B8A8_UNORM, samples: 1}, b: {format: R8G8B8A8_UNORM, samples: 1}}\n"
+    images = (
+        "images: {a: {format: R8G8B8A8_UNORM, samples: 1}, b: {format: R8G8B8A8_UNORM, "
+        "samples: 1}}\n"
+    )
     assert image(planned(f"{images}commands:\n  {text}\n"), "a").usage == usage
     stated = images.replace("samples: 1}", "samples: 1, usage: SAMPLED}", 1)
     assert image(planned(f"{stated}commands:\n  {text}\n"), "a").usage == SAMPLED
@@ -514,8 +691,10 @@ renderPasses:
     subpasses: [{colorAttachments: [c], resolveAttachments: [o], depthStencilAttachment: d, depthStencilResolve: {attachment: s}}]
 """
     )
-    assert [(each.name, each.format, each.samples, each.width, each.height) for each in made.images] == [
-        ("main.c", RGBA8, 4, 256, 256), ("main.o", RGBA8, 1, 256, 256), ("main.d", D32, 4, 256, 256), ("main.s", D32, 1, 256, 256),
+    assert [(each.name, each.format, each.samples, each.width,
+    each.height) for each in made.images] == [
+        ("main.c", RGBA8, 4, 256, 256), ("main.o", RGBA8, 1, 256, 256), ("main.d", D32, 4, 256,
+        256), ("main.s", D32, 1, 256, 256),
     ]  # fmt: skip
     operations = [(each.load, each.store, each.initial) for each in one(made).attachments]
     assert operations == [(2, 0, UNDEFINED)] * 4
@@ -558,7 +737,8 @@ commands:
 """
     )
     assert [(each.name, each.format, each.samples) for each in made.images] == [
-        ("ms", RGBA16F, 8), ("one", RGBA16F, 1), ("beside", D32, 8), ("source", RGBA8, 4), ("target", RGBA8, 1),
+        ("ms", RGBA16F, 8), ("one", RGBA16F, 1), ("beside", D32, 8), ("source", RGBA8, 4),
+        ("target", RGBA8, 1),
     ]  # fmt: skip
     assert list(made.defaults) == [
         "no format is stated for ms: R16G16B16A16_SFLOAT is assumed",
@@ -573,21 +753,35 @@ commands:
     ("image_of", "operations", "taken"),
     [
         ("format: R8G8B8A8_UNORM", "", {"loadOp": "DONT_CARE", "storeOp": "STORE"}),
-        ("format: R8G8B8A8_UNORM, usage: COLOR_ATTACHMENT | TRANSIENT_ATTACHMENT", "", {"loadOp": "DONT_CARE", "storeOp": "DONT_CARE"}),
+        (
+            "format: R8G8B8A8_UNORM, usage: COLOR_ATTACHMENT | TRANSIENT_ATTACHMENT",
+            "",
+            {"loadOp": "DONT_CARE", "storeOp": "DONT_CARE"},
+        ),
         ("format: R8G8B8A8_UNORM", "loadOp: CLEAR", {"storeOp": "STORE"}),
         ("format: R8G8B8A8_UNORM", "loadOp: NONE, storeOp: NONE", {}),
         ("format: S8_UINT", "", {"stencilLoadOp": "DONT_CARE", "stencilStoreOp": "STORE"}),
         ("format: D32_SFLOAT", "storeOp: DONT_CARE", {"loadOp": "DONT_CARE"}),
-        ("format: D24_UNORM_S8_UINT", "loadOp: CLEAR, stencilStoreOp: NONE", {"storeOp": "STORE", "stencilLoadOp": "DONT_CARE"}),
+        (
+            "format: D24_UNORM_S8_UINT",
+            "loadOp: CLEAR, stencilStoreOp: NONE",
+            {"storeOp": "STORE", "stencilLoadOp": "DONT_CARE"},
+        ),
     ],
 )
-def test_operations_that_are_not_stated_are_said(image_of: str, operations: str, taken: dict[str, str]) -> None:
+def test_operations_that_are_not_stated_are_said(
+    image_of: str, operations: str, taken: dict[str, str]
+) -> None:
     slot = "colorAttachments: [a]" if "R8" in image_of else "depthStencilAttachment: a"
     made = planned(
         f"frame: {{width: 8, height: 8}}\nimages: {{i: {{{image_of}, samples: 4}}}}\n"
-        f"renderPasses: {{p: {{attachments: {{a: {{image: i, {operations}}}}}, subpasses: [{{{slot}}}]}}}}\n"
+        f"renderPasses: {{p: {{attachments: {{a: {{image: i, {operations}}}}}, subpasses: "
+        f"[{{{slot}}}]}}}}\n"
     )
-    said = {word.split(" of ")[0]: word.removesuffix(" is assumed").rpartition(": ")[2] for word in made.defaults}
+    said = {
+        word.split(" of ")[0]: word.removesuffix(" is assumed").rpartition(": ")[2]
+        for word in made.defaults
+    }
     assert said == taken
     (attachment,) = one(made).attachments
     got = {
@@ -596,7 +790,10 @@ def test_operations_that_are_not_stated_are_said(image_of: str, operations: str,
         "stencilLoadOp": attachment.stencil_load,
         "stencilStoreOp": attachment.stencil_store,
     }
-    loads, stores = {"CLEAR": 1, "DONT_CARE": 2, "NONE": 1000400000}, {"STORE": 0, "DONT_CARE": 1, "NONE": 1000301000}
+    loads, stores = (
+        {"CLEAR": 1, "DONT_CARE": 2, "NONE": 1000400000},
+        {"STORE": 0, "DONT_CARE": 1, "NONE": 1000301000},
+    )
     stated = dict(each.split(": ") for each in operations.split(", ") if each)
     for member, name in {**taken, **stated}.items():
         assert got[member] == (loads if member.endswith("oadOp") else stores)[name], member
@@ -604,14 +801,18 @@ def test_operations_that_are_not_stated_are_said(image_of: str, operations: str,
 
 def test_the_size_is_the_frames_then_the_largest_stated() -> None:
     attachments = (
-        "attachments: {c: {format: R8G8B8A8_UNORM, samples: 1, loadOp: CLEAR, storeOp: STORE}}, subpasses: [{colorAttachments: [c]}]"
+        "attachments: {c: {format: R8G8B8A8_UNORM, samples: 1, loadOp: CLEAR, storeOp: "
+        "STORE}}, subpasses: [{colorAttachments: [c]}]"
     )
     passes = f"renderPasses: {{p: {{{attachments}}}}}\n"
     sizes = {
         "frame: {width: 640, height: 480}\n": (640, 480),
         "frame: {fps: 60}\n": (256, 256),
         "framebuffers: {f: {renderPass: p, width: 64, height: 48}}\n": (64, 48),
-        "images: {i: {format: R8G8B8A8_UNORM, samples: 1, extent: {width: 30, height: 20}}}\n": (30, 20),
+        "images: {i: {format: R8G8B8A8_UNORM, samples: 1, extent: {width: 30, height: 20}}}\n": (
+            30,
+            20,
+        ),
     }
     for text, size in sizes.items():
         made = planned(text + passes)
@@ -631,8 +832,15 @@ commands:
     )
     assert (made.images[0].width, made.images[0].height) == (64, 48)
     assert made.defaults == ()
-    other = "images: {b: {format: R8G8B8A8_UNORM, samples: 1}, a: {format: R8G8B8A8_UNORM, samples: 1}}\n"
-    both = planned(other + "commands: [{beginRendering: {renderArea: {width: 64, height: 48}, colorAttachments: [{image: a}]}}]\n")
+    other = (
+        "images: {b: {format: R8G8B8A8_UNORM, samples: 1}, a: {format: R8G8B8A8_UNORM, "
+        "samples: 1}}\n"
+    )
+    both = planned(
+        other
+        + "commands: [{beginRendering: {renderArea: {width: 64, height: 48}, colorAttachments: "
+        "[{image: a}]}}]\n"
+    )
     assert [(each.width, each.height) for each in both.images] == [(256, 256), (64, 48)]
     assert "no size is stated: 256x256 is assumed" in both.defaults
 
@@ -686,8 +894,16 @@ commands:
 """
     )
     each = one(made)
-    assert each.framebuffers == (Framebuffer((0, 1), 16, 48, 1), Framebuffer((1, 0), 32, 64, 1), Framebuffer((1, 0), 32, 64, 1))
-    assert [(step.framebuffer, step.area) for step in begins(made)] == [(0, (8, 8, 8, 4)), (1, (0, 63, 4, 1)), (2, (0, 0, 32, 64))]
+    assert each.framebuffers == (
+        Framebuffer((0, 1), 16, 48, 1),
+        Framebuffer((1, 0), 32, 64, 1),
+        Framebuffer((1, 0), 32, 64, 1),
+    )
+    assert [(step.framebuffer, step.area) for step in begins(made)] == [
+        (0, (8, 8, 8, 4)),
+        (1, (0, 63, 4, 1)),
+        (2, (0, 0, 32, 64)),
+    ]
     assert made.defaults == (
         "p alternates between framebuffers: the first one is used",
         "the render area of p exceeds its images and is clipped to them",
@@ -696,7 +912,8 @@ commands:
 
 def test_the_only_framebuffer_of_a_pass_is_its_own() -> None:
     made = planned(
-        f"renderPasses: {{p: {{attachments: {{c: {CLEARED}}}, subpasses: [{{colorAttachments: [c]}}]}}}}\n"
+        f"renderPasses: {{p: {{attachments: {{c: {CLEARED}}}, subpasses: [{{colorAttachments: "
+        f"[c]}}]}}}}\n"
         "framebuffers: {f: {renderPass: p, width: 16, height: 200, layers: 3}}\n"
     )
     assert one(made).framebuffers == (Framebuffer((0,), 16, 200, 3),)
@@ -733,7 +950,12 @@ commands:
 def test_a_dynamic_rendering_is_planned_whole() -> None:
     made = planned(RENDERING)
     each = one(made)
-    assert (each.name, each.path, each.kind, each.api) == ("rendering0", "commands[0].beginRendering", "rendering", 0)
+    assert (each.name, each.path, each.kind, each.api) == (
+        "rendering0",
+        "commands[0].beginRendering",
+        "rendering",
+        0,
+    )
     assert (each.attachments, each.subpasses, each.flags) == ((), (), 2)
     assert each.rendered == (
         RenderTarget("color", 0, COLOR_LAYOUT, 2, 2, COLOR_LAYOUT, 2, 0),
@@ -743,10 +965,18 @@ def test_a_dynamic_rendering_is_planned_whole() -> None:
     )
     assert each.framebuffers == (Framebuffer((0, 2, 1, 3, 4, 5), 64, 32, 1),)
     (pipeline,) = each.pipelines
-    assert (pipeline.formats, pipeline.depth_format, pipeline.stencil_format) == ((RGBA16F, 0, R32_UINT), D32S8, 0)
+    assert (pipeline.formats, pipeline.depth_format, pipeline.stencil_format) == (
+        (RGBA16F, 0, R32_UINT),
+        D32S8,
+        0,
+    )
     assert (pipeline.numerics, pipeline.samples) == (("SFLOAT", "", "UINT"), 4)
     assert (pipeline.depth_test, pipeline.depth_write, pipeline.stencil_test) == (True, True, False)
-    assert made.steps == (Step("begin", 0, 0, (8, 4, 16, 16), (PassCommand("draw", 0, 0, backdrop=True, covers=True),)),)
+    assert made.steps == (
+        Step(
+            "begin", 0, 0, (8, 4, 16, 16), (PassCommand("draw", 0, 0, backdrop=True, covers=True),)
+        ),
+    )
     begin = "commands[0].beginRendering"
     assert list(made.defaults) == [
         f"loadOp of {begin}.colorAttachments[0] is not stated: DONT_CARE is assumed",
@@ -776,12 +1006,24 @@ commands:
 """
     )
     first, second = made.passes
-    assert (first.name, second.name, second.path) == ("rendering0", "rendering1", "commands[2].beginRendering")
-    assert (second.layers, second.view_mask, second.framebuffers) == (2, 3, (Framebuffer((1, 1), 256, 256, 2),))
+    assert (first.name, second.name, second.path) == (
+        "rendering0",
+        "rendering1",
+        "commands[2].beginRendering",
+    )
+    assert (second.layers, second.view_mask, second.framebuffers) == (
+        2,
+        3,
+        (Framebuffer((1, 1), 256, 256, 2),),
+    )
     assert [each.role for each in second.rendered] == ["depth", "stencil"]
     (pipeline,) = second.pipelines
     assert (pipeline.depth_format, pipeline.stencil_format, pipeline.view_mask) == (D24S8, D24S8, 3)
-    assert (pipeline.depth_test, pipeline.depth_write, pipeline.stencil_test) == (True, False, False)
+    assert (pipeline.depth_test, pipeline.depth_write, pipeline.stencil_test) == (
+        True,
+        False,
+        False,
+    )
     assert [step.number for step in made.steps] == [0, 1]
 
 
@@ -797,7 +1039,11 @@ commands:
     made = planned(text)
     (pipeline,) = one(made).pipelines
     assert (pipeline.depth_format, pipeline.stencil_format) == (0, D24S8)
-    assert (pipeline.depth_test, pipeline.depth_write, pipeline.stencil_test) == (False, False, True)
+    assert (pipeline.depth_test, pipeline.depth_write, pipeline.stencil_test) == (
+        False,
+        False,
+        True,
+    )
     # What is unused is not in need of a backdrop.
     assert made.steps[0].inner == (PassCommand("draw", 0, 0, draws=0),)
 
@@ -812,7 +1058,14 @@ commands:
   - endRendering
 """
     assert one(planned(text)).refused == "its depth and stencil attachments are different images"
-    assert one(planned(text.replace("{image: s,", "{image: d,").replace("D32_SFLOAT", "D24_UNORM_S8_UINT"))).refused == ""
+    assert (
+        one(
+            planned(
+                text.replace("{image: s,", "{image: d,").replace("D32_SFLOAT", "D24_UNORM_S8_UINT")
+            )
+        ).refused
+        == ""
+    )
 
 
 # Several samples rendered to one
@@ -858,16 +1111,20 @@ commands:
     [
         ("", (), ()),
         ("enabled: {extensions: [VK_KHR_swapchain, VK_EXT_sample_locations]}", (), ()),
-        ("enabled: {extensions: [VK_NV_framebuffer_mixed_samples, VK_AMD_mixed_attachment_samples]}",
+        ("enabled: {extensions: [VK_NV_framebuffer_mixed_samples, "
+            "VK_AMD_mixed_attachment_samples]}",
          ("VK_AMD_mixed_attachment_samples", "VK_NV_framebuffer_mixed_samples"), ()),
-        ("enabled: {extensions: [VK_EXT_multisampled_render_to_single_sampled]}", ("VK_EXT_multisampled_render_to_single_sampled",), ()),
+        ("enabled: {extensions: [VK_EXT_multisampled_render_to_single_sampled]}",
+        ("VK_EXT_multisampled_render_to_single_sampled",), ()),
         ("enabled: {features: [multisampledRenderToSingleSampled, sampleRateShading]}",
          ("VK_EXT_multisampled_render_to_single_sampled",), ("alphaToOne",)),
         ("enabled: {features: []}", (), ("sampleRateShading", "alphaToOne")),
         ("enabled: {features: [alphaToOne, sampleRateShading]}", (), ()),
     ],
 )  # fmt: skip
-def test_a_device_is_opened_with_what_the_application_enables(enabled: str, extensions: tuple[str, ...], without: tuple[str, ...]) -> None:
+def test_a_device_is_opened_with_what_the_application_enables(
+    enabled: str, extensions: tuple[str, ...], without: tuple[str, ...]
+) -> None:
     made = planned(f"{enabled}\n{PLAIN}")
     assert (made.extensions, made.without) == (extensions, without)
 
@@ -911,24 +1168,43 @@ pipelines:
 def test_pipelines_are_as_described(tmp_path: Path) -> None:
     (tmp_path / "shaders").mkdir()
     # An entry point `shade` with three specialization constants.
-    kinds = ((21, 5, 32, 1), (20, 6), (22, 7, 32), (50, 5, 20, 0), (48, 6, 21), (50, 7, 22, 0), (19, 2), (33, 3, 2))
+    kinds = (
+        (21, 5, 32, 1),
+        (20, 6),
+        (22, 7, 32),
+        (50, 5, 20, 0),
+        (48, 6, 21),
+        (50, 7, 22, 0),
+        (19, 2),
+        (33, 3, 2),
+    )
     entry = (15, 4, 1, *struct.unpack("<2I", b"shade\0\0\0"))
-    shader = assembled(entry, *((71, 20 + n, 1, spec) for n, spec in enumerate((3, 7, 9))), *kinds, (54, 2, 1, 0, 3), (56,))
+    shader = assembled(
+        entry,
+        *((71, 20 + n, 1, spec) for n, spec in enumerate((3, 7, 9))),
+        *kinds,
+        (54, 2, 1, 0, 3),
+        (56,),
+    )
     (tmp_path / "shaders" / "f.spv").write_bytes(shader)
     made = planned(PIPELINES, file=str(tmp_path / "frame.msaa.yaml"))
     one_of, two = one(made).pipelines
     assert one_of == parts.Pipeline(
         "one", 0, 2, sample_shading=0.25, mask=(5,), alpha_to_coverage=True, alpha_to_one=True,
-        dynamic=(0, 1, 1000455005, 1000455006, 1000455007), depth_test=True, depth_write=False, depth_compare=6, stencil_test=False,
-        blends=(Blend(True, 5, 1, 0, 4, 0, 1, 3),), numerics=("UNORM",), depth_clamp=True, depth_bias=True, polygon_mode=1,
+        dynamic=(0, 1, 1000455005, 1000455006, 1000455007), depth_test=True, depth_write=False,
+        depth_compare=6, stencil_test=False,
+        blends=(Blend(True, 5, 1, 0, 4, 0, 1, 3),), numerics=("UNORM",), depth_clamp=True,
+        depth_bias=True, polygon_mode=1,
         stages=(
-            parts.Stage(16, str(tmp_path / "shaders" / "f.spv"), "shade", ((3, 4.0), (7, 1.0), (9, 0.5)), version=(1, 3)),
+            parts.Stage(16, str(tmp_path / "shaders" / "f.spv"), "shade", ((3, 4.0), (7, 1.0), (9,
+            0.5)), version=(1, 3)),
             one_of.stages[1],
         ),
     )  # fmt: skip
     assert (one_of.stages[1].stage, one_of.stages[1].path) == (1, "")
     assert two == parts.Pipeline(
-        "two", 0, 4, dynamic=(0, 1), depth_test=True, depth_write=True, depth_compare=4, stencil_test=True, blends=(Blend(),),
+        "two", 0, 4, dynamic=(0, 1), depth_test=True, depth_write=True, depth_compare=4,
+        stencil_test=True, blends=(Blend(),),
         numerics=("UNORM",), discard=True,
     )  # fmt: skip
     assert made.reversed and made.hdr
@@ -946,39 +1222,68 @@ def test_a_shader_is_looked_for_beside_the_description(tmp_path: Path) -> None:
 
 
 def test_a_blend_that_is_left_open_is_the_usual_one() -> None:
-    pipelines = "pipelines: {x: {renderPass: p, colorBlendState: {attachments: [{blendEnable: true}]}}}\n"
+    pipelines = (
+        "pipelines: {x: {renderPass: p, colorBlendState: {attachments: [{blendEnable: true}]}}}\n"
+    )
     (pipeline,) = one(planned(PLAIN + pipelines)).pipelines
     assert pipeline.blends == (Blend(True, 15, 6, 7, 0, 1, 7, 0),)
 
 
-@pytest.mark.parametrize("state, least", [("sampleShadingEnable: true", 1.0), ("sampleShadingEnable: true, minSampleShading: 0", 0.0),
-                                          ("sampleShadingEnable: false, minSampleShading: 0.5", -1.0), ("", -1.0)])  # fmt: skip
+@pytest.mark.parametrize("state, least", [("sampleShadingEnable: true", 1.0),
+("sampleShadingEnable: true, minSampleShading: 0", 0.0),
+                                          ("sampleShadingEnable: false, minSampleShading: 0.5",
+                                          -1.0), ("", -1.0)])  # fmt: skip
 def test_sample_shading_has_its_share(state: str, least: float) -> None:
-    (pipeline,) = one(planned(f"{PLAIN}pipelines: {{x: {{renderPass: p, multisampleState: {{{state}}}}}}}\n")).pipelines
+    (pipeline,) = one(
+        planned(f"{PLAIN}pipelines: {{x: {{renderPass: p, multisampleState: {{{state}}}}}}}\n")
+    ).pipelines
     assert (pipeline.sample_shading, pipeline.samples) == (least, 4)
 
 
 def test_a_pipeline_of_no_pass_has_the_formats_that_it_states() -> None:
     made = planned(
-        "pipelines: {x: {rendering: {colorAttachmentFormats: [R16G16B16A16_SFLOAT, R8G8B8A8_UNORM], depthAttachmentFormat: D32_SFLOAT,"
-        " stencilAttachmentFormat: S8_UINT, viewMask: 3}, multisampleState: {rasterizationSamples: 4}}}\n"
+        "pipelines: {x: {rendering: {colorAttachmentFormats: [R16G16B16A16_SFLOAT, "
+        "R8G8B8A8_UNORM], depthAttachmentFormat: D32_SFLOAT,"
+        " stencilAttachmentFormat: S8_UINT, viewMask: 3}, multisampleState: {rasterizationSamples: "
+        "4}}}\n"
     )
     (pipeline,) = one(made).pipelines
-    assert (pipeline.formats, pipeline.depth_format, pipeline.stencil_format) == ((RGBA16F, RGBA8), D32, 127)
-    assert (pipeline.subpass, pipeline.samples, pipeline.view_mask, len(pipeline.blends)) == (parts.NONE, 4, 3, 2)
+    assert (pipeline.formats, pipeline.depth_format, pipeline.stencil_format) == (
+        (RGBA16F, RGBA8),
+        D32,
+        127,
+    )
+    assert (pipeline.subpass, pipeline.samples, pipeline.view_mask, len(pipeline.blends)) == (
+        parts.NONE,
+        4,
+        3,
+        2,
+    )
     assert made.defaults == ()
 
 
 def test_the_outputs_of_a_pipeline_of_no_pass_are_of_its_formats() -> None:
-    made = planned("pipelines: {x: {rendering: {colorAttachmentFormats: [R32_UINT, null, R8_SINT, R8G8B8A8_UNORM]}}}\n")
+    made = planned(
+        "pipelines: {x: {rendering: {colorAttachmentFormats: [R32_UINT, null, R8_SINT, "
+        "R8G8B8A8_UNORM]}}}\n"
+    )
     (pipeline,) = one(made).pipelines
     assert pipeline.formats == (R32_UINT, 0, 14, RGBA8)
-    assert [numeric if numeric in ("UINT", "SINT", "") else "float" for numeric in pipeline.numerics] == ["UINT", "", "SINT", "float"]
+    assert [
+        numeric if numeric in ("UINT", "SINT", "") else "float" for numeric in pipeline.numerics
+    ] == ["UINT", "", "SINT", "float"]
 
 
 def test_a_pipeline_of_depth_alone_has_no_colours() -> None:
-    (pipeline,) = one(planned("pipelines: {x: {rendering: {depthAttachmentFormat: D32_SFLOAT}}}\n")).pipelines
-    assert (pipeline.formats, pipeline.blends, pipeline.numerics, pipeline.depth_format) == ((), (), (), D32)
+    (pipeline,) = one(
+        planned("pipelines: {x: {rendering: {depthAttachmentFormat: D32_SFLOAT}}}\n")
+    ).pipelines
+    assert (pipeline.formats, pipeline.blends, pipeline.numerics, pipeline.depth_format) == (
+        (),
+        (),
+        (),
+        D32,
+    )
 
 
 def test_a_rendering_draws_with_the_pipelines_that_it_names() -> None:
@@ -1073,7 +1378,12 @@ def test_commands_are_recorded_in_their_order() -> None:
     assert made.steps == (
         Step("clear", 0, source=b, target=b),
         Step("begin", 0, 0, (0, 0, 32, 16), within),
-        Step("barrier", 0, masks=(0x400, 1 << 32, 0x100, 0x800), layouts=((a, COLOR_LAYOUT, SOURCE_LAYOUT), (b, -1, -1))),
+        Step(
+            "barrier",
+            0,
+            masks=(0x400, 1 << 32, 0x100, 0x800),
+            layouts=((a, COLOR_LAYOUT, SOURCE_LAYOUT), (b, -1, -1)),
+        ),
         Step("barrier", 0, masks=(0, 0, 0, 0)),
         Step("resolve", 0, source=a, target=b),
         Step("copy", 0, source=b, target=c),
@@ -1125,13 +1435,18 @@ def test_a_pass_that_never_begins_is_created_and_not_drawn() -> None:
 
 
 def test_a_pass_that_never_ends_is_drawn_to_the_end() -> None:
-    made = planned(PLAIN + "commands: [{beginRenderPass: {renderPass: p}}, {draw: {}}, {draw: {}}]\n")
+    made = planned(
+        PLAIN + "commands: [{beginRenderPass: {renderPass: p}}, {draw: {}}, {draw: {}}]\n"
+    )
     (step,) = made.steps
     assert step.inner == (PassCommand("draw", 0, 0), PassCommand("draw", 0, 0))
 
 
 def test_subpasses_beyond_the_last_are_the_last() -> None:
-    commands = "commands: [{beginRenderPass: {renderPass: p}}, nextSubpass, nextSubpass, {draw: {}}, endRenderPass, nextSubpass]\n"
+    commands = (
+        "commands: [{beginRenderPass: {renderPass: p}}, nextSubpass, nextSubpass, {draw: "
+        "{}}, endRenderPass, nextSubpass]\n"
+    )
     (step,) = planned(PLAIN + commands).steps
     assert step.inner == (PassCommand("draw", 0, 0),)
 
@@ -1145,16 +1460,27 @@ def test_every_pipeline_of_a_subpass_draws_where_no_draw_is_described() -> None:
 
 
 def test_a_pipeline_that_discards_everything_has_one_beside_it_that_draws() -> None:
-    made = planned(f"{PLAIN}pipelines: {{x: {{renderPass: p, rasterizationState: {{rasterizerDiscardEnable: true}}}}}}\n")
-    assert [(pipeline.name, pipeline.discard) for pipeline in one(made).pipelines] == [("x", True), ("built-in 0", False)]
-    assert made.steps[0].inner == (PassCommand("draw", 0, 0, draws=0), PassCommand("draw", 0, 1, draws=0))
+    made = planned(
+        f"{PLAIN}pipelines: {{x: {{renderPass: p, rasterizationState: {{rasterizerDiscardEnable: "
+        f"true}}}}}}\n"
+    )
+    assert [(pipeline.name, pipeline.discard) for pipeline in one(made).pipelines] == [
+        ("x", True),
+        ("built-in 0", False),
+    ]
+    assert made.steps[0].inner == (
+        PassCommand("draw", 0, 0, draws=0),
+        PassCommand("draw", 0, 1, draws=0),
+    )
 
 
 def test_commands_beyond_a_limit_are_left_out() -> None:
     images = "images: {a: {format: R8G8B8A8_UNORM, samples: 1, extent: {width: 8, height: 8}}}\n"
     few = planned(f"{images}commands: [{', '.join(['{present: {image: a}}'] * MAX_STEPS)}]\n")
     assert (len(few.steps), few.defaults) == (MAX_STEPS, ())
-    many = planned(f"{images}commands: [{', '.join(['{present: {image: a}}'] * (MAX_STEPS + 100))}]\n")
+    many = planned(
+        f"{images}commands: [{', '.join(['{present: {image: a}}'] * (MAX_STEPS + 100))}]\n"
+    )
     assert len(many.steps) <= MAX_STEPS + 1
     assert many.defaults == ("commands after the first 4096 are ignored",)
 
@@ -1174,7 +1500,9 @@ def test_commands_beyond_a_limit_are_left_out() -> None:
         ("DONT_CARE", "colorBlendState: {attachments: [{colorWriteMask: R | G | B}]}", True, False),
     ],
 )
-def test_what_is_neither_kept_nor_cleared_gets_a_backdrop(load: str, pipeline: str, backdrop: bool, covers: bool) -> None:
+def test_what_is_neither_kept_nor_cleared_gets_a_backdrop(
+    load: str, pipeline: str, backdrop: bool, covers: bool
+) -> None:
     pipelines = f"pipelines: {{x: {{renderPass: p, {pipeline}}}}}\n" if pipeline else ""
     (step,) = planned(PLAIN.replace("CLEAR", load) + pipelines).steps
     (draw,) = step.inner
@@ -1191,13 +1519,25 @@ def test_what_is_neither_kept_nor_cleared_gets_a_backdrop(load: str, pipeline: s
         ("LOAD", "depthTestEnable: false", "", True),
         ("LOAD", "depthTestEnable: true, depthCompareOp: ALWAYS", "", True),
         ("CLEAR", "depthTestEnable: true, depthCompareOp: LESS_OR_EQUAL", "", True),
-        ("CLEAR", "depthTestEnable: true, depthCompareOp: LESS_OR_EQUAL", "scene: {depth: REVERSED}", False),
+        (
+            "CLEAR",
+            "depthTestEnable: true, depthCompareOp: LESS_OR_EQUAL",
+            "scene: {depth: REVERSED}",
+            False,
+        ),
         ("CLEAR", "depthTestEnable: true, depthCompareOp: GREATER", "", False),
-        ("CLEAR", "depthTestEnable: true, depthCompareOp: GREATER", "scene: {depth: REVERSED}", True),
+        (
+            "CLEAR",
+            "depthTestEnable: true, depthCompareOp: GREATER",
+            "scene: {depth: REVERSED}",
+            True,
+        ),
         ("CLEAR", "depthTestEnable: true, depthCompareOp: NEVER", "", False),
     ],
 )
-def test_a_backdrop_covers_where_depth_lets_it(depth: str, state: str, scene: str, covers: bool) -> None:
+def test_a_backdrop_covers_where_depth_lets_it(
+    depth: str, state: str, scene: str, covers: bool
+) -> None:
     made = planned(
         f"""\
 {scene}
@@ -1224,7 +1564,11 @@ def test_a_size_that_is_asked_for_is_that_of_the_largest_pass() -> None:
 
 
 def test_a_count_that_is_asked_for_is_everywhere() -> None:
-    made = planned(INLINE + "pipelines: {x: {renderPass: main, multisampleState: {rasterizationSamples: 4}}}\n", samples=8)
+    made = planned(
+        INLINE
+        + "pipelines: {x: {renderPass: main, multisampleState: {rasterizationSamples: 4}}}\n",
+        samples=8,
+    )
     assert [each.samples for each in made.images] == [8, 8, 1]
     assert [each.samples for each in one(made).attachments] == [8, 8, 1]
     assert [each.samples for each in one(made).pipelines] == [8]
@@ -1237,7 +1581,13 @@ def test_one_sample_draws_to_what_it_resolves_to() -> None:
     (subpass,) = one(made).subpasses
     assert (subpass.colors, subpass.resolves) == ((Reference(2, COLOR_LAYOUT),), ())
     shown = one(made).attachments[2]
-    assert (shown.samples, shown.load, shown.store, shown.initial, shown.final) == (1, 1, 0, UNDEFINED, PRESENT_LAYOUT)
+    assert (shown.samples, shown.load, shown.store, shown.initial, shown.final) == (
+        1,
+        1,
+        0,
+        UNDEFINED,
+        PRESENT_LAYOUT,
+    )
     assert [each.samples for each in one(made).pipelines] == [1]
 
 
@@ -1257,7 +1607,9 @@ def test_every_example_of_the_catalogue_is_planned_and_carried(example: Example)
         for arguments in ({}, {"size": (48, 80)}, {"samples": 1}, {"samples": 2}, {"api": 1}):
             made = plan(found, file="folder/frame.msaa.yaml", **arguments)
             assert from_json(json.loads(json.dumps(made))) == made
-            assert len(made.passes) == max(len(found.passes), min(1, len(made.images) + len(found.pipelines)))
+            assert len(made.passes) == max(
+                len(found.passes), min(1, len(made.images) + len(found.pipelines))
+            )
             sound(made)
 
 
@@ -1269,28 +1621,51 @@ def sound(made: Plan) -> None:
         assert all(set(framebuffer.images) <= set(each.images) for framebuffer in each.framebuffers)
         attachments = range(len(each.attachments))
         for subpass in each.subpasses:
-            references = (*subpass.inputs, *subpass.colors, *subpass.resolves, *subpass.depth_stencil, *subpass.depth_resolve)
-            assert {reference.attachment for reference in references} - {parts.NONE} <= set(attachments)
+            references = (
+                *subpass.inputs,
+                *subpass.colors,
+                *subpass.resolves,
+                *subpass.depth_stencil,
+                *subpass.depth_resolve,
+            )
+            assert {reference.attachment for reference in references} - {parts.NONE} <= set(
+                attachments
+            )
             assert set(subpass.preserves) <= set(attachments)
             assert not subpass.resolves or len(subpass.resolves) == len(subpass.colors)
-        assert all(len(framebuffer.images) == len(each.attachments) for framebuffer in each.framebuffers if each.kind == parts.RENDER_PASS)
+        assert all(
+            len(framebuffer.images) == len(each.attachments)
+            for framebuffer in each.framebuffers
+            if each.kind == parts.RENDER_PASS
+        )
         for pipeline in each.pipelines:
             assert len(pipeline.numerics) == len(pipeline.blends)
             assert pipeline.samples in (1, 2, 4, 8, 16, 32, 64)
     # Barriers alone need no pass, and are recorded with none.
     for step in made.steps if made.passes else ():
         each = made.passes[step.number]
-        assert {step.source, step.target, *(inner.image for inner in step.inner)} - {parts.NONE} <= set(each.images)
+        assert {step.source, step.target, *(inner.image for inner in step.inner)} - {
+            parts.NONE
+        } <= set(each.images)
         if step.kind == "begin":
             framebuffer = each.framebuffers[step.framebuffer]
             x, y, width, height = step.area
             assert min(x, y) >= 0 < min(width, height)
             assert x + width <= framebuffer.width and y + height <= framebuffer.height
             for number in framebuffer.images:
-                assert framebuffer.width <= made.images[number].width and framebuffer.height <= made.images[number].height
+                assert (
+                    framebuffer.width <= made.images[number].width
+                    and framebuffer.height <= made.images[number].height
+                )
             drawn = [inner for inner in step.inner if inner.kind == "draw"]
-            assert all(each.pipelines[inner.pipeline].subpass == inner.subpass for inner in drawn if each.kind == parts.RENDER_PASS)
-            assert [inner.subpass for inner in step.inner] == sorted(inner.subpass for inner in step.inner)
+            assert all(
+                each.pipelines[inner.pipeline].subpass == inner.subpass
+                for inner in drawn
+                if each.kind == parts.RENDER_PASS
+            )
+            assert [inner.subpass for inner in step.inner] == sorted(
+                inner.subpass for inner in step.inner
+            )
 
 
 ARGUMENTS = st.fixed_dictionaries(
@@ -1313,16 +1688,25 @@ def test_any_description_is_planned(description: Any, arguments: dict[str, Any])
     sound(made)
 
 
-@pytest.mark.parametrize("data", [[], [1] * 10, {"passes": [{}]}, ["", [], [[1]], *[[]] * 4, False, False, ""], [[[]] * 10]])
+@pytest.mark.parametrize(
+    "data",
+    [[], [1] * 10, {"passes": [{}]}, ["", [], [[1]], *[[]] * 4, False, False, ""], [[[]] * 10]],
+)
 def test_what_is_no_plan_is_refused(data: Any) -> None:
     with pytest.raises((KeyError, TypeError, ValueError)):
         from_json(data)
 
 
 def test_notes_that_differ_in_a_name_are_one() -> None:
-    pipelines = "".join(f"  p{n}: {{dynamicState: [VIEWPORT_WITH_COUNT, LINE_WIDTH, DEPTH_BIAS]}}\n" for n in range(6))
+    pipelines = "".join(
+        f"  p{n}: {{dynamicState: [VIEWPORT_WITH_COUNT, LINE_WIDTH, DEPTH_BIAS]}}\n"
+        for n in range(6)
+    )
     made = planned(f"pipelines:\n{pipelines}commands: []\n")
-    assert "the dynamic states LINE_WIDTH, DEPTH_BIAS of p0, p1, p2 and 3 more are ignored" in made.defaults
+    assert (
+        "the dynamic states LINE_WIDTH, DEPTH_BIAS of p0, p1, p2 and 3 more are ignored"
+        in made.defaults
+    )
 
 
 def test_layouts_usages_and_flags_of_extensions_are_replaced() -> None:
@@ -1346,7 +1730,9 @@ renderPasses:
     )
     assert (image(made, "c").usage, image(made, "c").flags) == (parts.COLOR_ATTACHMENT, 0x8)
     attachment = one(made).attachments[0]
-    assert (attachment.initial, attachment.final, one(made).subpasses[0].colors[0].layout) == (GENERAL,) * 3
+    assert (attachment.initial, attachment.final, one(made).subpasses[0].colors[0].layout) == (
+        GENERAL,
+    ) * 3
     assert made.defaults == (
         "the usages HOST_TRANSFER, ATTACHMENT_FEEDBACK_LOOP_EXT of c are ignored",
         "the flag SPARSE_BINDING of c is ignored",
@@ -1354,15 +1740,32 @@ renderPasses:
 
 
 @pytest.mark.parametrize("stages", [["FRAGMENT", "VERTEX"], ["VERTEX", "FRAGMENT"]])
-def test_a_fragment_shader_gets_a_vertex_shader_that_writes_its_inputs(stages: list[str], tmp_path: Path) -> None:
+def test_a_fragment_shader_gets_a_vertex_shader_that_writes_its_inputs(
+    stages: list[str], tmp_path: Path
+) -> None:
     """The vertex shader of the description reads vertices that are not described."""
     shaders = ROOT / "msaa_lint" / "experiments" / "confirm" / "shaders"
     for stage in stages:
-        (tmp_path / f"{stage}.spv").write_bytes((shaders / f"scene.{stage[:4].lower()}.spv").read_bytes())
+        (tmp_path / f"{stage}.spv").write_bytes(
+            (shaders / f"scene.{stage[:4].lower()}.spv").read_bytes()
+        )
     listed = ", ".join(f"{{stage: {stage}, module: {stage}.spv}}" for stage in stages)
-    made = planned(f"pipelines:\n  p: {{stages: [{listed}]}}\n", file=str(tmp_path / "frame.msaa.yaml"))
+    made = planned(
+        f"pipelines:\n  p: {{stages: [{listed}]}}\n", file=str(tmp_path / "frame.msaa.yaml")
+    )
     fragment, vertex = one(made).pipelines[0].stages
-    assert (fragment.stage, fragment.path, vertex.stage, vertex.path) == (16, str(tmp_path / "FRAGMENT.spv"), 1, "")
+    assert (fragment.stage, fragment.path, vertex.stage, vertex.path) == (
+        16,
+        str(tmp_path / "FRAGMENT.spv"),
+        1,
+        "",
+    )
     written = Module(parts.unpacked(vertex.code))
-    assert [each.type for each in interface(written, written.entry("main"), Constants(written, {})).outputs] == ["vec4"]
-    assert "the vertex shader of p has inputs, which are not described: a built-in one is used" in made.defaults
+    assert [
+        each.type
+        for each in interface(written, written.entry("main"), Constants(written, {})).outputs
+    ] == ["vec4"]
+    assert (
+        "the vertex shader of p has inputs, which are not described: a built-in one is used"
+        in made.defaults
+    )

@@ -1,5 +1,6 @@
-"""What a frame makes undefined is overwritten: a wrong discard shows in pictures. A frame with commands that Vulkan forbids is not
-confirmed."""
+"""What a frame makes undefined is overwritten: a wrong discard shows in pictures. A frame with
+commands that Vulkan forbids is not confirmed.
+"""
 
 from __future__ import annotations
 
@@ -73,20 +74,30 @@ def fixed_as(tmp_path: Path, text: str, change: str) -> list[Verdict]:
     (tmp_path / "b.msaa.yaml").write_text(change)
     as_written, fixed = inputs(Request(paths=[str(tmp_path)], isolated=True)).inputs
     with Session(None, environment=environment(None)) as session:
-        made = trial(session, lambda: [as_written._replace(fixed=fixed.frame)], TrialOptions(time=False))
+        made = trial(
+            session, lambda: [as_written._replace(fixed=fixed.frame)], TrialOptions(time=False)
+        )
     return list(made.verdicts)
 
 
 def read(format: str = "R8G8B8A8_UNORM", samples: int = 1, usage: str = "") -> str:
     role = "colorAttachments: [a]" if "UNORM" in format else "depthStencilAttachment: a"
-    return READS.replace("FORMAT", format).replace("SAMPLES", str(samples)).replace("ROLE", role).replace("USAGE", usage)
+    return (
+        READS.replace("FORMAT", format)
+        .replace("SAMPLES", str(samples))
+        .replace("ROLE", role)
+        .replace("USAGE", usage)
+    )
 
 
 def loaded(usage: str = "", initial: str = "initialLayout: COLOR_ATTACHMENT_OPTIMAL") -> str:
     return LOADS.replace("USAGE", usage).replace("INITIAL", initial)
 
 
-TESTED, TRANSIENT = TESTS.replace("STENCIL}", "STORE}"), loaded("usage: [COLOR_ATTACHMENT, TRANSIENT_ATTACHMENT],")
+TESTED, TRANSIENT = (
+    TESTS.replace("STENCIL}", "STORE}"),
+    loaded("usage: [COLOR_ATTACHMENT, TRANSIENT_ATTACHMENT],"),
+)
 
 
 def discard(text: str) -> str:
@@ -106,7 +117,8 @@ def discard(text: str) -> str:
         (TESTED, TESTED.replace("storeOp: STORE, sten", "storeOp: DONT_CARE, sten"), False),
         # Nothing reads stencil, and depth stays.
         (TESTED, TESTS.replace("STENCIL}", "DONT_CARE}"), True),
-        (RENDERED.replace("BARRIER", NOTHING), discard(RENDERED.replace("BARRIER", NOTHING)), False),
+        (RENDERED.replace("BARRIER", NOTHING), discard(RENDERED.replace("BARRIER", NOTHING)),
+        False),
         (RENDERED.replace("BARRIER", NOTHING), RENDERED.replace("BARRIER", FORGETS), False),
         (read(), read(), True),
     ],
@@ -114,8 +126,12 @@ def discard(text: str) -> str:
 def test_a_wrong_discard_shows(tmp_path: Path, text: str, change: str, equal: bool) -> None:
     verdicts = fixed_as(tmp_path, text, change)
     assert {verdict.pixels_equal for verdict in verdicts} - {None} == {equal}, verdicts
-    assert {verdict.status for verdict in verdicts} == ({CONFIRMED} if equal else {DISAGREES} | {v.status for v in verdicts})
-    different = {image.image for verdict in verdicts for image in verdict.images if image.equal is False}
+    assert {verdict.status for verdict in verdicts} == (
+        {CONFIRMED} if equal else {DISAGREES} | {v.status for v in verdicts}
+    )
+    different = {
+        image.image for verdict in verdicts for image in verdict.images if image.equal is False
+    }
     assert equal or "o" in different
 
 
@@ -139,7 +155,11 @@ commands: [{{beginRenderPass: {{renderPass: p}}}}, endRenderPass, THEN]
 def test_what_is_undefined_in_the_end_disagrees_unless_nothing_reads_it(
     tmp_path: Path, presentable: str, then: str, equal: bool | None
 ) -> None:
-    text = SHOWN.replace("PRESENTABLE", presentable).replace("THEN", then).replace(", endRenderPass, endRenderPass", ", endRenderPass")
+    text = (
+        SHOWN.replace("PRESENTABLE", presentable)
+        .replace("THEN", then)
+        .replace(", endRenderPass, endRenderPass", ", endRenderPass")
+    )
     (verdict,) = fixed_as(tmp_path, text, discard(text))
     assert verdict.pixels_equal is equal, verdict
     if equal is None:
@@ -168,18 +188,27 @@ commands: [{{beginRenderPass: {{renderPass: p}}}}, endRenderPass, {{COMMAND}}]
 @pytest.mark.parametrize(
     ("command", "said", "vuid"),
     [
-        ("blitImage: {srcImage: ms, dstImage: o}", "blitImage of ms, which is multi", "VUID-vkCmdBlitImage-srcImage-00233"),
-        ("copyImage: {srcImage: ms, dstImage: o}", "copyImage from ms to o, whose sample", "VUID-vkCmdCopyImage-srcImage-00136"),
-        ("copyImageToBuffer: {srcImage: ms}", "copyImageToBuffer of ms, which is multisampled,", ""),
+        ("blitImage: {srcImage: ms, dstImage: o}", "blitImage of ms, which is multi",
+        "VUID-vkCmdBlitImage-srcImage-00233"),
+        ("copyImage: {srcImage: ms, dstImage: o}", "copyImage from ms to o, whose sample",
+        "VUID-vkCmdCopyImage-srcImage-00136"),
+        ("copyImageToBuffer: {srcImage: ms}", "copyImageToBuffer of ms, which is multisampled,",
+        ""),
         ("present: {image: ms}", "present of ms, which is multisampled,", ""),
         ("presentable", "the presentable ms is multisampled, which is", ""),
     ],
 )  # fmt: skip
-def test_a_frame_with_a_forbidden_command_is_not_confirmed(tmp_path: Path, command: str, said: str, vuid: str) -> None:
-    text = FORBIDDEN.replace("PRESENTABLE", "presentable: true," if command == "presentable" else "")
+def test_a_frame_with_a_forbidden_command_is_not_confirmed(
+    tmp_path: Path, command: str, said: str, vuid: str
+) -> None:
+    text = FORBIDDEN.replace(
+        "PRESENTABLE", "presentable: true," if command == "presentable" else ""
+    )
     text = text.replace(", {COMMAND}", "" if command == "presentable" else f", {{{command}}}")
     (tmp_path / "frame.msaa.yaml").write_text(text)
-    done = run(tmp_path, "confirm", "--isolated", "--no-cache", "--output", "json", "frame.msaa.yaml")
+    done = run(
+        tmp_path, "confirm", "--isolated", "--no-cache", "--output", "json", "frame.msaa.yaml"
+    )
     (found,) = json.loads(done.stdout)["passes"]
     assert found["status"] == REFUSED
     assert said in found["reason"]

@@ -1,4 +1,6 @@
-"""The built-in shaders: valid, as fresh as their sources, and with the outputs that are asked for."""
+"""The built-in shaders: valid, as fresh as their sources, and with the outputs that are asked
+for.
+"""
 
 from __future__ import annotations
 
@@ -15,7 +17,14 @@ from hypothesis import HealthCheck, given
 from hypothesis import strategies as st
 
 from msaa_lint.experiments.confirm import scene
-from msaa_lint.experiments.confirm.shaders.spirv import OUTPUTS, SLOTS, instructions, read, with_outputs, words_of
+from msaa_lint.experiments.confirm.shaders.spirv import (
+    OUTPUTS,
+    SLOTS,
+    instructions,
+    read,
+    with_outputs,
+    words_of,
+)
 from tests.experiments.confirm import generate_shaders as generate
 from tests.strength import examples
 
@@ -23,12 +32,30 @@ FOLDER = Path(generate.FOLDER)
 SHADERS = generate.sources()
 FRAGMENTS = [name for name in SHADERS if name.endswith(".frag")]
 
-OP_SOURCE_CONTINUED, OP_SOURCE, OP_SOURCE_EXTENSION, OP_NAME, OP_MEMBER_NAME, OP_STRING, OP_LINE = 2, 3, 4, 5, 6, 7, 8
+OP_SOURCE_CONTINUED, OP_SOURCE, OP_SOURCE_EXTENSION, OP_NAME, OP_MEMBER_NAME, OP_STRING, OP_LINE = (
+    2,
+    3,
+    4,
+    5,
+    6,
+    7,
+    8,
+)
 OP_NO_LINE, OP_MODULE_PROCESSED = 317, 330
 DEBUG = {
-    OP_SOURCE_CONTINUED, OP_SOURCE, OP_SOURCE_EXTENSION, OP_NAME, OP_MEMBER_NAME, OP_STRING, OP_LINE, OP_NO_LINE, OP_MODULE_PROCESSED,
+    OP_SOURCE_CONTINUED, OP_SOURCE, OP_SOURCE_EXTENSION, OP_NAME, OP_MEMBER_NAME, OP_STRING,
+    OP_LINE, OP_NO_LINE, OP_MODULE_PROCESSED,
 }  # fmt: skip
-OP_ENTRY_POINT, OP_TYPE_INT, OP_TYPE_FLOAT, OP_TYPE_VECTOR, OP_TYPE_POINTER, OP_VARIABLE, OP_STORE, OP_DECORATE = (
+(
+    OP_ENTRY_POINT,
+    OP_TYPE_INT,
+    OP_TYPE_FLOAT,
+    OP_TYPE_VECTOR,
+    OP_TYPE_POINTER,
+    OP_VARIABLE,
+    OP_STORE,
+    OP_DECORATE,
+) = (
     15,
     21,
     22,
@@ -47,14 +74,23 @@ def stored(shader: str) -> bytes:
 
 def validate(path: Path) -> None:
     """Has Khronos's validator judge a module."""
-    done = subprocess.run(["spirv-val", "--target-env", "vulkan1.0", str(path)], capture_output=True, text=True, check=False)
+    done = subprocess.run(
+        ["spirv-val", "--target-env", "vulkan1.0", str(path)],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
     assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
 
 
 def plainly(code: bytes) -> tuple[list[int], list[list[int]]]:
-    """A module's header without the generator's word, and its instructions without those for debuggers."""
+    """A module's header without the generator's word, and its instructions without those for
+    debuggers.
+    """
     words = words_of(code)
-    return [*words[:2], *words[3:5]], [list(each) for op, each in instructions(words) if op not in DEBUG]
+    return [*words[:2], *words[3:5]], [
+        list(each) for op, each in instructions(words) if op not in DEBUG
+    ]
 
 
 def test_the_tools_are_there() -> None:
@@ -63,7 +99,15 @@ def test_the_tools_are_there() -> None:
 
 
 def test_every_shader_has_its_code() -> None:
-    assert SHADERS == ["cover.vert", "read.frag", "read_samples.frag", "samples.comp", "scene.frag", "scene.vert", "shaded.frag"]
+    assert SHADERS == [
+        "cover.vert",
+        "read.frag",
+        "read_samples.frag",
+        "samples.comp",
+        "scene.frag",
+        "scene.vert",
+        "shaded.frag",
+    ]
     assert sorted(path.name for path in FOLDER.glob("*.spv")) == [f"{name}.spv" for name in SHADERS]
 
 
@@ -75,13 +119,17 @@ def test_the_code_is_valid(shader: str) -> None:
 
 @pytest.mark.parametrize("shader", SHADERS)
 def test_the_code_is_that_of_the_source(shader: str) -> None:
-    assert plainly(generate.compiled(shader)) == plainly(stored(shader)), "python -m tests.experiments.confirm.generate_shaders"
+    assert plainly(generate.compiled(shader)) == plainly(stored(shader)), (
+        "python -m tests.experiments.confirm.generate_shaders"
+    )
 
 
 def test_another_source_gives_other_code(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     source = (FOLDER / "cover.vert").read_text(encoding="utf-8")
     assert "* 2.0 - 1.0" in source
-    (tmp_path / "cover.vert").write_text(source.replace("* 2.0 - 1.0", "* 2.0 - 0.5"), encoding="utf-8")
+    (tmp_path / "cover.vert").write_text(
+        source.replace("* 2.0 - 1.0", "* 2.0 - 0.5"), encoding="utf-8"
+    )
     monkeypatch.setattr(generate, "FOLDER", str(tmp_path))
     assert generate.sources() == ["cover.vert"]
     assert plainly(generate.compiled("cover.vert")) != plainly(stored("cover.vert"))
@@ -100,9 +148,15 @@ class Module:
 
     def __init__(self, code: bytes) -> None:
         every = list(instructions(words_of(code)))
-        self.types = {each[1]: (op, each) for op, each in every if op in (OP_TYPE_INT, OP_TYPE_FLOAT, OP_TYPE_VECTOR, OP_TYPE_POINTER)}
+        self.types = {
+            each[1]: (op, each)
+            for op, each in every
+            if op in (OP_TYPE_INT, OP_TYPE_FLOAT, OP_TYPE_VECTOR, OP_TYPE_POINTER)
+        }
         self.variables = {each[2]: (each[1], each[3]) for op, each in every if op == OP_VARIABLE}
-        self.locations = {each[1]: each[3] for op, each in every if op == OP_DECORATE and each[2] == LOCATION}
+        self.locations = {
+            each[1]: each[3] for op, each in every if op == OP_DECORATE and each[2] == LOCATION
+        }
         (self.entry,) = [each for op, each in every if op == OP_ENTRY_POINT]
 
     def outputs(self) -> dict[int, str]:
@@ -138,13 +192,19 @@ def test_a_shader_has_every_output_there_may_be(shader: str) -> None:
 
 @examples(0.25, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(shader=st.sampled_from(FRAGMENTS), outputs=KINDS)
-def test_a_shader_has_the_outputs_that_are_asked_for(tmp_path: Path, shader: str, outputs: Sequence[str]) -> None:
+def test_a_shader_has_the_outputs_that_are_asked_for(
+    tmp_path: Path, shader: str, outputs: Sequence[str]
+) -> None:
     code = read(shader, outputs)
     (tmp_path / "made.spv").write_bytes(code)
     validate(tmp_path / "made.spv")
     made = Module(code)
     assert made.outputs() == {slot: kind for slot, kind in enumerate(outputs) if kind}
-    outer = {variable for variable, (_, storage) in made.variables.items() if storage in (OUTPUT_CLASS, INPUT_CLASS)}
+    outer = {
+        variable
+        for variable, (_, storage) in made.variables.items()
+        if storage in (OUTPUT_CLASS, INPUT_CLASS)
+    }
     assert set(made.interface()) == outer
     assert len(made.interface()) == len(outer)
 
@@ -156,11 +216,19 @@ def test_nothing_but_outputs_is_changed(shader: str, outputs: Sequence[str]) -> 
     dropped = {each[2] for op, each in difference(before, after) if op == OP_VARIABLE}
     assert len(dropped) == 3 * SLOTS - sum(map(bool, outputs))
     for op, each in difference(before, after):
-        assert op in (OP_ENTRY_POINT, OP_NAME, OP_VARIABLE, OP_DECORATE, OP_STORE), "of outputs: their names, decorations, stores"
-        assert op in (OP_ENTRY_POINT, OP_VARIABLE) or each[1] in dropped or (op == OP_DECORATE and each[2] == LOCATION)
+        assert op in (OP_ENTRY_POINT, OP_NAME, OP_VARIABLE, OP_DECORATE, OP_STORE), (
+            "of outputs: their names, decorations, stores"
+        )
+        assert (
+            op in (OP_ENTRY_POINT, OP_VARIABLE)
+            or each[1] in dropped
+            or (op == OP_DECORATE and each[2] == LOCATION)
+        )
 
 
-def difference(before: array.array[int], after: array.array[int]) -> Iterator[tuple[int, array.array[int]]]:
+def difference(
+    before: array.array[int], after: array.array[int]
+) -> Iterator[tuple[int, array.array[int]]]:
     """The instructions of one module that the other does not have."""
     there = {tuple(each) for _, each in instructions(after)}
     return ((op, each) for op, each in instructions(before) if tuple(each) not in there)
@@ -188,10 +256,17 @@ def test_words_in_the_other_order_are_turned() -> None:
 
 
 def test_the_scene_lies_within_the_picture() -> None:
-    corners = [struct.unpack_from("<3f", scene.vertices(), at) for at in range(0, len(scene.vertices()), scene.VERTEX_BYTES)]
+    corners = [
+        struct.unpack_from("<3f", scene.vertices(), at)
+        for at in range(0, len(scene.vertices()), scene.VERTEX_BYTES)
+    ]
     assert len(corners) % 3 == 0 and len(corners) == len(scene.CORNERS)
     # One triangle over the whole picture.
-    assert corners[: scene.BACKDROP] == [(-1.0, -1.0, 250 / 256), (3.0, -1.0, 250 / 256), (-1.0, 3.0, 250 / 256)]
+    assert corners[: scene.BACKDROP] == [
+        (-1.0, -1.0, 250 / 256),
+        (3.0, -1.0, 250 / 256),
+        (-1.0, 3.0, 250 / 256),
+    ]
     triangles = [corners[at : at + 3] for at in range(scene.BACKDROP, len(corners), 3)]
     depths = [{z for _, _, z in triangle} for triangle in triangles]
     assert all(len(own) == 1 for own in depths), "each lies flat"
@@ -200,7 +275,11 @@ def test_the_scene_lies_within_the_picture() -> None:
     for triangle in triangles:
         # None is clipped, turned by a quarter neither.
         assert all(abs(x) < 1 and abs(y) < 1 for x, y, _ in triangle)
-        assert all(value * scene.GRID == int(value * scene.GRID) for x, y, _ in triangle for value in (x, y))
+        assert all(
+            value * scene.GRID == int(value * scene.GRID)
+            for x, y, _ in triangle
+            for value in (x, y)
+        )
         (ax, ay, _), (bx, by, _), (cx, cy, _) = triangle
         assert (bx - ax) * (cy - ay) != (cx - ax) * (by - ay), "none is a line"
 
@@ -231,7 +310,14 @@ def test_code_that_is_cut_off_is_refused(shader: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "code", [b"", b"\0" * 20, b"#version 450 core\n\n\n", stored("cover.vert")[4:], stored("cover.vert")[:20] + b"\0" * 4]
+    "code",
+    [
+        b"",
+        b"\0" * 20,
+        b"#version 450 core\n\n\n",
+        stored("cover.vert")[4:],
+        stored("cover.vert")[:20] + b"\0" * 4,
+    ],
 )
 def test_what_is_no_code_is_refused(code: bytes) -> None:
     with pytest.raises(ValueError, match="not SPIR-V"):
@@ -239,8 +325,14 @@ def test_what_is_no_code_is_refused(code: bytes) -> None:
 
 
 @examples(3)
-@given(st.sampled_from(FRAGMENTS), st.lists(st.tuples(st.integers(5, 10**6), st.integers(0, 2**32 - 1)), min_size=1, max_size=4), KINDS)
-def test_damaged_code_is_read_or_refused(shader: str, damage: list[tuple[int, int]], outputs: Sequence[str]) -> None:
+@given(
+    st.sampled_from(FRAGMENTS),
+    st.lists(st.tuples(st.integers(5, 10**6), st.integers(0, 2**32 - 1)), min_size=1, max_size=4),
+    KINDS,
+)
+def test_damaged_code_is_read_or_refused(
+    shader: str, damage: list[tuple[int, int]], outputs: Sequence[str]
+) -> None:
     words = words_of(stored(shader))
     for at, value in damage:
         words[5 + at % (len(words) - 5)] = value
@@ -261,6 +353,8 @@ def test_an_instruction_that_is_too_short_is_passed_over_or_refused(op: int) -> 
 
 def test_an_entry_point_whose_name_does_not_end_is_refused() -> None:
     head = words_of(stored("cover.vert"))[:5]
-    code = (head + array.array("I", [5 << 16 | OP_ENTRY_POINT, 4, 1, 0x41414141, 0x41414141])).tobytes()
+    code = (
+        head + array.array("I", [5 << 16 | OP_ENTRY_POINT, 4, 1, 0x41414141, 0x41414141])
+    ).tobytes()
     with pytest.raises(ValueError, match="not SPIR-V"):
         with_outputs(code, ["float"])

@@ -1,4 +1,6 @@
-"""Inputs through a trial with a driver that does as it is told: statuses, pictures, times, and what is said of them."""
+"""Inputs through a trial with a driver that does as it is told: statuses, pictures, times, and what
+is said of them.
+"""
 
 from __future__ import annotations
 
@@ -46,10 +48,16 @@ PASS = """\
 
 
 class Fake:
-    """Plans whose passes do what their names say: `draws`, `SIGSEGV`, `refuses`; as fixed what `fixed` says of them."""
+    """Plans whose passes do what their names say: `draws`, `SIGSEGV`, `refuses`; as fixed what
+    `fixed` says of them.
+    """
 
     def __init__(
-        self, fixed: Mapping[str, str] | None = None, gated: Sequence[str] = (), pixel: int = 0, said: Sequence[AgreementRow] = ()
+        self,
+        fixed: Mapping[str, str] | None = None,
+        gated: Sequence[str] = (),
+        pixel: int = 0,
+        said: Sequence[AgreementRow] = (),
     ) -> None:
         self.fixed = dict(fixed or {})
         self.gated = gated
@@ -57,33 +65,63 @@ class Fake:
         self.rows = tuple(said)
         self.planned = 0
 
-    def plan(self, frame: Frame, file: str, size: tuple[int, int] | None, samples: int | None) -> PlannedFrame:
-        written = any(a.store == "STORE" for p in frame.passes for t in p.attachments[:1] for a in t.aspects)
-        deeds = [each.name if written else self.fixed.get(each.name, each.name) for each in frame.passes]
+    def plan(
+        self, frame: Frame, file: str, size: tuple[int, int] | None, samples: int | None
+    ) -> PlannedFrame:
+        written = any(
+            a.store == "STORE" for p in frame.passes for t in p.attachments[:1] for a in t.aspects
+        )
+        deeds = [
+            each.name if written else self.fixed.get(each.name, each.name) for each in frame.passes
+        ]
         data = {"passes": deeds, "pixel": 0 if written else self.pixel}
-        return PlannedFrame(data, [Pass(each.name, each.path, "", 0) for each in frame.passes], ["256 x 256 pixels are taken"])
+        return PlannedFrame(
+            data,
+            [Pass(each.name, each.path, "", 0) for each in frame.passes],
+            ["256 x 256 pixels are taken"],
+        )
 
     def supported(self, planned: PlannedFrame, device: Mapping[str, Any]) -> PlannedFrame:
         return planned
 
     def gate(self, planned: PlannedFrame, device: Mapping[str, Any]) -> dict[int, str]:
-        return {n: "8 samples are not offered" for n, each in enumerate(planned.passes) if each.name in self.gated}
+        return {
+            n: "8 samples are not offered"
+            for n, each in enumerate(planned.passes)
+            if each.name in self.gated
+        }
 
-    def deviations(self, session: Session, planned: PlannedFrame, device: Mapping[str, Any], color: bool) -> dict[int, list[str]]:
+    def deviations(
+        self, session: Session, planned: PlannedFrame, device: Mapping[str, Any], color: bool
+    ) -> dict[int, list[str]]:
         return {}
 
-    def agreement(self, source: Input, planned: PlannedFrame, run: FrameRun, session: Session) -> dict[int, tuple[AgreementRow, ...]]:
+    def agreement(
+        self, source: Input, planned: PlannedFrame, run: FrameRun, session: Session
+    ) -> dict[int, tuple[AgreementRow, ...]]:
         return dict.fromkeys(run.passes, self.rows)
 
 
 def tried(
-    folder: Path, *passes: str, terms: TrialOptions | None = None, device: str | None = None, seconds: float = 20, **fake: Any
+    folder: Path,
+    *passes: str,
+    terms: TrialOptions | None = None,
+    device: str | None = None,
+    seconds: float = 20,
+    **fake: Any,
 ) -> DeviceRun:
-    (folder / "frame.msaa.yaml").write_text(FRAME + "".join(PASS.replace("NAME", name) for name in passes))
+    (folder / "frame.msaa.yaml").write_text(
+        FRAME + "".join(PASS.replace("NAME", name) for name in passes)
+    )
     found = inputs(Request(paths=[str(folder / "frame.msaa.yaml")], isolated=True))
     assert not found.wrong
     environment = {**os.environ, "PYTHONPATH": str(ROOT)}
-    with Session(device, limits=Limits(seconds), environment=environment, execute="tests.experiments.confirm.fake") as session:
+    with Session(
+        device,
+        limits=Limits(seconds),
+        environment=environment,
+        execute="tests.experiments.confirm.fake",
+    ) as session:
         return trial(session, lambda: found.inputs, terms or TrialOptions(), Fake(**fake))
 
 
@@ -98,15 +136,29 @@ def shown(run: DeviceRun) -> tuple[dict[str, Any], str]:
 
 
 def test_pass_that_draws_the_same_as_fixed_is_confirmed(tmp_path: Path) -> None:
-    run = tried(tmp_path, "draws", said=[AgreementRow("both", "X-store", "store", "multisampled-attachment-stored", "stored")])
+    run = tried(
+        tmp_path,
+        "draws",
+        said=[AgreementRow("both", "X-store", "store", "multisampled-attachment-stored", "stored")],
+    )
     data, text = shown(run)
     (found,) = data["passes"]
-    assert (found["status"], found["created"], found["agrees"], found["pixels_equal"]) == ("confirmed", True, True, True)
+    assert (found["status"], found["created"], found["agrees"], found["pixels_equal"]) == (
+        "confirmed",
+        True,
+        True,
+        True,
+    )
     assert found["findings"] == ["MSAA201"] or "multisampled-attachment-stored" in text
     assert found["messages"][0]["rule"] == "multisampled-attachment-stored"
     assert data["agreement"] == {"both": 1, "ours": 0, "theirs": 0, "explained": 0, "noise": 0}
     assert found["time_ms"] is None and "unless --time" in data["notes"][0]
-    assert "draws" in text and "confirmed" in text and "1 both" in text and "1 pass: 1 confirmed" in text
+    assert (
+        "draws" in text
+        and "confirmed" in text
+        and "1 both" in text
+        and "1 pass: 1 confirmed" in text
+    )
     assert exit_code([run], False) == 0
 
 
@@ -115,33 +167,51 @@ def test_safe_fix_that_changes_a_pixel_disagrees(tmp_path: Path) -> None:
     (found,) = shown(run)[0]["passes"]
     assert (found["status"], found["pixels_equal"]) == ("disagrees", False)
     assert found["reason"] == (
-        "a fix that is marked safe changes the picture: color: 1 of 4 pixels differ, the first at (0, 0), by at most 3 steps"
+        "a fix that is marked safe changes the picture: color: 1 of 4 pixels differ, the first at "
+        "(0, 0), by at most 3 steps"
     )
     assert exit_code([run], False) == 1
 
 
 def test_layer_alone_disagrees(tmp_path: Path) -> None:
-    said = [AgreementRow("theirs", "VUID-1", text="do\x1b not"), AgreementRow("explained", "VUID-2", reason="a bug of theirs")]
+    said = [
+        AgreementRow("theirs", "VUID-1", text="do\x1b not"),
+        AgreementRow("explained", "VUID-2", reason="a bug of theirs"),
+    ]
     run = tried(tmp_path, "draws", said=said)
     data, text = shown(run)
     (found,) = data["passes"]
-    assert (found["status"], found["agrees"], found["reason"]) == ("disagrees", False, "the layer reports what no rule does: VUID-1")
-    assert "only the layer: VUID-1: do\\x1b not" in text and "explained: VUID-2 (a bug of theirs)" in text
+    assert (found["status"], found["agrees"], found["reason"]) == (
+        "disagrees",
+        False,
+        "the layer reports what no rule does: VUID-1",
+    )
+    assert (
+        "only the layer: VUID-1: do\\x1b not" in text
+        and "explained: VUID-2 (a bug of theirs)" in text
+    )
     assert exit_code([run], False) == 1
 
 
 def test_failed_creation_without_an_error_of_ours_disagrees(tmp_path: Path) -> None:
     (found,) = shown(tried(tmp_path, "refuses"))[0]["passes"]
     assert (found["status"], found["created"]) == ("disagrees", False)
-    assert found["reason"].startswith("it cannot be created (VK_ERROR_UNKNOWN), but no rule reports an error")
+    assert found["reason"].startswith(
+        "it cannot be created (VK_ERROR_UNKNOWN), but no rule reports an error"
+    )
 
 
 def test_death_is_of_its_pass_and_the_next_is_confirmed(tmp_path: Path) -> None:
     run = tried(tmp_path, "SIGSEGV", "draws")
     data, text = shown(run)
-    assert [(each["name"], each["status"]) for each in data["passes"]] == [("SIGSEGV", "driver-died"), ("draws", "confirmed")]
+    assert [(each["name"], each["status"]) for each in data["passes"]] == [
+        ("SIGSEGV", "driver-died"),
+        ("draws", "confirmed"),
+    ]
     assert data["passes"][0]["reason"] == "SIGSEGV"
-    assert data["passes"][1]["notes"] == ["the pictures are not compared: not every pass went through"]
+    assert data["passes"][1]["notes"] == [
+        "the pictures are not compared: not every pass went through"
+    ]
     assert "driver-died" in text
     assert exit_code([run], False) == 1
 
@@ -160,7 +230,10 @@ def test_pass_that_takes_too_long(tmp_path: Path) -> None:
 def test_gate_refuses_and_the_rest_goes_on(tmp_path: Path) -> None:
     run = tried(tmp_path, "SIGSEGV", "draws", gated=["SIGSEGV"])
     data, _ = shown(run)
-    assert [(each["status"], each["reason"]) for each in data["passes"]] == [("refused", "8 samples are not offered"), ("confirmed", "")]
+    assert [(each["status"], each["reason"]) for each in data["passes"]] == [
+        ("refused", "8 samples are not offered"),
+        ("confirmed", ""),
+    ]
     assert data["passes"][0]["created"] is None
     assert exit_code([run], False) == 0
 
@@ -175,17 +248,34 @@ def test_times_of_both_versions_with_the_model_beside_them(tmp_path: Path) -> No
     run = tried(tmp_path, "draws", terms=TrialOptions(time=True, repeats=12))
     data, text = shown(run)
     time = data["passes"][0]["time_ms"]
-    assert (time["as_written"]["n"], time["fixed"]["n"], time["as_written"]["source"]) == (12, 12, "timestamp")
-    assert time["difference"]["says"] == "no difference: less than 10 % is not significant on a software driver"
+    assert (time["as_written"]["n"], time["fixed"]["n"], time["as_written"]["source"]) == (
+        12,
+        12,
+        "timestamp",
+    )
+    assert (
+        time["difference"]["says"]
+        == "no difference: less than 10 % is not significant on a software driver"
+    )
     assert data["cannot_show"].startswith("a software driver has neither tiles nor external memory")
-    assert data["passes"][0]["model"]["as_written"].keys() == {"read_mb_per_s", "write_mb_per_s", "memory_mib", "milliwatts"}
+    assert data["passes"][0]["model"]["as_written"].keys() == {
+        "read_mb_per_s",
+        "write_mb_per_s",
+        "memory_mib",
+        "milliwatts",
+    }
     assert "What this device cannot show" in text and "cost model, MB/s" in text
 
 
 def test_pictures_are_written(tmp_path: Path) -> None:
     run = tried(tmp_path, "draws", terms=TrialOptions(image=str(tmp_path / "pictures")))
     names = [Path(path).name for path in run.verdicts[0].pictures]
-    assert [name.rpartition("-")[2] for name in names] == ["written.png", "fixed.png", "difference.png", "edge.png"]
+    assert [name.rpartition("-")[2] for name in names] == [
+        "written.png",
+        "fixed.png",
+        "difference.png",
+        "edge.png",
+    ]
     assert sorted(path.name for path in (tmp_path / "pictures").iterdir()) == sorted(names)
 
 
@@ -206,7 +296,10 @@ def test_several_devices_stand_side_by_side(tmp_path: Path) -> None:
     assert [each["device"]["name"] for each in data["devices"]] == ["one", "other"]
     as_text(runs, [], text.write, Options(width=200))
     lines = text.getvalue().splitlines()
-    assert lines[0].split() == ["file", "pass", "one", "other"] and lines[1].split()[-2:] == ["confirmed", "confirmed"]
+    assert lines[0].split() == ["file", "pass", "one", "other"] and lines[1].split()[-2:] == [
+        "confirmed",
+        "confirmed",
+    ]
 
 
 @pytest.mark.parametrize("name", ["\x1b[2J", "a\u202eb", "[bold]x[/bold]"])

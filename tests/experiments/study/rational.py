@@ -1,4 +1,6 @@
-"""Coverage and area by their definitions, in Python's integers and fractions, a sample or a pixel at a time; and as is often written."""
+"""Coverage and area by their definitions, in Python's integers and fractions, a sample or a pixel
+at a time; and as is often written.
+"""
 
 from __future__ import annotations
 
@@ -17,7 +19,9 @@ Corners = list[tuple[Any, Any]]
 
 
 def edge(a: Point, b: Point, at: Point) -> int:
-    """The edge function: twice the area of (a, b, at), above 0 where `at` lies on the right of a walk from a to b, y down."""
+    """The edge function: twice the area of (a, b, at), above 0 where `at` lies on the right of a
+    walk from a to b, y down.
+    """
     return (b[0] - a[0]) * (at[1] - a[1]) - (b[1] - a[1]) * (at[0] - a[0])
 
 
@@ -37,12 +41,24 @@ def covers(triangle: Sequence[Point], at: Point) -> bool:
     return True
 
 
-def covered(triangle: NDArray[np.int64], width: int, height: int, locations: NDArray[np.int64], subpixels: int = 256) -> NDArray[np.bool_]:
+def covered(
+    triangle: NDArray[np.int64],
+    width: int,
+    height: int,
+    locations: NDArray[np.int64],
+    subpixels: int = 256,
+) -> NDArray[np.bool_]:
     """The samples (height, width, samples) that one triangle covers."""
     corners = [(int(x), int(y)) for x, y in triangle]
     return np.array(
         [
-            [[covers(corners, (column * subpixels + int(x), row * subpixels + int(y))) for x, y in locations] for column in range(width)]
+            [
+                [
+                    covers(corners, (column * subpixels + int(x), row * subpixels + int(y)))
+                    for x, y in locations
+                ]
+                for column in range(width)
+            ]
             for row in range(height)
         ],
         dtype=np.bool_,
@@ -60,8 +76,12 @@ def exact_area(polygon: NDArray[np.float64], column: int, row: int) -> Fraction:
     return Fraction(clipped_area(polygon.tolist(), column, row, Fraction))
 
 
-def clipped_area(polygon: Sequence[Sequence[float]], column: int, row: int, number: Callable[[float], Any]) -> Any:
-    """The area of a polygon within a pixel, in numbers of a kind: clipped at its four sides, by the shoelace formula."""
+def clipped_area(
+    polygon: Sequence[Sequence[float]], column: int, row: int, number: Callable[[float], Any]
+) -> Any:
+    """The area of a polygon within a pixel, in numbers of a kind: clipped at its four sides, by the
+    shoelace formula.
+    """
     corners = [(number(x), number(y)) for x, y in polygon]
     for axis, side, keep in ((0, column, 1), (0, column + 1, -1), (1, row, 1), (1, row + 1, -1)):
         corners = _clipped(corners, axis, number(side), number(keep))
@@ -70,7 +90,13 @@ def clipped_area(polygon: Sequence[Sequence[float]], column: int, row: int, numb
 
 def shoelace(corners: Corners) -> Any:
     """The signed area of a polygon."""
-    return sum(a[0] * b[1] - b[0] * a[1] for a, b in zip(corners, (*corners[1:], *corners[:1]), strict=True)) / 2
+    return (
+        sum(
+            a[0] * b[1] - b[0] * a[1]
+            for a, b in zip(corners, (*corners[1:], *corners[:1]), strict=True)
+        )
+        / 2
+    )
 
 
 def _clipped(corners: Corners, axis: int, side: Any, keep: Any) -> Corners:
@@ -85,9 +111,13 @@ def _clipped(corners: Corners, axis: int, side: Any, keep: Any) -> Corners:
     return found
 
 
-def naive(triangles: NDArray[np.int64], samples: NDArray[np.int64], number: type) -> NDArray[np.bool_]:
-    """Whether triangles (T, 3, 2), clockwise on the screen, cover a sample (T, 2) each, as is often written: edge functions in floating
-    point, from pixels, with the top-left rule. What it says is wrong where the product of two differences is rounded."""
+def naive(
+    triangles: NDArray[np.int64], samples: NDArray[np.int64], number: type
+) -> NDArray[np.bool_]:
+    """Whether triangles (T, 3, 2), clockwise on the screen, cover a sample (T, 2) each, as is often
+    written: edge functions in floating point, from pixels, with the top-left rule. What it says is
+    wrong where the product of two differences is rounded.
+    """
     corners, at = (triangles / 256).astype(number), (samples / 256).astype(number)
     inside = np.ones(len(triangles), dtype=np.bool_)
     for n in range(3):

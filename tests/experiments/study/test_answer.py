@@ -1,4 +1,6 @@
-"""The answer of a study: what each step adds and removes, what fits a budget, and from which cost of shading on a step is worth it."""
+"""The answer of a study: what each step adds and removes, what fits a budget, and from which cost
+of shading on a step is worth it.
+"""
 
 from __future__ import annotations
 
@@ -23,7 +25,11 @@ from tests.experiments.study import fakes
 from tests.experiments.study.fakes import TIMES, point, shaded, timed
 
 COUNTS = techniques((MSAA,))
-SHADINGS = (Shading("none", nanoseconds=0.0, full_screen_ms=0.0), Shading("medium", 312, 4, 65536, 2e6, 4.17), Shading("heavy", 936, 12))
+SHADINGS = (
+    Shading("none", nanoseconds=0.0, full_screen_ms=0.0),
+    Shading("medium", 312, 4, 65536, 2e6, 4.17),
+    Shading("heavy", 936, 12),
+)
 
 
 def study(points: list[Point], **other: Any) -> Study:
@@ -34,11 +40,15 @@ def study(points: list[Point], **other: Any) -> Study:
 
 def test_a_step_says_what_it_adds_and_removes() -> None:
     two = timed(Technique(MSAA, 2), time_ms=3.4, low_ms=3.38, high_ms=3.42, rmse=0.2, flicker=0.02)
-    four = timed(Technique(MSAA, 4), time_ms=3.71, low_ms=3.70, high_ms=3.72, rmse=0.116, flicker=0.009)
+    four = timed(
+        Technique(MSAA, 4), time_ms=3.71, low_ms=3.70, high_ms=3.72, rmse=0.116, flicker=0.009
+    )
     (step,) = study([two, four]).steps
     assert step.text == "2x to 4x: +0.31 ms (+9 %), error -42 %, flicker -55 %"
     assert step.added is not None and step.added.ms == pytest.approx(0.31)
-    assert (step.added.low_ms, step.added.high_ms) == pytest.approx((0.31 - math.hypot(0.01, 0.02), 0.31 + math.hypot(0.01, 0.02)))
+    assert (step.added.low_ms, step.added.high_ms) == pytest.approx(
+        (0.31 - math.hypot(0.01, 0.02), 0.31 + math.hypot(0.01, 0.02))
+    )
     assert (step.same_time, step.worth) == (False, True)
     assert step.changes == pytest.approx({"rmse": -0.42, "flicker": -0.55})
 
@@ -47,7 +57,13 @@ def test_what_a_step_adds_is_the_median_of_the_differences_in_each_round() -> No
     """A clock that slows down makes both slower, and the difference stays."""
     drift = [1.0, 1.2, 1.5, 1.1, 1.3, 1.4, 1.6]
     two = timed(Technique(MSAA, 2), time_ms=1.3, low_ms=1.0, high_ms=1.6, rounds=tuple(drift))
-    four = timed(Technique(MSAA, 4), time_ms=1.8, low_ms=1.5, high_ms=2.1, rounds=tuple(time + 0.5 for time in drift))
+    four = timed(
+        Technique(MSAA, 4),
+        time_ms=1.8,
+        low_ms=1.5,
+        high_ms=2.1,
+        rounds=tuple(time + 0.5 for time in drift),
+    )
     added = added_time(four, two)
     assert added == pytest.approx((0.5, 0.5, 0.5, 0.5 / 1.3, 0.5 / 1.3))
     apart = added_time(four._replace(rounds=()), two)
@@ -58,7 +74,11 @@ def test_a_step_within_the_noise_takes_the_same_time() -> None:
     two = timed(Technique(MSAA, 2), time_ms=3.4, low_ms=3.3, high_ms=3.5, rmse=0.2)
     four = timed(Technique(MSAA, 4), time_ms=3.5, low_ms=3.4, high_ms=3.6, rmse=0.2)
     (step,) = study([two, four]).steps
-    assert (step.text, step.same_time, step.worth) == ("2x to 4x: same time, within noise, error unchanged", True, False)
+    assert (step.text, step.same_time, step.worth) == (
+        "2x to 4x: same time, within noise, error unchanged",
+        True,
+        False,
+    )
 
 
 def test_steps_without_a_time_of_a_gpu_are_of_errors_alone() -> None:
@@ -77,10 +97,16 @@ def test_a_step_goes_to_the_next_count_that_the_device_has() -> None:
 
 
 def test_where_the_error_lies_inside_triangles_sample_shading_is_a_step_too() -> None:
-    points = [timed(technique) for technique in COUNTS[1:4]] + [timed(Technique(SAMPLE_SHADING, 4, 1.0), rmse=0.01)]
+    points = [timed(technique) for technique in COUNTS[1:4]] + [
+        timed(Technique(SAMPLE_SHADING, 4, 1.0), rmse=0.01)
+    ]
     scenes = [SceneSummary("edges", "", (), about=("alpha",))]
     found = conclude(study(points)._replace(scenes=scenes))
-    assert [step.text.partition(":")[0] for step in found.steps] == ["2x to 4x", "4x to 8x", "4x to 4x, each shaded"]
+    assert [step.text.partition(":")[0] for step in found.steps] == [
+        "2x to 4x",
+        "4x to 8x",
+        "4x to 4x, each shaded",
+    ]
 
 
 def take(points: list[Point], budget: float) -> Recommendation:
@@ -92,10 +118,21 @@ def take(points: list[Point], budget: float) -> Recommendation:
 def test_under_a_budget_the_least_error_that_fits_is_taken() -> None:
     points = [shaded(technique, "medium", 2e6) for technique in COUNTS[:4]]
     choice = take(points, 1.2)
-    assert (choice.text, choice.technique, choice.added.ms) == ("take 4x", Technique(MSAA, 4), pytest.approx(1.0))
+    assert (choice.text, choice.technique, choice.added.ms) == (
+        "take 4x",
+        Technique(MSAA, 4),
+        pytest.approx(1.0),
+    )
     high = math.hypot(0.04, 0.03)
-    assert choice.reason == f"adds 1 ms ({1 - high:.3g} to {1 + high:.3g}, +33 %) and has the least error of the 3 that fit"
-    assert choice.following == f"8x has 50 % less error and needs {2.8 + math.hypot(0.058, 0.03):.3g} ms"
+    assert (
+        choice.reason
+        == f"adds 1 ms ({1 - high:.3g} to {1 + high:.3g}, +33 %) and has the least error of the 3 "
+        f"that fit"
+    )
+    assert (
+        choice.following
+        == f"8x has 50 % less error and needs {2.8 + math.hypot(0.058, 0.03):.3g} ms"
+    )
     assert take(points, 1.0).technique == Technique(MSAA, 2), "its upper bound does not fit"
     assert take(points, 0.01).text == "take 1x"
     assert take(points, 0.01).reason == "every other technique adds more than 0.01 ms"
@@ -106,7 +143,9 @@ def test_less_error_in_the_same_time_is_always_taken() -> None:
     points = [timed(COUNTS[0]), timed(COUNTS[1], time_ms=1.01, rmse=0.28)]
     choice = take(points, 0.05)
     assert (choice.text, choice.following) == ("take 2x", "no technique has less error")
-    assert choice.reason.startswith("adds 0.01 ms ") and choice.reason.endswith(" and has the least error of the 2 that fit")
+    assert choice.reason.startswith("adds 0.01 ms ") and choice.reason.endswith(
+        " and has the least error of the 2 that fit"
+    )
 
 
 def test_nothing_is_recommended_without_one_sample_to_add_to() -> None:
@@ -115,10 +154,23 @@ def test_nothing_is_recommended_without_one_sample_to_add_to() -> None:
     assert recommendation([], ERROR, 0.5) is None
 
 
-@given(st.lists(st.tuples(st.floats(0.01, 1), st.floats(0.1, 20), st.floats(0, 0.3)), min_size=2, max_size=5), st.floats(0.01, 30))
-def test_what_is_recommended_fits_and_nothing_that_fits_is_better(rows: list[tuple[float, float, float]], budget: float) -> None:
+@given(
+    st.lists(
+        st.tuples(st.floats(0.01, 1), st.floats(0.1, 20), st.floats(0, 0.3)), min_size=2, max_size=5
+    ),
+    st.floats(0.01, 30),
+)
+def test_what_is_recommended_fits_and_nothing_that_fits_is_better(
+    rows: list[tuple[float, float, float]], budget: float
+) -> None:
     points = [
-        timed(technique, rmse=error, time_ms=time, low_ms=time * (1 - noise), high_ms=time * (1 + noise))
+        timed(
+            technique,
+            rmse=error,
+            time_ms=time,
+            low_ms=time * (1 - noise),
+            high_ms=time * (1 + noise),
+        )
         for technique, (error, time, noise) in zip(COUNTS, rows, strict=False)
     ]
     choice = take(points, budget)
@@ -151,15 +203,22 @@ def test_a_step_is_worth_it_from_the_cost_where_it_adds_a_tenth() -> None:
 
 
 def test_a_step_whose_invocations_grow_is_worth_it_up_to_a_cost() -> None:
-    """1.0 + 1.3 x = 1.1 (1.0 + x): edges of small triangles add invocations, and a tile-based GPU adds nothing else."""
+    """1.0 + 1.3 x = 1.1 (1.0 + x): edges of small triangles add invocations, and a tile-based GPU
+    adds nothing else.
+    """
     points = [timed(technique, width=1000, height=1000) for technique in COUNTS[:2]]
-    edges = fakes.model("edges", dict.fromkeys(COUNTS[:2], 1.0), {COUNTS[0]: 1e6, COUNTS[1]: 1.3e6}, 0.02, 0.01)
+    edges = fakes.model(
+        "edges", dict.fromkeys(COUNTS[:2], 1.0), {COUNTS[0]: 1e6, COUNTS[1]: 1.3e6}, 0.02, 0.01
+    )
     (found,) = worth(points, ERROR, edges, [Shading("heavy", nanoseconds=12e6)])
     assert (found.at_least, found.at_greatest) == (True, False)
     assert found.full_screen_ms == pytest.approx(0.1 / 0.2)
-    assert (found.low_ms, found.high_ms) == pytest.approx(((1.1 - 1.02) / (1.02 * 1.3 - 1.1), (1.1 - 0.98) / (0.98 * 1.3 - 1.1)))
+    assert (found.low_ms, found.high_ms) == pytest.approx(
+        ((1.1 - 1.02) / (1.02 * 1.3 - 1.1), (1.1 - 0.98) / (0.98 * 1.3 - 1.1))
+    )
     assert sentences(points, edges, Shading("heavy", nanoseconds=12e6)) == [
-        f"2x is worth its time up to about 0.5 ms of shading a full screen (0.35 to 0.69 ms) ({ENOUGH})"
+        f"2x is worth its time up to about 0.5 ms of shading a full screen (0.35 to 0.69 ms) "
+        f"({ENOUGH})"
     ]
 
 
@@ -168,7 +227,11 @@ ENOUGH = "at least 25 % less error for at most 10 % more time than the count bef
 
 def sentences(points: list[Point], of: TimeModel, *shadings: Shading, **other: Any) -> list[str]:
     found = study(points, models=[of], shadings=shadings, **other)
-    return [f"{each.text} ({each.reason})" for each in found.advice if "their time" in each.text or "its time " in each.text]
+    return [
+        f"{each.text} ({each.reason})"
+        for each in found.advice
+        if "their time" in each.text or "its time " in each.text
+    ]
 
 
 def test_the_report_says_from_which_cost_on_or_never() -> None:
@@ -176,14 +239,22 @@ def test_the_report_says_from_which_cost_on_or_never() -> None:
     medium = Shading("medium", 312, 4, 65536, 4.17e6, 4.17)
     heavy = Shading("heavy", 936, 12, 65536, 12e6, 12.0)
     assert sentences(points, model(0.02), medium, heavy) == [
-        "2x is worth its time from about 2 ms of shading a full screen (1.4 to 2.8 ms); 4x from about 5.7 ms of shading a full screen "
-        f"(4.4 to 7.6 ms); 8x at no measured cost of shading ({ENOUGH}; medium is 4.17 ms, heavy is 12 ms)"
+        "2x is worth its time from about 2 ms of shading a full screen (1.4 to 2.8 ms); 4x from "
+        "about 5.7 ms of shading a full screen "
+        f"(4.4 to 7.6 ms); 8x at no measured cost of shading ({ENOUGH}; medium is 4.17 ms, heavy "
+        f"is 12 ms)"
     ]
-    free = fakes.model("edges", dict.fromkeys(COUNTS, 1.0), dict.fromkeys(COUNTS, 1000000.0), 0.0, 0.0)
+    free = fakes.model(
+        "edges", dict.fromkeys(COUNTS, 1.0), dict.fromkeys(COUNTS, 1000000.0), 0.0, 0.0
+    )
     assert sentences(points, free, medium) == [
-        f"2x, 4x, and 8x are worth their time at every measured cost of shading ({ENOUGH}; medium is 4.17 ms)"
+        f"2x, 4x, and 8x are worth their time at every measured cost of shading ({ENOUGH}; medium "
+        f"is 4.17 ms)"
     ]
-    assert " (within the model's residuals perhaps at every measured cost, or at none)" in sentences(points, model(0.2), medium)[0]
+    assert (
+        " (within the model's residuals perhaps at every measured cost, or at none)"
+        in sentences(points, model(0.2), medium)[0]
+    )
     assert sentences(points, model(), medium, software=True) == []
     assert sentences(points, model(scene="another"), medium) == []
 
@@ -192,7 +263,12 @@ def test_a_scene_is_compared_by_what_it_is_about() -> None:
     points = [point(technique, flip=0.1, flicker=0.2) for technique in COUNTS]
     assert measure_of(("hdr", "alpha"), points) == FLIP
     assert measure_of(("thin lines",), points) == FLICKER
-    assert measure_of(("edges",), points) == measure_of(("alpha",), points) == measure_of(("texture",), points) == ERROR
+    assert (
+        measure_of(("edges",), points)
+        == measure_of(("alpha",), points)
+        == measure_of(("texture",), points)
+        == ERROR
+    )
     some = [*points[:-1], points[-1]._replace(flip=None, flicker=None)]
     assert measure_of(("hdr",), some) == DISPLAY and measure_of(("thin lines",), some) == ERROR
     assert DISPLAY.of(point(COUNTS[0], psnr_display_db=20.0)) == pytest.approx(0.1)
@@ -200,7 +276,8 @@ def test_a_scene_is_compared_by_what_it_is_about() -> None:
 
 
 ABOUT = {
-    "wires": ("thin lines",), "zone-plate": ("texture",), "foliage": ("alpha",), "foliage-to-coverage": ("alpha",),
+    "wires": ("thin lines",), "zone-plate": ("texture",), "foliage": ("alpha",),
+    "foliage-to-coverage": ("alpha",),
     "hdr-emitter": ("hdr",), "hdr-emitter-before": ("hdr",), "hdr-emitter-weighted": ("hdr",),
 }  # fmt: skip
 
@@ -223,9 +300,12 @@ def test_the_answer_is_by_scene_and_by_cost() -> None:
     found = study(points, shadings=SHADINGS, budget_ms=1.03)
     assert found.shading_names("a") == ["none", "heavy"]
     assert [(each.scene, each.shading, each.text) for each in found.recommendations] == [
-        ("a", "none", "take 4x"), ("a", "heavy", "take 2x"), ("b", "none", "take 4x"), ("b", "heavy", "take 2x"),
+        ("a", "none", "take 4x"), ("a", "heavy", "take 2x"), ("b", "none", "take 4x"), ("b",
+        "heavy", "take 2x"),
     ]  # fmt: skip
     assert [(each.scene, each.shading) for each in found.steps] == [
         (of, name) for of in ("a", "b") for name in ("none", "heavy") for _ in range(4)
     ]
-    assert [each.scene for each in found.advice] == ["a", "a", "b", "b"], "errors are told once for all costs"
+    assert [each.scene for each in found.advice] == ["a", "a", "b", "b"], (
+        "errors are told once for all costs"
+    )

@@ -1,4 +1,6 @@
-"""The reference is the exact area, and the standard patterns come as near to it as is known of them."""
+"""The reference is the exact area, and the standard patterns come as near to it as is known of
+them.
+"""
 
 from __future__ import annotations
 
@@ -33,17 +35,31 @@ def exact(polygon: Floats, width: int = SIDE, height: int = SIDE) -> list[list[F
 
 
 def worst(found: Floats, expected: list[list[Fraction]]) -> float:
-    """The largest error. Pixels that are empty or whole must be exactly so: by that the pixels that an edge crosses are known."""
-    pairs = [(float(a), b) for own, other in zip(found, expected, strict=True) for a, b in zip(own, other, strict=True)]
+    """The largest error. Pixels that are empty or whole must be exactly so: by that the pixels that
+    an edge crosses are known.
+    """
+    pairs = [
+        (float(a), b)
+        for own, other in zip(found, expected, strict=True)
+        for a, b in zip(own, other, strict=True)
+    ]
     assert [a for a, b in pairs if b in (0, 1)] == [float(b) for _, b in pairs if b in (0, 1)]
     return max(abs(float(Fraction(a) - b)) for a, b in pairs)
 
 
-def star(seed: int, corners: int, low: float = 0.5, high: float = 4.5, middle: tuple[float, float] = (3, 3)) -> Floats:
+def star(
+    seed: int,
+    corners: int,
+    low: float = 0.5,
+    high: float = 4.5,
+    middle: tuple[float, float] = (3, 3),
+) -> Floats:
     """A simple polygon, seldom convex, round a point that lies in it."""
     random = np.random.default_rng(seed)
     angles = (np.arange(corners) + random.uniform(0, 0.4, corners)) * 2 * np.pi / corners
-    return np.array(middle) + np.stack((np.cos(angles), np.sin(angles)), axis=1) * random.uniform(low, high, (corners, 1))
+    return np.array(middle) + np.stack((np.cos(angles), np.sin(angles)), axis=1) * random.uniform(
+        low, high, (corners, 1)
+    )
 
 
 @examples(1.5)
@@ -64,7 +80,15 @@ def test_polygons_are_as_fractions_have_them(seed: int) -> None:
     # In the picture as a whole it is the shoelace formula's.
     whole = areas(polygon + 5, 20, 20)
     shifted = polygon + 5
-    assert abs(float(Fraction(float(whole.sum())) - abs(shoelace([(Fraction(x), Fraction(y)) for x, y in shifted.tolist()])))) <= ACCURACY
+    assert (
+        abs(
+            float(
+                Fraction(float(whole.sum()))
+                - abs(shoelace([(Fraction(x), Fraction(y)) for x, y in shifted.tolist()]))
+            )
+        )
+        <= ACCURACY
+    )
 
 
 @pytest.mark.parametrize("bits", range(4, 32, 3))
@@ -82,11 +106,21 @@ def test_edges_from_far_away_are_as_accurate_as_near_ones(bits: int) -> None:
 
 def test_an_edge_from_far_away_in_plain_double_precision_would_miss_the_accuracy() -> None:
     """x + (y - y0) * run / rise without what the products leave out: the test above can fail."""
-    corners = np.array([(-(2.0**23) + 1 / 256, -(2.0**23) + 3 / 256), (2.0**23 - 5 / 256, 2.0**22 + 7 / 256)])
+    corners = np.array(
+        [(-(2.0**23) + 1 / 256, -(2.0**23) + 3 / 256), (2.0**23 - 5 / 256, 2.0**22 + 7 / 256)]
+    )
     (x0, y0), (x1, y1) = corners
     (a0, b0), (a1, b1) = ((Fraction(float(x)), Fraction(float(y))) for x, y in corners)
     y = -2796202.0
-    assert abs(float(Fraction(x0 + (y - y0) * (x1 - x0) / (y1 - y0)) - (a0 + (Fraction(y) - b0) * (a1 - a0) / (b1 - b0)))) > 10 * ACCURACY
+    assert (
+        abs(
+            float(
+                Fraction(x0 + (y - y0) * (x1 - x0) / (y1 - y0))
+                - (a0 + (Fraction(y) - b0) * (a1 - a0) / (b1 - b0))
+            )
+        )
+        > 10 * ACCURACY
+    )
 
 
 @examples(0.6)
@@ -94,7 +128,9 @@ def test_an_edge_from_far_away_in_plain_double_precision_would_miss_the_accuracy
 def test_the_parts_of_a_polygon_add_up_to_it(seed: int, corners: int) -> None:
     """A star round (3, 3), cut into triangles there: disjoint, and together the star."""
     polygon = star(seed, corners)
-    triangles = np.stack((np.broadcast_to([3.0, 3.0], polygon.shape), polygon, np.roll(polygon, -1, axis=0)), axis=1)
+    triangles = np.stack(
+        (np.broadcast_to([3.0, 3.0], polygon.shape), polygon, np.roll(polygon, -1, axis=0)), axis=1
+    )
     together = areas_of(triangles, SIDE, SIDE)
     assert np.abs(together - sum(areas(each, SIDE, SIDE) for each in triangles)).max() <= ACCURACY
     assert np.abs(together - areas(polygon, SIDE, SIDE)).max() <= ACCURACY
@@ -105,22 +141,30 @@ def test_shared_edges_leave_no_trace() -> None:
     random = np.random.default_rng(5)
     corners = np.stack(np.meshgrid(np.arange(9.0), np.arange(9.0)), axis=-1)
     corners[1:-1, 1:-1] += random.uniform(-0.24, 0.24, (7, 7, 2))
-    a, b, c, d = (corners[y : y + 8, x : x + 8].reshape(-1, 2) for y, x in ((0, 0), (0, 1), (1, 0), (1, 1)))
+    a, b, c, d = (
+        corners[y : y + 8, x : x + 8].reshape(-1, 2) for y, x in ((0, 0), (0, 1), (1, 0), (1, 1))
+    )
     triangles = np.concatenate((np.stack((a, b, c), axis=1), np.stack((d, b, c), axis=1)))
     assert (areas_of(triangles, 8, 8) == 1).all()
     # Inside of the union's border, too.
     half = areas_of(triangles * 0.5 + 1.25, 8, 8)
     assert (half[2:5, 2:5] == 1).all()
-    assert np.array_equal(half, areas(np.array([(1.25, 1.25), (5.25, 1.25), (5.25, 5.25), (1.25, 5.25)]), 8, 8))
+    assert np.array_equal(
+        half, areas(np.array([(1.25, 1.25), (5.25, 1.25), (5.25, 5.25), (1.25, 5.25)]), 8, 8)
+    )
 
 
 @pytest.mark.parametrize("seed", range(20))
 def test_neither_do_edges_that_end_on_others(seed: int) -> None:
-    """A quadrilateral cut in two, one of the parts again from the middle of the cut: inside of it every pixel is 1, exactly."""
+    """A quadrilateral cut in two, one of the parts again from the middle of the cut: inside of it
+    every pixel is 1, exactly.
+    """
     along = np.random.default_rng(seed).integers(-3 * SUBPIXELS, 3 * SUBPIXELS, 2) / SUBPIXELS
     middle, across = np.array((3.0, 3.0)), np.array((-along[1], along[0]))
     a, b, left, right = middle - along, middle + along, middle + across, middle - across
-    together = areas_of(np.array([(a, b, left), (a, middle, right), (middle, b, right)]), SIDE, SIDE)
+    together = areas_of(
+        np.array([(a, b, left), (a, middle, right), (middle, b, right)]), SIDE, SIDE
+    )
     assert worst(together, exact(np.array([a, left, b, right]))) <= ACCURACY
 
 
@@ -167,13 +211,17 @@ def test_what_is_no_polygon_is_refused(call: Any, says: str) -> None:
 
 
 def test_coverage_comes_as_near_to_the_area_as_samples_are_close() -> None:
-    """With n x n samples a straight edge misjudges at most the cells it crosses, 2n - 1 of n^2; a corner of a triangle in a pixel adds
-    another edge's. And the error goes on falling."""
+    """With n x n samples a straight edge misjudges at most the cells it crosses, 2n - 1 of n^2; a
+    corner of a triangle in a pixel adds another edge's. And the error goes on falling.
+    """
     triangle = np.array([[300, 150], [7003, 1805], [2117, 7508]])
     reference = areas(triangle / SUBPIXELS, 30, 30)
     errors = []
     for side in (1, 2, 4, 8, 16, 32, 64):
-        found = hits(rows(triangle[None] * side, 30, 30, grid(side), SUBPIXELS * side), 30, 30) / side**2
+        found = (
+            hits(rows(triangle[None] * side, 30, 30, grid(side), SUBPIXELS * side), 30, 30)
+            / side**2
+        )
         assert np.abs(found - reference).max() <= 2 * (2 * side - 1) / side**2
         errors.append(float(np.sqrt(np.mean((found - reference) ** 2))))
     assert all(finer < 0.7 * coarse for coarse, finer in pairwise(errors))
@@ -185,12 +233,17 @@ EDGES = SUBPIXELS * FINER
 
 
 def edges(upright: bool, locations: NDArray[np.int64], scale: int) -> Floats:
-    """What samples say, less what is so, of rectangles that end at each of 4096 places evenly over a pixel, an edge for each."""
+    """What samples say, less what is so, of rectangles that end at each of 4096 places evenly over
+    a pixel, an edge for each.
+    """
     end = np.arange(EDGES) * scale
     step = EDGES * scale
     top = np.arange(EDGES) * step
     zero = np.zeros_like(end)
-    corners = [np.stack(pair, axis=1) for pair in ((zero, top), (end, top), (zero, top + step), (end, top + step))]
+    corners = [
+        np.stack(pair, axis=1)
+        for pair in ((zero, top), (end, top), (zero, top + step), (end, top + step))
+    ]
     a, b, c, d = corners if upright else (corner[:, ::-1] for corner in corners)
     triangles = np.concatenate((np.stack((a, b, c), axis=1), np.stack((b, d, c), axis=1)))
     size = (1, EDGES) if upright else (EDGES, 1)
@@ -201,14 +254,20 @@ def edges(upright: bool, locations: NDArray[np.int64], scale: int) -> Floats:
 
 @pytest.mark.parametrize("upright", [True, False], ids=["upright", "lying"])
 @pytest.mark.parametrize("samples", [1, 2, 4, 8, 16])
-def test_the_error_of_an_edge_along_the_axes_is_that_of_as_many_steps(samples: int, upright: bool) -> None:
-    """1 / (n * sqrt(12)) for n distinct projections, here all n. The pattern of 16 adds its bias of 1/32."""
+def test_the_error_of_an_edge_along_the_axes_is_that_of_as_many_steps(
+    samples: int, upright: bool
+) -> None:
+    """1 / (n * sqrt(12)) for n distinct projections, here all n. The pattern of 16 adds its bias of
+    1/32.
+    """
     error = edges(upright, standard(samples), 1)
     bias = 1 / 32 if samples == 16 else 0
     # The places of edges begin at 0: half a step from their middle.
     assert error.mean() == pytest.approx(bias, abs=1 / EDGES)
     assert error.std() == pytest.approx(1 / (samples * np.sqrt(12)), rel=0.01)
-    assert np.sqrt(np.mean(error**2)) == pytest.approx(np.hypot(1 / (samples * np.sqrt(12)), bias), rel=0.01)
+    assert np.sqrt(np.mean(error**2)) == pytest.approx(
+        np.hypot(1 / (samples * np.sqrt(12)), bias), rel=0.01
+    )
 
 
 @pytest.mark.parametrize("side", [1, 2, 3, 4])

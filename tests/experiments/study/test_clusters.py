@@ -1,4 +1,6 @@
-"""Sweeps on clusters of Dask and Ray, started here: the same bytes as in one process, also when a worker is killed in the middle."""
+"""Sweeps on clusters of Dask and Ray, started here: the same bytes as in one process, also when a
+worker is killed in the middle.
+"""
 
 from __future__ import annotations
 
@@ -29,13 +31,19 @@ Workers = Callable[[], list[int]]
 @contextmanager
 def dask_cluster() -> Iterator[tuple[dict[str, str], Workers]]:
     """Two workers of a thread each."""
-    distributed = pytest.importorskip("distributed", reason="the group of test dependencies has it; not every Python has a wheel")
+    distributed = pytest.importorskip(
+        "distributed", reason="the group of test dependencies has it; not every Python has a wheel"
+    )
     cluster = distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None)
     with cluster, distributed.Client(cluster) as client:
         ids = client.run(os.getpid)
         yield (
             {"DASK_SCHEDULER_ADDRESS": cluster.scheduler_address},
-            lambda: [ids[worker] for worker, keys in client.processing().items() if keys and worker in ids],
+            lambda: [
+                ids[worker]
+                for worker, keys in client.processing().items()
+                if keys and worker in ids
+            ],
         )
 
 
@@ -51,11 +59,21 @@ sys.stdin.read()
 @contextmanager
 def ray_cluster() -> Iterator[tuple[dict[str, str], Workers]]:
     """A node of two processors that asks for a token, as Ray's do unless told otherwise."""
-    pytest.importorskip("ray", reason="the group of test dependencies has it; not every Python has a wheel")
+    pytest.importorskip(
+        "ray", reason="the group of test dependencies has it; not every Python has a wheel"
+    )
     psutil = pytest.importorskip("psutil", reason="comes with distributed")
-    settings = {"RAY_AUTH_MODE": "token", "RAY_AUTH_TOKEN": secrets.token_hex(32), "RAY_USAGE_STATS_ENABLED": "0"}
+    settings = {
+        "RAY_AUTH_MODE": "token",
+        "RAY_AUTH_TOKEN": secrets.token_hex(32),
+        "RAY_USAGE_STATS_ENABLED": "0",
+    }
     with subprocess.Popen(
-        [sys.executable, "-c", RAY_NODE], env=environment_of(settings), text=True, stdin=subprocess.PIPE, stdout=subprocess.PIPE
+        [sys.executable, "-c", RAY_NODE],
+        env=environment_of(settings),
+        text=True,
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
     ) as node:
         assert node.stdin is not None and node.stdout is not None
 
@@ -78,13 +96,29 @@ CLUSTERS = {"dask": dask_cluster, "ray": ray_cluster}
 
 
 @pytest.mark.parametrize("backend", CLUSTERS)
-def test_a_cluster_gives_the_same_bytes_also_when_a_worker_is_killed(tmp_path: Path, backend: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_cluster_gives_the_same_bytes_also_when_a_worker_is_killed(
+    tmp_path: Path, backend: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
     wanted = run(tmp_path, *ARGUMENTS, "--jobs", "1").stdout
     monkeypatch.setenv("PYTHONPATH", str(ROOT))
     with CLUSTERS[backend]() as (address, workers):
-        command = [sys.executable, "-m", "msaa_lint", *ARGUMENTS, "--backend", backend, "--resume", "points"]
+        command = [
+            sys.executable,
+            "-m",
+            "msaa_lint",
+            *ARGUMENTS,
+            "--backend",
+            backend,
+            "--resume",
+            "points",
+        ]
         with subprocess.Popen(
-            command, cwd=tmp_path, env=environment_of(address), text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE
+            command,
+            cwd=tmp_path,
+            env=environment_of(address),
+            text=True,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
         ) as running:
             killed = []
             while not killed and running.poll() is None:
@@ -99,11 +133,17 @@ def test_a_cluster_gives_the_same_bytes_also_when_a_worker_is_killed(tmp_path: P
     assert (running.returncode, out) == (0, wanted), error
 
 
-@pytest.mark.parametrize(("backend", "variable"), [("dask", "DASK_SCHEDULER_ADDRESS"), ("ray", "RAY_ADDRESS")])
-def test_a_cluster_that_is_not_there_is_an_error_on_one_line(tmp_path: Path, backend: str, variable: str) -> None:
+@pytest.mark.parametrize(
+    ("backend", "variable"), [("dask", "DASK_SCHEDULER_ADDRESS"), ("ray", "RAY_ADDRESS")]
+)
+def test_a_cluster_that_is_not_there_is_an_error_on_one_line(
+    tmp_path: Path, backend: str, variable: str
+) -> None:
     pytest.importorskip({"dask": "distributed", "ray": "ray"}[backend])
     settings = {variable: "127.0.0.1:1"}
     limits = {"DASK_DISTRIBUTED__COMM__TIMEOUTS__CONNECT": "2s"}
     done = run_process(tmp_path, *ARGUMENTS, "--backend", backend, **settings, **limits)
     assert done.returncode == 2 and done.stdout == "", done.stderr
-    assert done.stderr.splitlines()[-1].startswith(f"msaa-lint: --backend {backend}: no cluster: "), done.stderr
+    assert done.stderr.splitlines()[-1].startswith(
+        f"msaa-lint: --backend {backend}: no cluster: "
+    ), done.stderr

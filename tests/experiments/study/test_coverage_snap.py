@@ -1,4 +1,6 @@
-"""Corners are where a device puts them: the viewport's roundings, and the nearest sub-pixel position."""
+"""Corners are where a device puts them: the viewport's roundings, and the nearest sub-pixel
+position.
+"""
 
 from __future__ import annotations
 
@@ -70,17 +72,27 @@ def test_what_is_no_position_is_refused(pixels: float) -> None:
 
 @examples(4)
 @given(st.floats(-2, 2, width=32), st.integers(1, 16384), st.integers(1, 16384))
-def test_the_viewport_rounds_once_where_it_is_fused_and_twice_where_not(ndc: float, width: int, height: int) -> None:
+def test_the_viewport_rounds_once_where_it_is_fused_and_twice_where_not(
+    ndc: float, width: int, height: int
+) -> None:
     point = np.array([[ndc, -ndc]], dtype=np.float32)
     halves = (Fraction(width, 2), Fraction(height, 2))
-    once = [single(Fraction(sign * ndc) * half + half) for sign, half in zip((1, -1), halves, strict=True)]
-    twice = [single(Fraction(single(Fraction(sign * ndc) * half)) + half) for sign, half in zip((1, -1), halves, strict=True)]
+    once = [
+        single(Fraction(sign * ndc) * half + half)
+        for sign, half in zip((1, -1), halves, strict=True)
+    ]
+    twice = [
+        single(Fraction(single(Fraction(sign * ndc) * half)) + half)
+        for sign, half in zip((1, -1), halves, strict=True)
+    ]
     assert viewport(point, width, height).tolist() == [once]
     assert viewport(point, width, height, fused=False).tolist() == [twice]
 
 
 def test_one_rounding_is_not_two() -> None:
-    """At 1920 pixels the two differ somewhere, at 2048 nowhere within the picture's half: a power of two only moves the point."""
+    """At 1920 pixels the two differ somewhere, at 2048 nowhere within the picture's half: a power
+    of two only moves the point.
+    """
     points = np.random.default_rng(3).uniform(-1, 1, (20_000, 2)).astype(np.float32)
     assert (viewport(points, 1920, 1080) != viewport(points, 1920, 1080, fused=False)).sum() > 100
     assert (viewport(points, 2048, 1024) != viewport(points, 2048, 1024, fused=False)).sum() == 0
@@ -88,12 +100,20 @@ def test_one_rounding_is_not_two() -> None:
 
 @pytest.mark.parametrize("sign", [1, -1])
 def test_one_rounding_is_not_that_of_a_double_in_between(sign: int) -> None:
-    """2^32 + 1 is 641 times 6700417: the product lies just beyond half of a single's last place of 641, by less than a double holds.
-    The double is that half, a tie, and would be rounded back to 641."""
+    """2^32 + 1 is 641 times 6700417: the product lies just beyond half of a single's last place of
+    641, by less than a double holds. The double is that half, a tie, and would be rounded back to
+    641.
+    """
     ndc = np.array([[sign * 6700417 * 2.0**-47, 0]], dtype=np.float32)
     assert np.float32(np.float64(ndc[0, 0]) * 641.0 + 641.0) == 641
-    assert viewport(ndc, 1282, 2)[0, 0] == single(Fraction(float(ndc[0, 0])) * 641 + 641) == 641 + sign * 2.0**-14
+    assert (
+        viewport(ndc, 1282, 2)[0, 0]
+        == single(Fraction(float(ndc[0, 0])) * 641 + 641)
+        == 641 + sign * 2.0**-14
+    )
 
 
 def test_edges_of_the_picture_are_exact() -> None:
-    assert viewport(np.array([[-1, -1], [1, 1], [0, 0]], dtype=np.float32), 1921, 1081).tolist() == [[0, 0], [1921, 1081], [960.5, 540.5]]
+    assert viewport(
+        np.array([[-1, -1], [1, 1], [0, 0]], dtype=np.float32), 1921, 1081
+    ).tolist() == [[0, 0], [1921, 1081], [960.5, 540.5]]

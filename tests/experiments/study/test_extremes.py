@@ -1,4 +1,6 @@
-"""Studies whose errors are zero, equal, tiny, infinite or NaN, and whose times are missing, zero or equal: they are still reported."""
+"""Studies whose errors are zero, equal, tiny, infinite or NaN, and whose times are missing, zero or
+equal: they are still reported.
+"""
 
 from __future__ import annotations
 
@@ -36,11 +38,18 @@ NAMES = ("none", "medium")
 def points(draw: st.DrawFn, technique: Technique, name: str) -> Point:
     """A point of a technique under a cost of shading."""
     error, time, noise = draw(ERRORS), draw(TIMES), draw(NOISE)
-    bounds = (None, None) if time is None or noise is None else (time * (1 - noise), time * (1 + noise))
+    bounds = (
+        (None, None) if time is None or noise is None else (time * (1 - noise), time * (1 + noise))
+    )
     parts = {"fill_ms": time, "shading_ms": 0.0, "resolve_ms": 0.0} if time is not None else {}
-    seen = {"flip": draw(st.sampled_from([None, 0.0, error])), "flicker": draw(st.sampled_from([None, 0.0, error])), "bias": draw(ERRORS)}
+    seen = {
+        "flip": draw(st.sampled_from([None, 0.0, error])),
+        "flicker": draw(st.sampled_from([None, 0.0, error])),
+        "bias": draw(ERRORS),
+    }
     return timed(
-        technique, rmse=error, rmse_all=error, max_error=error, psnr_display_db=draw(ERRORS), shading=name, time_ms=time, ratio=None,
+        technique, rmse=error, rmse_all=error, max_error=error, psnr_display_db=draw(ERRORS),
+        shading=name, time_ms=time, ratio=None,
         low_ms=bounds[0], high_ms=bounds[1], **parts, **seen,
     )  # fmt: skip
 
@@ -48,16 +57,34 @@ def points(draw: st.DrawFn, technique: Technique, name: str) -> Point:
 @st.composite
 def studies(draw: st.DrawFn) -> Study:
     """The answer to a study of one scene."""
-    chosen = draw(st.lists(st.sampled_from(techniques()), min_size=1, max_size=7, unique=True).map(sorted))
+    chosen = draw(
+        st.lists(st.sampled_from(techniques()), min_size=1, max_size=7, unique=True).map(sorted)
+    )
     made = [draw(points(technique, name)) for name in NAMES for technique in chosen]
     quantities = st.builds(Terms, *[st.sampled_from([0.0, 1e-6, 1.0, 2.0])] * len(Terms._fields))
     terms = {technique: draw(quantities) for technique in chosen}
-    model = fit("edges", [MeasuredTime(technique, cost, draw(TIMES) or 0.0, 0.01) for technique in chosen for cost in (0.0, 2e6)], terms)
-    shadings = [Shading(name, nanoseconds=draw(st.sampled_from([None, 0.0, 1e6])), full_screen_ms=draw(TIMES)) for name in NAMES]
-    about = draw(st.sampled_from([(), ("hdr",), ("alpha",), ("texture",), ("thin lines",), ("edges",)]))
+    model = fit(
+        "edges",
+        [
+            MeasuredTime(technique, cost, draw(TIMES) or 0.0, 0.01)
+            for technique in chosen
+            for cost in (0.0, 2e6)
+        ],
+        terms,
+    )
+    shadings = [
+        Shading(
+            name, nanoseconds=draw(st.sampled_from([None, 0.0, 1e6])), full_screen_ms=draw(TIMES)
+        )
+        for name in NAMES
+    ]
+    about = draw(
+        st.sampled_from([(), ("hdr",), ("alpha",), ("texture",), ("thin lines",), ("edges",)])
+    )
     return conclude(
         Study(
-            "a device", "", (64, 48), 8, [SceneSummary("edges", "", ())._replace(about=about)], made, [], [], shadings=shadings,
+            "a device", "", (64, 48), 8, [SceneSummary("edges", "", ())._replace(about=about)],
+            made, [], [], shadings=shadings,
             software=draw(st.booleans()), models=[] if model is None else [model],
             budget_ms=draw(st.sampled_from([1e-9, 0.5, 1e9])),
         )
@@ -75,7 +102,11 @@ def printed(render: object, study: Study) -> str:
 def test_reports_have_figures_for_any_error_and_time(study: Study) -> None:
     jsonschema.validate(json.loads(printed(as_json, study), parse_constant=_refused), SCHEMA)
     text = printed(as_text, study)
-    sentences = [line for line in text.splitlines() if re.match(r"^(advice|step|take|[0-9]+x to)", line.strip())]
+    sentences = [
+        line
+        for line in text.splitlines()
+        if re.match(r"^(advice|step|take|[0-9]+x to)", line.strip())
+    ]
     assert not any(re.search(r"\b(nan|inf)\b", sentence) for sentence in sentences), sentences
     for choice in study.recommendations:
         assert choice.added.high_ms <= study.budget_ms

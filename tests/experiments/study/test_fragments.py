@@ -1,4 +1,6 @@
-"""Fragments and masks are the covered samples, and nothing else, however many triangles there are."""
+"""Fragments and masks are the covered samples, and nothing else, however many triangles there
+are.
+"""
 
 from __future__ import annotations
 
@@ -26,7 +28,9 @@ def each(corners: NDArray[np.int64], samples: int) -> NDArray[np.bool_]:
 
 @examples(1)
 @given(triangles(most=4), COUNTS)
-def test_fragments_are_the_pixels_with_a_covered_sample_in_order(corners: NDArray[np.int64], samples: int) -> None:
+def test_fragments_are_the_pixels_with_a_covered_sample_in_order(
+    corners: NDArray[np.int64], samples: int
+) -> None:
     exact = each(corners, samples)
     found = fragments(rows(corners, WIDTH, HEIGHT, standard(samples)), samples)
     triangle, y, x = np.nonzero(exact.any(axis=-1))
@@ -39,7 +43,9 @@ def test_fragments_are_the_pixels_with_a_covered_sample_in_order(corners: NDArra
 
 @examples(1)
 @given(triangles(most=5), COUNTS)
-def test_masks_are_what_any_triangle_covers_and_hits_count_them(corners: NDArray[np.int64], samples: int) -> None:
+def test_masks_are_what_any_triangle_covers_and_hits_count_them(
+    corners: NDArray[np.int64], samples: int
+) -> None:
     exact = each(corners, samples)
     found = rows(corners, WIDTH, HEIGHT, standard(samples))
     assert np.array_equal(masks(found, WIDTH, HEIGHT, samples), exact.any(axis=0))
@@ -47,7 +53,9 @@ def test_masks_are_what_any_triangle_covers_and_hits_count_them(corners: NDArray
 
 
 def test_pixels_between_the_samples_of_a_narrow_triangle_are_no_fragments() -> None:
-    """A needle that has one sample of the second pixel and the other of the eleventh, and crosses those between."""
+    """A needle that has one sample of the second pixel and the other of the eleventh, and crosses
+    those between.
+    """
     locations = np.array([(0, 0), (0, 128)])
     needle = np.array([[(256, 0), (260, 0), (3856, 200)]])
     found = fragments(rows(needle, 12, 1, locations), 2)
@@ -58,7 +66,9 @@ def test_pixels_between_the_samples_of_a_narrow_triangle_are_no_fragments() -> N
 
 @pytest.mark.parametrize("count", [1, 2, 255, 256, 257, 65535, 65536, 65537])
 @pytest.mark.parametrize("samples", [1, 4, 16])
-def test_however_many_triangles_cover_a_sample_its_neighbours_are_not_touched(count: int, samples: int) -> None:
+def test_however_many_triangles_cover_a_sample_its_neighbours_are_not_touched(
+    count: int, samples: int
+) -> None:
     found = rows(np.array([PIXEL] * count), 3, 2, standard(samples))
     exact = covered(np.array(PIXEL), 3, 2, standard(samples))
     assert np.array_equal(masks(found, 3, 2, samples), exact)
@@ -71,7 +81,9 @@ def test_masks_and_hits_take_any_count_of_samples(side: int) -> None:
     for subpixels, locations in ((SUBPIXELS * side, grid(side)), (SUBPIXELS, jittered(side, 1))):
         scale = subpixels // SUBPIXELS
         found = rows(corners * scale, 4, 4, locations, subpixels)
-        exact = np.stack([covered(triangle * scale, 4, 4, locations, subpixels) for triangle in corners])
+        exact = np.stack(
+            [covered(triangle * scale, 4, 4, locations, subpixels) for triangle in corners]
+        )
         drawn = masks(found, 4, 4, side * side)
         assert np.array_equal(drawn, exact.any(axis=0))
         assert np.array_equal(hits(found, 4, 4), exact.sum(axis=(0, 3)))

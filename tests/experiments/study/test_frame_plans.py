@@ -1,4 +1,6 @@
-"""A frame's own passes under every technique: what is created for each, and that the validation layer finds nothing wrong with it."""
+"""A frame's own passes under every technique: what is created for each, and that the validation
+layer finds nothing wrong with it.
+"""
 
 from __future__ import annotations
 
@@ -118,21 +120,33 @@ def image(plan: Plan, name: str) -> Image:
 
 
 def blits(plan: Plan) -> list[tuple[str, str]]:
-    return [(plan.images[step.source].name, plan.images[step.target].name) for step in plan.steps if step.kind == "blit"]
+    return [
+        (plan.images[step.source].name, plan.images[step.target].name)
+        for step in plan.steps
+        if step.kind == "blit"
+    ]
 
 
 def test_geometry_gets_samples_and_the_rest_stays() -> None:
-    """The scene and the particles share multisampled attachments, and the particles resolve them; shadows, tone mapping, and the user
-    interface are as described."""
+    """The scene and the particles share multisampled attachments, and the particles resolve them;
+    shadows, tone mapping, and the user interface are as described.
+    """
     studied = plans(FORWARD)
-    assert [studied.base.passes[number].name for number in sorted(studied.passes)] == ["scene", "particles"]
+    assert [studied.base.passes[number].name for number in sorted(studied.passes)] == [
+        "scene",
+        "particles",
+    ]
     assert "the techniques apply to scene, particles" in studied.notes
     plan = studied.of(FOUR).plan
     assert attached(plan, "scene") == [("hdr 4x", 4), ("depth 4x", 4)]
     assert attached(plan, "particles") == [("hdr 4x", 4), ("depth 4x", 4), ("hdr", 1)]
     assert attached(plan, "shadows") == [("shadow", 1)]
     assert attached(plan, "ui") == [("picture", 1)]
-    assert {pipeline.samples for name in ("scene", "particles") for pipeline in named(plan, name).pipelines} == {4}
+    assert {
+        pipeline.samples
+        for name in ("scene", "particles")
+        for pipeline in named(plan, name).pipelines
+    } == {4}
     scene, particles = named(plan, "scene"), named(plan, "particles")
     assert [attachment.store for attachment in scene.attachments] == [0, 0]
     assert scene.subpasses[0].resolves == ()
@@ -145,7 +159,12 @@ def test_every_technique_draws_the_same_triangles() -> None:
     studied = plans(FORWARD)
 
     def meshes(technique: Technique) -> list[object]:
-        return [inner.mesh for step in studied.of(technique).plan.steps for inner in step.inner if inner.kind == "draw"]
+        return [
+            inner.mesh
+            for step in studied.of(technique).plan.steps
+            for inner in step.inner
+            if inner.kind == "draw"
+        ]
 
     assert all(mesh for mesh in meshes(ONE))
     assert meshes(ONE) == meshes(FOUR) == meshes(EIGHT) == meshes(HALF) == meshes(LARGER)
@@ -154,17 +173,30 @@ def test_every_technique_draws_the_same_triangles() -> None:
 def test_what_is_read_afterward_is_resolved() -> None:
     plan = plans(RENDERING).of(EIGHT).plan
     color, ids, depth, stencil = plan.passes[0].rendered
-    assert [(plan.images[each.image].name, each.mode) for each in (color, ids)] == [("color 8x", 2), ("ids 8x", 1)]
-    assert [plan.images[each.resolve_image].name for each in (color, ids, depth, stencil)] == ["color", "ids", "depth", "depth"]
+    assert [(plan.images[each.image].name, each.mode) for each in (color, ids)] == [
+        ("color 8x", 2),
+        ("ids 8x", 1),
+    ]
+    assert [plan.images[each.resolve_image].name for each in (color, ids, depth, stencil)] == [
+        "color",
+        "ids",
+        "depth",
+        "depth",
+    ]
     assert depth.mode == stencil.mode == 1
     assert plan.passes[1].rendered == plans(RENDERING).base.passes[1].rendered
 
 
 def test_larger_images_are_scaled_down_where_they_are_used() -> None:
     plan = plans(FORWARD).of(LARGER).plan
-    assert attached(plan, "scene") == attached(plan, "particles") == [("hdr 2x2", 1), ("depth 2x2", 1)]
+    assert (
+        attached(plan, "scene") == attached(plan, "particles") == [("hdr 2x2", 1), ("depth 2x2", 1)]
+    )
     assert (image(plan, "hdr 2x2").width, image(plan, "hdr 2x2").height) == (192, 128)
-    assert (named(plan, "scene").framebuffers[0].width, named(plan, "tone_map").framebuffers[0].width) == (192, 96)
+    assert (
+        named(plan, "scene").framebuffers[0].width,
+        named(plan, "tone_map").framebuffers[0].width,
+    ) == (192, 96)
     assert blits(plan) == [("hdr 2x2", "hdr")]
     assert next(step.area for step in plan.steps if step.number == 1) == (0, 0, 192, 128)
 
@@ -182,20 +214,28 @@ def test_sample_shading_is_on_the_pipelines_of_the_technique() -> None:
 
 
 def test_a_plan_without_resolves_shows_what_they_take() -> None:
-    """The part of resolving is the difference to the same frame without; with one sample there is none."""
+    """The part of resolving is the difference to the same frame without; with one sample there is
+    none.
+    """
     studied = plans(FORWARD)
     assert studied.of(ONE).bare is None
     bare = studied.of(FOUR).bare
-    assert bare is not None and all(subpass.resolves == () for each in bare.passes for subpass in each.subpasses)
+    assert bare is not None and all(
+        subpass.resolves == () for each in bare.passes for subpass in each.subpasses
+    )
     larger = studied.of(LARGER).bare
     assert larger is not None and blits(larger) == []
     rendering = plans(RENDERING).of(FOUR).bare
-    assert rendering is not None and all(target.resolve_image == NONE for each in rendering.passes for target in each.rendered)
+    assert rendering is not None and all(
+        target.resolve_image == NONE for each in rendering.passes for target in each.rendered
+    )
 
 
 def test_a_depth_prepass_has_no_fragment_shader() -> None:
     text = (ROOT / "examples/phone/forward.msaa.yaml").read_text()
-    pipelines = {pipeline.name: pipeline for pipeline in named(plans(text).of(FOUR).plan, "scene").pipelines}
+    pipelines = {
+        pipeline.name: pipeline for pipeline in named(plans(text).of(FOUR).plan, "scene").pipelines
+    }
     assert (pipelines["prepass"].numerics, pipelines["prepass"].shaded) == (("",), False)
     assert all(pipelines[name].shaded for name in ("opaque", "leaves", "glass"))
 
@@ -207,7 +247,11 @@ def test_a_multisampled_frame_keeps_its_resolves() -> None:
     eight, one, larger = (studied.of(technique).plan for technique in (EIGHT, ONE, LARGER))
     assert image(eight, "scene_ms").samples == 8
     assert [step.kind for step in eight.steps].count("resolve") == 1
-    assert [step.kind for step in one.steps].count("resolve") == [step.kind for step in one.steps].count("copy") == 0
+    assert (
+        [step.kind for step in one.steps].count("resolve")
+        == [step.kind for step in one.steps].count("copy")
+        == 0
+    )
     assert attached(one, "scene") == [("scene", 1), ("depth_ms", 1)]
     assert blits(larger) == [("scene 2x2", "scene")]
 
@@ -227,7 +271,11 @@ renderPasses:
         ("images: {c: {format: R8G8B8A8_UNORM}}\n", NO_GEOMETRY),
         ("frame: {width: 64, height: 64}\n", "the frame has no passes"),
         (RENDERING.replace("loadOp: CLEAR", "loadOp: LOAD"), NO_GEOMETRY),
-        (SHADER_RESOLVE, "own cannot be drawn: it resolves with a shader of its own, which confirm does not support"),
+        (
+            SHADER_RESOLVE,
+            "own cannot be drawn: it resolves with a shader of its own, which confirm does not "
+            "support",
+        ),
     ],
 )
 def test_what_cannot_be_done_has_a_reason(text: str, reason: str) -> None:
@@ -245,15 +293,26 @@ def session() -> Iterator[Session]:
 
 
 def messages(session: Session, plan: Plan) -> list[str]:
-    """The validation layer's errors about a plan, without work of a cost, which only a timing does."""
-    plain = tuple(each._replace(pipelines=tuple(p._replace(shaded=False) for p in each.pipelines)) for each in plan.passes)
+    """The validation layer's errors about a plan, without work of a cost, which only a timing
+    does.
+    """
+    plain = tuple(
+        each._replace(pipelines=tuple(p._replace(shaded=False) for p in each.pipelines))
+        for each in plan.passes
+    )
     refused = gate.gate(plan, session.open())
     assert refused == {}
     run = session.run(plan._replace(passes=plain), range(len(plan.passes)), {})
     assert not run.failed
-    assert [(number, each.end, each.error) for number, each in run.passes.items() if each.end or each.error] == []
+    assert [
+        (number, each.end, each.error)
+        for number, each in run.passes.items()
+        if each.end or each.error
+    ] == []
     found = [*run.messages, *(message for each in run.passes.values() for message in each.messages)]
-    return [message["text"] for message in found if "VUID" in message["id"] or "SYNC" in message["id"]]
+    return [
+        message["text"] for message in found if "VUID" in message["id"] or "SYNC" in message["id"]
+    ]
 
 
 def test_shaders_of_the_frame_are_as_described() -> None:
@@ -261,7 +320,9 @@ def test_shaders_of_the_frame_are_as_described() -> None:
     (document,) = inputs(Request(paths=[str(ROOT / "examples/lit/forward.msaa.yaml")])).inputs
     studied = FramePlans(document.frame, document.file, SIZE)
     assert studied.as_described and not plans(FORWARD).as_described
-    assert not any(pipeline.shaded for each in studied.of(FOUR).plan.passes for pipeline in each.pipelines)
+    assert not any(
+        pipeline.shaded for each in studied.of(FOUR).plan.passes for pipeline in each.pipelines
+    )
 
 
 @pytest.mark.parametrize("technique", ON_LAVAPIPE, ids=lambda each: each.name)
@@ -269,14 +330,18 @@ def test_shaders_of_the_frame_are_as_described() -> None:
 def test_the_layer_has_no_message(session: Session, text: str, technique: Technique) -> None:
     found = plans(text).of(technique)
     assert found.reason == ""
-    assert session.open() and session.layer is not None, "the validation layer is missing: apt install vulkan-validationlayers"
+    assert session.open() and session.layer is not None, (
+        "the validation layer is missing: apt install vulkan-validationlayers"
+    )
     assert messages(session, found.plan) == []
 
 
 EXAMPLES = sorted([*ROOT.glob("examples/*/*.msaa.yaml"), *ROOT.glob("examples/capture/*.jsonl")])
 
 OWN_MISTAKES = {"article-advice.msaa.yaml": "VUID-VkImageCreateInfo-usage-00963"}
-"""What the layer says about a frame however it is drawn: an image is TRANSIENT_ATTACHMENT and SAMPLED."""
+"""What the layer says about a frame however it is drawn: an image is TRANSIENT_ATTACHMENT and
+SAMPLED.
+"""
 
 
 @pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.name)
@@ -291,7 +356,11 @@ def test_examples_have_plans_without_messages(session: Session, path: Path) -> N
                 assert found.reason == "the frame has no passes"
                 continue
             expected = OWN_MISTAKES.get(path.name)
-            assert [text for text in messages(session, found.plan) if expected is None or expected not in text] == []
+            assert [
+                text
+                for text in messages(session, found.plan)
+                if expected is None or expected not in text
+            ] == []
 
 
 def test_no_image_is_left_that_nothing_draws_to() -> None:

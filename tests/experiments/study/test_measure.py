@@ -1,4 +1,6 @@
-"""Errors against closed forms: edges along the axes, the bias of 16 samples, perfect agreement, sums in double precision."""
+"""Errors against closed forms: edges along the axes, the bias of 16 samples, perfect agreement,
+sums in double precision.
+"""
 
 from __future__ import annotations
 
@@ -20,7 +22,9 @@ LENGTH = 2048
 """Pixels in which an edge moves by one pixel: it is everywhere within a pixel, evenly."""
 
 
-def drawn(polygons: Sequence[Sequence[shapes.Point]], width: int, height: int, **changed: object) -> Scene:
+def drawn(
+    polygons: Sequence[Sequence[shapes.Point]], width: int, height: int, **changed: object
+) -> Scene:
     """White polygons that do not overlap, on black."""
     made = shapes.triangles(polygons)
     colors = shapes.uniform_colors(len(made), WHITE)
@@ -29,7 +33,9 @@ def drawn(polygons: Sequence[Sequence[shapes.Point]], width: int, height: int, *
 
 
 def edge(upright: bool, turned: bool = False) -> Scene:
-    """One edge as good as along an axis; what is left of it, or above, is white, or `turned` what is not."""
+    """One edge as good as along an axis; what is left of it, or above, is white, or `turned` what
+    is not.
+    """
     left: list[shapes.Point] = [(0, 0), (1, 0), (2, LENGTH), (0, LENGTH)]
     right: list[shapes.Point] = [(1, 0), (3, 0), (3, LENGTH), (2, LENGTH)]
     shape = right if turned else left
@@ -39,7 +45,9 @@ def edge(upright: bool, turned: bool = False) -> Scene:
 @pytest.mark.parametrize("upright", [True, False])
 @pytest.mark.parametrize("count", COUNTS)
 def test_the_error_of_axis_aligned_edges_has_a_closed_form(count: int, upright: bool) -> None:
-    """1 / (n sqrt(12)) for n places of samples along the axis, evenly spread; 16 samples are 1/32 pixel off besides."""
+    """1 / (n sqrt(12)) for n places of samples along the axis, evenly spread; 16 samples are 1/32
+    pixel off besides.
+    """
     found = measure.point(edge(upright), Technique(MSAA, count))
     shift = 1 / 32 if count == 16 else 0.0
     assert found.rmse == pytest.approx(math.hypot(1 / (count * math.sqrt(12)), shift), rel=0.01)
@@ -48,28 +56,47 @@ def test_the_error_of_axis_aligned_edges_has_a_closed_form(count: int, upright: 
 
 @pytest.mark.parametrize("grid", [2, 3, 4])
 def test_supersampling_has_as_many_places_along_an_axis_as_its_grid(grid: int) -> None:
-    assert measure.point(edge(True), Technique(SSAA, grid * grid, grid=grid)).rmse == pytest.approx(1 / (grid * math.sqrt(12)), rel=0.01)
+    assert measure.point(edge(True), Technique(SSAA, grid * grid, grid=grid)).rmse == pytest.approx(
+        1 / (grid * math.sqrt(12)), rel=0.01
+    )
 
 
 @pytest.mark.parametrize("upright", [True, False])
 @pytest.mark.parametrize("count", COUNTS)
 def test_the_bias_of_edges_is_that_of_the_pattern(count: int, upright: bool) -> None:
-    """The 16 samples' mean is 1/32 pixel left of and above the middle: so much more of what lies there is covered, and less of the rest."""
+    """The 16 samples' mean is 1/32 pixel left of and above the middle: so much more of what lies
+    there is covered, and less of the rest.
+    """
     shift = 1 / 32 if count == 16 else 0.0
-    assert measure.point(edge(upright), Technique(MSAA, count)).bias == pytest.approx(shift, abs=2e-4)
-    assert measure.point(edge(upright, turned=True), Technique(MSAA, count)).bias == pytest.approx(-shift, abs=2e-4)
+    assert measure.point(edge(upright), Technique(MSAA, count)).bias == pytest.approx(
+        shift, abs=2e-4
+    )
+    assert measure.point(edge(upright, turned=True), Technique(MSAA, count)).bias == pytest.approx(
+        -shift, abs=2e-4
+    )
 
 
-@pytest.mark.parametrize("technique", [Technique(MSAA, 16), Technique(SAMPLE_SHADING, 8, 1.0), Technique(SSAA, 9, grid=3)])
+@pytest.mark.parametrize(
+    "technique",
+    [Technique(MSAA, 16), Technique(SAMPLE_SHADING, 8, 1.0), Technique(SSAA, 9, grid=3)],
+)
 def test_what_agrees_perfectly_has_no_error_and_infinite_psnr(technique: Technique) -> None:
     found = measure.point(drawn([shapes.rectangle(4, 8, 20, 24)], 32, 32), technique, ssim=True)
-    assert (found.rmse, found.rmse_all, found.max_error, found.bias, found.edge_pixels) == (0, 0, 0, 0, 0)
+    assert (found.rmse, found.rmse_all, found.max_error, found.bias, found.edge_pixels) == (
+        0,
+        0,
+        0,
+        0,
+        0,
+    )
     assert found.psnr_db == found.psnr_display_db == math.inf
     assert found.ssim == 1.0
 
 
 def test_a_known_picture_has_known_errors() -> None:
-    """A bar that covers a quarter of each of 32 pixels, and the single samples of them none of it."""
+    """A bar that covers a quarter of each of 32 pixels, and the single samples of them none of
+    it.
+    """
     found = measure.point(drawn([shapes.rectangle(0, 0, 32, 0.25)], 32, 32), Technique(MSAA, 1))
     assert found.edge_pixels == 32
     assert (found.rmse, found.max_error, found.bias) == (0.25, 0.25, -0.25)
@@ -81,7 +108,9 @@ def test_a_known_picture_has_known_errors() -> None:
 
 def test_ssim_is_lower_the_worse_it_looks() -> None:
     made = scene("siemens-star", 96, 96)
-    one, four, sixteen = (measure.point(made, Technique(MSAA, count), ssim=True).ssim for count in (1, 4, 16))
+    one, four, sixteen = (
+        measure.point(made, Technique(MSAA, count), ssim=True).ssim for count in (1, 4, 16)
+    )
     assert one is not None and four is not None and sixteen is not None
     assert one < four < sixteen < 1
     assert measure.point(made, Technique(MSAA, 1)).ssim is None
@@ -89,7 +118,9 @@ def test_ssim_is_lower_the_worse_it_looks() -> None:
 
 @pytest.mark.parametrize("bits", [4, 8])
 def test_errors_are_of_the_snapped_corners(bits: int) -> None:
-    """A bar whose edge lies between the steps that the device has: the samples find the snapped one's area exactly."""
+    """A bar whose edge lies between the steps that the device has: the samples find the snapped
+    one's area exactly.
+    """
     made = drawn([shapes.rectangle(0, 0, 32, 8 + 0.5 + 0.3 / 256)], 32, 32)
     assert measure.point(made, Technique(MSAA, 2), bits).rmse == 0
     assert (measure.truth(made, bits=bits).image[8] == 0.5).all()
@@ -151,7 +182,9 @@ def test_the_simulation_does_not_depend_on_bands(monkeypatch: pytest.MonkeyPatch
 
 
 def test_light_that_a_scene_does_not_map_is_shown_mapped() -> None:
-    """A quarter of a pixel of light 3 times display white, which Reinhard's curve maps to 3/7, and one sample that sees none of it."""
+    """A quarter of a pixel of light 3 times display white, which Reinhard's curve maps to 3/7, and
+    one sample that sees none of it.
+    """
     bar = drawn([shapes.rectangle(0, 0, 32, 0.25)], 32, 32)
     exact = bar.exact
 
@@ -163,12 +196,16 @@ def test_light_that_a_scene_does_not_map_is_shown_mapped() -> None:
     code = {light: 1.055 * light ** (1 / 2.4) - 0.055 for light in (0.75, 0.75 / 1.75)}
     for effects, light in (((), 0.75), (("hdr",), 0.75 / 1.75)):
         found = measure.point(made._replace(effects=effects), Technique(MSAA, 1))
-        assert found.psnr_display_db == pytest.approx(-10 * math.log10(code[light] ** 2 / 32), rel=1e-6)
+        assert found.psnr_display_db == pytest.approx(
+            -10 * math.log10(code[light] ** 2 / 32), rel=1e-6
+        )
 
 
 def test_flip_is_0_where_nothing_differs_and_falls_with_more_samples() -> None:
     made = scene("siemens-star", 96, 96)
-    one, sixteen = (measure.point(made, Technique(MSAA, count), flip=True).flip for count in (1, 16))
+    one, sixteen = (
+        measure.point(made, Technique(MSAA, count), flip=True).flip for count in (1, 16)
+    )
     assert one is not None and sixteen is not None and 0 < sixteen < one < 1
     black, white = np.zeros((8, 8, 3), np.float32), np.ones((8, 8, 3), np.float32)
     assert displayed.flip(black, black) == 0 and displayed.flip(white, black) > 0.9

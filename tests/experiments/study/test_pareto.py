@@ -9,8 +9,24 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from msaa_lint.experiments.study.measures import FLICKER
-from msaa_lint.experiments.study.pareto import SAME, Vector, as_fast, beats, front, interval, mark_best, tie
-from msaa_lint.experiments.study.points import MSAA, SAMPLE_SHADING, SSAA, Point, Technique, techniques
+from msaa_lint.experiments.study.pareto import (
+    SAME,
+    Vector,
+    as_fast,
+    beats,
+    front,
+    interval,
+    mark_best,
+    tie,
+)
+from msaa_lint.experiments.study.points import (
+    MSAA,
+    SAMPLE_SHADING,
+    SSAA,
+    Point,
+    Technique,
+    techniques,
+)
 from tests.experiments.study.fakes import point, timed
 
 FEW = st.integers(0, 6).map(float)
@@ -37,7 +53,9 @@ def test_order_and_repetition_change_nothing(vectors: list[Vector], random: obje
 
 
 @given(st.lists(st.tuples(FEW, FEW), min_size=1, max_size=8), FEW, FEW)
-def test_what_is_beaten_takes_nothing_from_the_front(vectors: list[Vector], more: float, dearer: float) -> None:
+def test_what_is_beaten_takes_nothing_from_the_front(
+    vectors: list[Vector], more: float, dearer: float
+) -> None:
     worse = (vectors[0][0] + more + 1, vectors[0][1] + dearer)
     assert front([*vectors, worse]) == [*front(vectors), False]
 
@@ -65,9 +83,15 @@ def test_error_against_time() -> None:
 
 def test_without_a_time_samples_invocations_and_bytes_count() -> None:
     assert best([point(technique) for technique in techniques()]) == ["1x", "2x", "4x", "8x"]
-    dear = [point(technique, bytes_per_frame=9.0 if technique.samples > 4 else 1.0) for technique in techniques((MSAA,))]
+    dear = [
+        point(technique, bytes_per_frame=9.0 if technique.samples > 4 else 1.0)
+        for technique in techniques((MSAA,))
+    ]
     assert best(dear) == ["1x", "2x", "4x", "8x"]
-    cheap = [point(Technique(MSAA, 4), bytes_per_frame=2.0, rmse=0.1), point(Technique(SSAA, 4, grid=2), bytes_per_frame=1.0, rmse=0.1)]
+    cheap = [
+        point(Technique(MSAA, 4), bytes_per_frame=2.0, rmse=0.1),
+        point(Technique(SSAA, 4, grid=2), bytes_per_frame=1.0, rmse=0.1),
+    ]
     assert best(cheap) == ["4x", "SSAA 2x2"]
     half = [cheap[0], cheap[1]._replace(bytes_per_frame=None)]
     assert best(half) == ["4x"], "bytes that are not known of all are compared of none"
@@ -88,13 +112,25 @@ def test_errors_that_differ_by_rounding_are_the_same() -> None:
 def test_scenes_have_fronts_of_their_own() -> None:
     points = [point(Technique(MSAA, 1), "a", rmse=0.1), point(Technique(MSAA, 1), "b", rmse=0.2)]
     assert [each.best for each in mark_best(points)] == [True, True]
-    assert [each.best for each in mark_best([each._replace(best=True, rmse=math.nan) for each in points])] == [False, False]
+    assert [
+        each.best
+        for each in mark_best([each._replace(best=True, rmse=math.nan) for each in points])
+    ] == [False, False]
 
 
-@pytest.mark.parametrize(("time", "names"), [(2.0 * SAME, ["4x"]), (2.0 * SAME + 0.01, ["4x", "4x, half of them shaded"])])
-def test_what_does_the_same_with_less_work_in_the_same_time_takes_the_place(time: float, names: list[str]) -> None:
+@pytest.mark.parametrize(
+    ("time", "names"),
+    [(2.0 * SAME, ["4x"]), (2.0 * SAME + 0.01, ["4x", "4x, half of them shaded"])],
+)
+def test_what_does_the_same_with_less_work_in_the_same_time_takes_the_place(
+    time: float, names: list[str]
+) -> None:
     """A clock's noise puts no shader invocations on the front that change nothing."""
-    plain, half, each = Technique(MSAA, 4), Technique(SAMPLE_SHADING, 4, 0.5), Technique(SAMPLE_SHADING, 4, 1.0)
+    plain, half, each = (
+        Technique(MSAA, 4),
+        Technique(SAMPLE_SHADING, 4, 0.5),
+        Technique(SAMPLE_SHADING, 4, 1.0),
+    )
     points = [timed(plain, time_ms=time), timed(half, time_ms=2.0), timed(each, time_ms=2.2)]
     assert best(points) == (names if len(names) == 1 else names[1:])
     better = [points[0], points[1]._replace(rmse=0.07)]
@@ -102,7 +138,9 @@ def test_what_does_the_same_with_less_work_in_the_same_time_takes_the_place(time
 
 
 @pytest.mark.parametrize(("time", "name"), [(0.920896, "2x"), (0.9235, "2x, each shaded")])
-def test_a_difference_that_another_machine_would_not_show_decides_nothing(time: float, name: str) -> None:
+def test_a_difference_that_another_machine_would_not_show_decides_nothing(
+    time: float, name: str
+) -> None:
     """A GPU's times of work that is the same, whose intervals are apart."""
     plain, each = Technique(MSAA, 2), Technique(SAMPLE_SHADING, 2, 1.0)
     points = [
@@ -113,12 +151,22 @@ def test_a_difference_that_another_machine_would_not_show_decides_nothing(time: 
 
 
 TIMES = st.tuples(st.integers(1, 9), st.integers(0, 3), st.integers(0, 3))
-NOISY = st.lists(st.tuples(st.sampled_from(techniques()), TIMES, st.sampled_from([0.1, 0.2, 0.3])), min_size=1, max_size=9)
+NOISY = st.lists(
+    st.tuples(st.sampled_from(techniques()), TIMES, st.sampled_from([0.1, 0.2, 0.3])),
+    min_size=1,
+    max_size=9,
+)
 
 
 def noisy(rows: list[tuple[Technique, tuple[int, int, int], float]]) -> list[Point]:
     return [
-        timed(technique, time_ms=float(time), low_ms=float(time - low), high_ms=float(time + high), rmse=error)
+        timed(
+            technique,
+            time_ms=float(time),
+            low_ms=float(time - low),
+            high_ms=float(time + high),
+            rmse=error,
+        )
         for technique, (time, low, high), error in rows
     ]
 
@@ -139,12 +187,19 @@ def test_within_the_noise_every_point_that_is_not_on_the_front_gives_way_to_one_
         assert not (one.best and better)
         if not one.best:
             equal = [other for other in members if as_fast(other, one) and other.rmse == one.rmse]
-            assert better or any(beats(work(other), work(one)) or (other.time_ms or 0) <= (one.time_ms or 0) for other in equal)
+            assert better or any(
+                beats(work(other), work(one)) or (other.time_ms or 0) <= (one.time_ms or 0)
+                for other in equal
+            )
 
 
 @given(NOISY, st.randoms())
-def test_the_front_does_not_depend_on_the_order(rows: list[tuple[Technique, tuple[int, int, int], float]], random: object) -> None:
-    points = noisy([row for row in rows if row[0] not in [other[0] for other in rows if other is not row]])
+def test_the_front_does_not_depend_on_the_order(
+    rows: list[tuple[Technique, tuple[int, int, int], float]], random: object
+) -> None:
+    points = noisy(
+        [row for row in rows if row[0] not in [other[0] for other in rows if other is not row]]
+    )
     mixed = list(points)
     random.shuffle(mixed)  # type: ignore[attr-defined]
     assert sorted(best(points)) == sorted(best(mixed))
@@ -180,7 +235,15 @@ def test_the_error_that_counts_decides() -> None:
 
 def test_times_that_do_not_count_put_nothing_on_the_front() -> None:
     """A software driver's."""
-    slow = [timed(technique, time_ms=10.0 / technique.samples) for technique in techniques((MSAA,), (4, 8))]
+    slow = [
+        timed(technique, time_ms=10.0 / technique.samples)
+        for technique in techniques((MSAA,), (4, 8))
+    ]
     assert best(slow) == ["8x"]
-    assert [each.technique.name for each in mark_best(slow, timed=False) if each.best] == ["4x", "8x"]
-    assert [each.best for each in mark_best([slow[0], slow[1]._replace(time_ms=None)], timed=False)] == [True, False], "it does not draw it"
+    assert [each.technique.name for each in mark_best(slow, timed=False) if each.best] == [
+        "4x",
+        "8x",
+    ]
+    assert [
+        each.best for each in mark_best([slow[0], slow[1]._replace(time_ms=None)], timed=False)
+    ] == [True, False], "it does not draw it"

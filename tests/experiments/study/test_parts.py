@@ -1,4 +1,6 @@
-"""Parts of a picture are those of the whole, exact and simulated, and a scene that has moved is the same scene elsewhere."""
+"""Parts of a picture are those of the whole, exact and simulated, and a scene that has moved is the
+same scene elsewhere.
+"""
 
 from __future__ import annotations
 
@@ -27,7 +29,10 @@ def described() -> Scene:
 
 def assert_crops(parts: Simulation, whole: Simulation, windows: tuple[Part, ...]) -> None:
     for number, window in enumerate(windows):
-        crop = slice(window.top, window.top + window.height), slice(window.left, window.left + window.width)
+        crop = (
+            slice(window.top, window.top + window.height),
+            slice(window.left, window.left + window.width),
+        )
         for part, picture in zip(parts[:2], whole[:2], strict=True):
             assert (part is None) == (picture is None)
             if part is not None and picture is not None:
@@ -50,18 +55,27 @@ def test_windows_are_drawn_as_in_the_whole(name: str, technique: Technique) -> N
 def test_the_exact_picture_of_windows_is_that_of_the_whole(name: str) -> None:
     made = described() if name == "description" else scene(name, WIDTH, HEIGHT)
     whole = truth(made)
-    windows = [Part(0, 0, 16, 16), Part(37, 21, 16, 16), Part(made.width - 16, made.height - 16, 16, 16)]
+    windows = [
+        Part(0, 0, 16, 16),
+        Part(37, 21, 16, 16),
+        Part(made.width - 16, made.height - 16, 16, 16),
+    ]
     together = made.exact(Simulator(made, FOUR).snapped(windows).view())
     for number, part in enumerate(windows):
         crop = slice(part.top, part.top + 16), slice(part.left, part.left + 16)
-        for exact in (truth(made, part=part), (together.image[number], together.edge_pixels[number])):
+        for exact in (
+            truth(made, part=part),
+            (together.image[number], together.edge_pixels[number]),
+        ):
             assert exact[0] == pytest.approx(whole.image[crop], abs=1e-11)
             assert np.array_equal(exact[1], whole.edge_pixels[crop])
 
 
 @pytest.mark.parametrize("name", [*NAMES, "description"])
 @pytest.mark.parametrize(("dx", "dy"), [(1, 1), (1, -1), (-2, 3)])
-def test_a_scene_that_moved_by_whole_pixels_is_itself_elsewhere(name: str, dx: int, dy: int) -> None:
+def test_a_scene_that_moved_by_whole_pixels_is_itself_elsewhere(
+    name: str, dx: int, dy: int
+) -> None:
     """Coverage, light and the exact picture; not dithering, which belongs to the screen."""
     made = described() if name == "description" else scene(name, WIDTH, HEIGHT)
     still, moved = Part(30, 16, 20, 24), Part(30 + dx, 16 + dy, 20, 24, dx, dy)
@@ -70,14 +84,20 @@ def test_a_scene_that_moved_by_whole_pixels_is_itself_elsewhere(name: str, dx: i
         return
     one, other = (Simulator(made, FOUR).render([part]) for part in (still, moved))
     # Depths are rounded elsewhere.
-    assert np.count_nonzero(np.abs(one.image - other.image) > 1e-5) <= 4 * ("depth-test" in made.effects)
+    assert np.count_nonzero(np.abs(one.image - other.image) > 1e-5) <= 4 * (
+        "depth-test" in made.effects
+    )
 
 
 @pytest.mark.parametrize("name", SAMPLED)
 def test_between_pixels_the_exact_picture_is_what_many_samples_give(name: str) -> None:
     """At the border of the picture too, which moves along."""
     made = scene(name, WIDTH, HEIGHT)
-    for part in (Part(0, 0, 16, 16, 0.25, 0.75), Part(40, 30, 16, 16, 11 / 64, -11 / 64), Part(83, 54, 16, 16, -0.5, -0.25)):
+    for part in (
+        Part(0, 0, 16, 16, 0.25, 0.75),
+        Part(40, 30, 16, 16, 11 / 64, -11 / 64),
+        Part(83, 54, 16, 16, -0.5, -0.25),
+    ):
         simulator = Simulator(made, Technique(SSAA, 256, grid=16))
         triangles = simulator.snapped([part])
         exact, measured = made.exact(triangles.view()), simulator.render([part], triangles)

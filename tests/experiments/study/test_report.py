@@ -1,4 +1,6 @@
-"""What is printed of points that nobody simulated: byte for byte, safe to show, true to its schema."""
+"""What is printed of points that nobody simulated: byte for byte, safe to show, true to its
+schema.
+"""
 
 from __future__ import annotations
 
@@ -29,7 +31,14 @@ from msaa_lint.experiments.study.answer import conclude
 from msaa_lint.experiments.study.crops import crops, most_different, short_name, shown
 from msaa_lint.experiments.study.measure import truth
 from msaa_lint.experiments.study.outcome import SceneSummary, Study, UntimedTechnique
-from msaa_lint.experiments.study.points import MSAA, SAMPLE_SHADING, SSAA, Point, Technique, techniques
+from msaa_lint.experiments.study.points import (
+    MSAA,
+    SAMPLE_SHADING,
+    SSAA,
+    Point,
+    Technique,
+    techniques,
+)
 from msaa_lint.experiments.study.scenes import scene
 from msaa_lint.experiments.study.shading import Shading
 from msaa_lint.experiments.study.simulate import simulate
@@ -48,7 +57,10 @@ HOSTILE = "\x1b[31m\u202e##[error]\udcff[bold]\n"
 def study(**other: Any) -> Study:
     """Two scenes, one of coverage and one of colour, timed by a device that has no 16 samples."""
     points = [timed(technique) for technique in techniques()]
-    points += [timed(technique, "texture", rmse=0.3 / math.sqrt(technique.shaded), psnr_db=math.inf) for technique in techniques((MSAA,))]
+    points += [
+        timed(technique, "texture", rmse=0.3 / math.sqrt(technique.shaded), psnr_db=math.inf)
+        for technique in techniques((MSAA,))
+    ]
     missing = {"time_ms": None, "time_from": "", "ratio": None}
     points = [each._replace(**missing) if each.technique.samples == 16 else each for each in points]
     return conclude(
@@ -58,7 +70,9 @@ def study(**other: Any) -> Study:
             (64, 48),
             8,
             [
-                SceneSummary("edges", "edges at all angles", (("depth-test", "a pipeline tests depth"),)),
+                SceneSummary(
+                    "edges", "edges at all angles", (("depth-test", "a pipeline tests depth"),)
+                ),
                 SceneSummary("texture", "detail inside of triangles", (), coverage=False),
             ],
             points,
@@ -84,7 +98,14 @@ COSTS = (
 def costly(**other: Any) -> Study:
     """One scene under three costs of shading, with all that can be measured."""
     of = [*techniques((MSAA,), (1, 2, 4, 8)), Technique(SAMPLE_SHADING, 4, 1.0)]
-    measured = {"flip": 0.05, "invocations": 1234567, "expected_invocations": 1230000, "fill_ms": 0.5, "shading_ms": 0.3, "resolve_ms": 0.2}
+    measured = {
+        "flip": 0.05,
+        "invocations": 1234567,
+        "expected_invocations": 1230000,
+        "fill_ms": 0.5,
+        "shading_ms": 0.3,
+        "resolve_ms": 0.2,
+    }
     points = [
         shaded(
             technique,
@@ -100,8 +121,17 @@ def costly(**other: Any) -> Study:
         for technique in of
     ]
     base = {technique: TIMES[technique.samples] for technique in of}
-    model = fakes.model("edges", base, {technique: 3072.0 * technique.shaded for technique in of}, 0.031, 0.01)
-    more = {"scenes": study().scenes[:1], "points": points, "failed": [], "shadings": COSTS, "models": [model], "budget_ms": 1.2}
+    model = fakes.model(
+        "edges", base, {technique: 3072.0 * technique.shaded for technique in of}, 0.031, 0.01
+    )
+    more = {
+        "scenes": study().scenes[:1],
+        "points": points,
+        "failed": [],
+        "shadings": COSTS,
+        "models": [model],
+        "budget_ms": 1.2,
+    }
     return study(**{**more, **other})
 
 
@@ -145,7 +175,9 @@ def test_a_software_driver_s_times_are_labelled_and_advise_nothing() -> None:
     text = printed(as_text, of, Options(width=100))
     check("software.txt", text)
     assert "llvmpipe is a software driver: its times say nothing about a GPU" in text
-    assert text.count("software") == 1 and text.index("software") < text.index("RMSE"), "once, before any time"
+    assert text.count("software") == 1 and text.index("software") < text.index("RMSE"), (
+        "once, before any time"
+    )
     assert all(word not in text for word in ("take ", "front", "worth its time at", "+0.3 ms"))
     data = json.loads(printed(as_json, of, Options()))
     assert data["software"] is True and {each["software"] for each in data["points"]} == {True}
@@ -162,32 +194,46 @@ def widest(text: str) -> int:
 def test_tables_fit_their_width_with_each_cost_as_a_column(width: int) -> None:
     text = printed(as_text, costly(), Options(width=width))
     assert widest(text) <= width
-    assert text.count("none") >= 2 and text.count("0.2887") == 1, "errors are the same under every cost"
+    assert text.count("none") >= 2 and text.count("0.2887") == 1, (
+        "errors are the same under every cost"
+    )
     # Errors, times, and where these are too wide their parts, in tables of their own.
     tables = len(re.findall(r"(?m)^[*= ]*samples ", text))
     assert tables == 2 if width >= 80 else tables >= 2
     lost = {"RMSE all", "mW", "MiB", "bias", "PSNR dB linear"} if width == 80 else set()
-    line = next((line for line in text.splitlines() if line.startswith("left out at this width")), "")
+    line = next(
+        (line for line in text.splitlines() if line.startswith("left out at this width")), ""
+    )
     assert lost <= set(line.partition(": ")[2].split(", ")) and bool(line) == (width < 120)
 
 
 def test_one_scene_under_three_costs_is_about_a_screen() -> None:
     lines = printed(as_text, costly(), Options(width=80)).splitlines()
-    of_scene = lines[: next(number for number, line in enumerate(lines) if line.startswith("64x48"))]
+    of_scene = lines[
+        : next(number for number, line in enumerate(lines) if line.startswith("64x48"))
+    ]
     assert sum(-(-max(len(line), 1) // 80) for line in of_scene) <= 58
     names = [line for line in lines if line.startswith("take ")]
-    assert names == ["take 4x within 1.2 ms under every cost of shading"] and lines.index(names[0]) == 3
+    assert (
+        names == ["take 4x within 1.2 ms under every cost of shading"]
+        and lines.index(names[0]) == 3
+    )
 
 
 def test_the_intervals_of_times_are_never_in_scientific_notation() -> None:
-    points = [each._replace(low_ms=(each.time_ms or 0.0) - 1e-7, high_ms=(each.time_ms or 0.0) + 9e-6) for each in costly().points]
+    points = [
+        each._replace(low_ms=(each.time_ms or 0.0) - 1e-7, high_ms=(each.time_ms or 0.0) + 9e-6)
+        for each in costly().points
+    ]
     text = printed(as_text, costly(points=points), Options(width=200))
     assert "<0.01" in text and not re.search(r"\de[-+]\d", text)
 
 
 def test_a_shader_of_one_s_own_is_its_file_s_name_and_what_it_takes() -> None:
     own = Shading("lit.frag", nanoseconds=1.5e6, full_screen_ms=3.21)
-    points = [each._replace(shading="lit.frag") for each in costly().points if each.shading == "medium"]
+    points = [
+        each._replace(shading="lit.frag") for each in costly().points if each.shading == "medium"
+    ]
     text = printed(as_text, costly(shadings=[own], points=points), Options(width=80))
     assert "lit.frag: 3.21 ms a full screen at 1x" in text.splitlines()
     assert "shading lit.frag (3.21 ms a full screen at 1x): take 4x" in text.splitlines()
@@ -196,15 +242,25 @@ def test_a_shader_of_one_s_own_is_its_file_s_name_and_what_it_takes() -> None:
 
 def test_a_time_that_ties_with_the_next_shorter_one_is_marked() -> None:
     tied = [
-        each._replace(time_ms=2.0, low_ms=1.9, high_ms=2.1) if each.technique.samples == 4 and each.shading == "none" else each
+        each._replace(time_ms=2.0, low_ms=1.9, high_ms=2.1)
+        if each.technique.samples == 4 and each.shading == "none"
+        else each
         for each in costly().points
     ]
-    lines = [line for line in printed(as_text, costly(points=tied), Options(width=100)).splitlines() if "4x, each shaded" in line]
+    lines = [
+        line
+        for line in printed(as_text, costly(points=tied), Options(width=100)).splitlines()
+        if "4x, each shaded" in line
+    ]
     assert any(line.startswith("=") or " = " in line for line in lines)
 
 
 def test_text_in_color() -> None:
-    text = printed(as_text, study(points=[each for each in study().points if each.scene == "edges"]), Options(width=160, color=True))
+    text = printed(
+        as_text,
+        study(points=[each for each in study().points if each.scene == "edges"]),
+        Options(width=160, color=True),
+    )
     lines = [line for line in text.splitlines() if "8x" in line and "3.8" in line]
     assert lines[0].startswith("\x1b[32m*")
 
@@ -213,7 +269,12 @@ def test_what_is_no_number_or_infinite_is_null() -> None:
     odd = point(Technique(MSAA, 4), rmse=math.nan, psnr_db=math.inf, bias=-0.0, max_error=math.inf)
     text = printed(as_json, study(points=[odd]), Options())
     (found,) = json.loads(text)["points"]
-    assert (found["rmse"], found["psnr_db"], found["max_error"], found["time_ms"]) == (None, None, None, None)
+    assert (found["rmse"], found["psnr_db"], found["max_error"], found["time_ms"]) == (
+        None,
+        None,
+        None,
+        None,
+    )
     assert math.copysign(1, found["bias"]) == 1
     shown = printed(as_text, study(points=[odd]), Options(width=160))
     assert "exact" in shown
@@ -236,12 +297,19 @@ def test_optional_columns_come_with_their_figures() -> None:
     bare = [point(technique) for technique in techniques((MSAA,))]
     text = printed(as_text, study(points=bare), Options(width=160))
     assert "SSIM" not in text and "mW" not in text
-    text = printed(as_text, study(points=[each._replace(ssim=0.98765, milliwatts=12.0) for each in bare]), Options(width=160))
+    text = printed(
+        as_text,
+        study(points=[each._replace(ssim=0.98765, milliwatts=12.0) for each in bare]),
+        Options(width=160),
+    )
     assert "SSIM" in text and "0.9877" in text and "mW" in text
 
 
 def hostile() -> Study:
-    points = [each._replace(scene=HOSTILE, time_from=HOSTILE, shading=HOSTILE, fill_ms=1.0) for each in study().points]
+    points = [
+        each._replace(scene=HOSTILE, time_from=HOSTILE, shading=HOSTILE, fill_ms=1.0)
+        for each in study().points
+    ]
     return study(
         device=HOSTILE,
         model=HOSTILE,
@@ -259,8 +327,12 @@ def hostile() -> Study:
 
 def test_hostile_texts_are_safe_to_show() -> None:
     of = hostile()
-    text = printed(as_text, of._replace(advice=[Advice(HOSTILE, HOSTILE, HOSTILE)]), Options(width=200))
-    assert "\x1b" not in text and "\u202e" not in text and "##[" not in text and "\udcff" not in text
+    text = printed(
+        as_text, of._replace(advice=[Advice(HOSTILE, HOSTILE, HOSTILE)]), Options(width=200)
+    )
+    assert (
+        "\x1b" not in text and "\u202e" not in text and "##[" not in text and "\udcff" not in text
+    )
     assert "\\x1b[31m" in text and "[bold]" in text, "shown as it is, not taken for markup"
     data = printed(as_json, of, Options())
     assert data.isascii()
@@ -275,16 +347,25 @@ def test_nothing_studied_is_still_a_report() -> None:
 
 
 ODD = st.floats() | st.sampled_from([0.0, 1.0, 1.0, math.inf, math.nan])
-FIGURES = ("rmse", "rmse_all", "max_error", "bias", "psnr_db", "psnr_display_db", "time_ms", "bytes_per_frame", "low_ms", "high_ms", "flip",
+FIGURES = ("rmse", "rmse_all", "max_error", "bias", "psnr_db", "psnr_display_db", "time_ms",
+"bytes_per_frame", "low_ms", "high_ms", "flip",
            "flicker")  # fmt: skip
 
 
 @examples(0.5)
-@given(st.lists(st.lists(ODD, min_size=len(FIGURES), max_size=len(FIGURES)), min_size=1, max_size=5), st.sampled_from(["edges", "hdr"]))
+@given(
+    st.lists(st.lists(ODD, min_size=len(FIGURES), max_size=len(FIGURES)), min_size=1, max_size=5),
+    st.sampled_from(["edges", "hdr"]),
+)
 def test_any_figures_can_be_printed(rows: list[list[float]], about: str) -> None:
-    points = [timed(technique, **dict(zip(FIGURES, figures, strict=True))) for technique, figures in zip(techniques(), rows, strict=False)]
+    points = [
+        timed(technique, **dict(zip(FIGURES, figures, strict=True)))
+        for technique, figures in zip(techniques(), rows, strict=False)
+    ]
     for budget in (0.5, 1e9):
-        of = study(points=points, scenes=[SceneSummary("edges", "", (), about=(about,))], budget_ms=budget)
+        of = study(
+            points=points, scenes=[SceneSummary("edges", "", (), about=(about,))], budget_ms=budget
+        )
         json.loads(printed(as_json, of, Options()))
         text = printed(as_text, of, Options(width=160))
         assert all(one.technique.name in text for one in points)
@@ -297,10 +378,22 @@ def test_hostile_names_are_plotted_as_text() -> None:
 
 def test_a_plot_shows_what_has_a_place() -> None:
     text = draw(plot(study()), "svg").decode()
-    for name in ("1x", "4x", "8x/8", "SSAA 2x2", "edges", "texture", "added time, ms", "RMSE of coverage", "RMSE of linear color"):
+    for name in (
+        "1x",
+        "4x",
+        "8x/8",
+        "SSAA 2x2",
+        "edges",
+        "texture",
+        "added time, ms",
+        "RMSE of coverage",
+        "RMSE of linear color",
+    ):
         assert f">{name}</text>" in text, name
     assert ">16x</text>" not in text, "it was not timed"
-    bare = draw(plot(study(device="", points=[point(technique) for technique in techniques()])), "svg").decode()
+    bare = draw(
+        plot(study(device="", points=[point(technique) for technique in techniques()])), "svg"
+    ).decode()
     assert ">16x</text>" in bare and "no times measured" in bare and "time, ms" not in bare
 
 
@@ -308,7 +401,9 @@ def test_an_error_of_zero_has_a_place_too() -> None:
     points = [timed(technique, rmse=0.0) for technique in techniques((MSAA,))]
     assert draw(plot(study(points=points)), "png").startswith(b"\x89PNG")
     scene = SceneSummary("edges", "", ())
-    assert plotted(scene, [points[0]._replace(rmse=math.nan), points[1]._replace(time_ms=None)]) == []
+    assert (
+        plotted(scene, [points[0]._replace(rmse=math.nan), points[1]._replace(time_ms=None)]) == []
+    )
 
 
 def picture(pixels: list[list[int]]) -> Any:
@@ -316,8 +411,12 @@ def picture(pixels: list[list[int]]) -> Any:
 
 
 def test_linear_light_is_displayed_as_srgb() -> None:
-    linear = np.array([[[0.0, 0.5, 1.0, 0.3], [2.0, -1.0, math.nan, 1.0], [0.0031308, 0.21404, math.inf, 0.0]]])
-    assert shown(scene("edge-fan", 32, 32), linear).tolist() == [[[0, 188, 255], [255, 0, 0], [10, 127, 255]]]
+    linear = np.array(
+        [[[0.0, 0.5, 1.0, 0.3], [2.0, -1.0, math.nan, 1.0], [0.0031308, 0.21404, math.inf, 0.0]]]
+    )
+    assert shown(scene("edge-fan", 32, 32), linear).tolist() == [
+        [[0, 188, 255], [255, 0, 0], [10, 127, 255]]
+    ]
 
 
 @given(st.integers(1, 40), st.integers(1, 40), st.data())
@@ -346,21 +445,34 @@ def test_crops_have_their_names_above_them_and_begin_with_the_exact_picture() ->
         assert text.box.left == image.box.left and 0 < image.box.top - text.box.bottom < 6
     boxes = [text.box for text in drawing.texts]
     assert not list(overlaps(boxes, [image.box for image in images])) and not list(overlaps(boxes))
-    assert {text.box.left for text in names if text.text == "exact"} == {min(text.box.left for text in names)}
+    assert {text.box.left for text in names if text.text == "exact"} == {
+        min(text.box.left for text in names)
+    }
 
 
-@pytest.mark.parametrize("name", ["edge-fan", "zone-plate", "foliage-to-coverage", "intersecting", "hdr-emitter"])
+@pytest.mark.parametrize(
+    "name", ["edge-fan", "zone-plate", "foliage-to-coverage", "intersecting", "hdr-emitter"]
+)
 def test_crops_are_parts_of_the_pictures_where_the_first_technique_differs_most(name: str) -> None:
     whole = scene(name, 96, 160)
-    chosen = [Technique(MSAA, 1), Technique(MSAA, 4), Technique(SAMPLE_SHADING, 4, 1.0), Technique(SSAA, 9, grid=3)]
+    chosen = [
+        Technique(MSAA, 1),
+        Technique(MSAA, 4),
+        Technique(SAMPLE_SHADING, 4, 1.0),
+        Technique(SSAA, 9, grid=3),
+    ]
     found = crops(whole, chosen)
     exact = shown(whole, truth(whole).image)
     rendered = [shown(whole, simulate(whole, technique).image) for technique in chosen]
     x, y = found.corner
     assert (x, y) == most_different(rendered[0], exact)[1:]
-    for crop, picture in zip([found.exact, *(crop for _, crop in found.pictures)], [exact, *rendered], strict=True):
+    for crop, picture in zip(
+        [found.exact, *(crop for _, crop in found.pictures)], [exact, *rendered], strict=True
+    ):
         codes = np.frombuffer(crop.rgb, dtype=np.uint8).reshape(16, 16, 3)
-        np.testing.assert_allclose(codes.astype(int), picture[y : y + 16, x : x + 16], rtol=0, atol=1)
+        np.testing.assert_allclose(
+            codes.astype(int), picture[y : y + 16, x : x + 16], rtol=0, atol=1
+        )
 
 
 def test_a_signed_picture_is_the_same_picture(tmp_path: Path) -> None:

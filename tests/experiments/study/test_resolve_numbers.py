@@ -1,4 +1,6 @@
-"""Resolves against the answer of rational arithmetic: order, rounding, overflow, infinities, subnormals, light and codes."""
+"""Resolves against the answer of rational arithmetic: order, rounding, overflow, infinities,
+subnormals, light and codes.
+"""
 
 from __future__ import annotations
 
@@ -34,13 +36,17 @@ from msaa_lint.experiments.study.resolve import (
     weighted,
 )
 
-SINGLES = st.floats(width=32, allow_nan=False, allow_infinity=False, min_value=-(2.0**100), max_value=2.0**100)
+SINGLES = st.floats(
+    width=32, allow_nan=False, allow_infinity=False, min_value=-(2.0**100), max_value=2.0**100
+)
 LIGHTS = st.floats(width=32, min_value=0, max_value=65504)
 COUNTS = (1, 2, 4, 8, 16)
 
 
 def single(value: Fraction) -> np.float32:
-    """The nearest single-precision number, ties to even. Of a sum of two singles the way by double precision changes nothing."""
+    """The nearest single-precision number, ties to even. Of a sum of two singles the way by double
+    precision changes nothing.
+    """
     return np.float32(float(value))
 
 
@@ -53,12 +59,15 @@ def exact(value: Fraction) -> float:
     return float(value)
 
 
-@given(st.sampled_from(COUNTS).flatmap(lambda count: st.lists(SINGLES, min_size=count, max_size=count)))
+@given(
+    st.sampled_from(COUNTS).flatmap(lambda count: st.lists(SINGLES, min_size=count, max_size=count))
+)
 def test_an_average_adds_in_order_and_rounds_each_sum_once(samples: list[float]) -> None:
     total = np.float32(samples[0])
     for sample in samples[1:]:
         total = single(Fraction(float(total)) + Fraction(sample))
-    # A power of two scales exactly, but where the result is subnormal: there it is rounded to a multiple of the least one.
+    # A power of two scales exactly, but where the result is subnormal: there it is rounded to a
+    # multiple of the least one.
     due = single(Fraction(float(total)) / len(samples))
     (found,) = average(one(samples))
     assert found == due
@@ -85,7 +94,9 @@ def test_nine_samples_are_divided_and_ones_stay_one() -> None:
     assert (np.array(totals, np.float32) * np.float32(1 / 9)).tolist() != due
 
 
-@pytest.mark.parametrize(("value", "count"), [(65504.0, 4), (65504.0, 16), (20000.0, 4), (5000.0, 16)])
+@pytest.mark.parametrize(
+    ("value", "count"), [(65504.0, 4), (65504.0, 16), (20000.0, 4), (5000.0, 16)]
+)
 def test_half_precision_samples_do_not_overflow(value: float, count: int) -> None:
     samples = np.full((count, 1), value, np.float16)
     in_half = samples[0]
@@ -100,7 +111,21 @@ def test_half_precision_samples_do_not_overflow(value: float, count: int) -> Non
 
 def test_what_half_precision_keeps_is_rounded_to_even_and_overflows_from_65520_on() -> None:
     below = np.nextafter(np.float32(65520), np.float32(0))
-    given = np.array([512.75, 2049.0, 2051.0, below, 65520.0, 70000.0, -70000.0, np.inf, 2.0**-25, 2.0**-24 * 1.5], np.float32)
+    given = np.array(
+        [
+            512.75,
+            2049.0,
+            2051.0,
+            below,
+            65520.0,
+            70000.0,
+            -70000.0,
+            np.inf,
+            2.0**-25,
+            2.0**-24 * 1.5,
+        ],
+        np.float32,
+    )
     due = [513.0, 2048.0, 2052.0, 65504.0, math.inf, math.inf, -math.inf, math.inf, 0.0, 2.0**-23]
     assert store_half(given).tolist() == due
     assert np.isnan(store_half(np.array([np.nan], np.float32))[0])
@@ -144,7 +169,9 @@ def reinhard(value: Fraction) -> Fraction:
 
 
 @given(st.lists(LIGHTS, min_size=4, max_size=4))
-def test_the_weighted_resolve_of_grey_is_the_average_of_what_is_displayed(samples: list[float]) -> None:
+def test_the_weighted_resolve_of_grey_is_the_average_of_what_is_displayed(
+    samples: list[float],
+) -> None:
     due = sum(reinhard(Fraction(each)) for each in samples) / 4
     found = tone_map(weighted(light(samples)))[0, 0]
     assert abs(Fraction(float(found)) - due) < Fraction(1, 10**6)
@@ -172,7 +199,9 @@ def test_infinite_light_is_displayed_as_white_and_weighs_nothing() -> None:
     assert weighted(red)[0].tolist() == [math.inf, 0, 0, 1]
 
 
-@given(st.lists(st.floats(width=32, allow_nan=False, allow_infinity=False), min_size=1, max_size=16))
+@given(
+    st.lists(st.floats(width=32, allow_nan=False, allow_infinity=False), min_size=1, max_size=16)
+)
 def test_weights_neither_overflow_nor_vanish(values: list[float]) -> None:
     found = weighted(light(values))[0, 0]
     due = exact_weighted([(value, value, value) for value in values])[0]
@@ -221,10 +250,19 @@ def test_srgb_codes_are_where_the_standard_says() -> None:
     light = from_srgb(codes)
     for code, found in zip(range(256), light, strict=True):
         value = Fraction(code, 255)
-        due = float(value) / 12.92 if value <= Fraction(4045, 100000) else ((float(value) + 0.055) / 1.055) ** 2.4
+        due = (
+            float(value) / 12.92
+            if value <= Fraction(4045, 100000)
+            else ((float(value) + 0.055) / 1.055) ** 2.4
+        )
         assert float(found) == pytest.approx(due, rel=1e-7)
     assert np.rint(to_srgb(light) * 255).tolist() == list(range(256))
-    assert store_srgb(np.stack([light, light, light, codes.astype(np.float32)], axis=-1))[:, 0].tolist() == light.tolist()
+    assert (
+        store_srgb(np.stack([light, light, light, codes.astype(np.float32)], axis=-1))[
+            :, 0
+        ].tolist()
+        == light.tolist()
+    )
     assert to_srgb(np.array([-1.0, 2.0])).tolist() == [0.0, 1.0]
 
 
@@ -248,7 +286,9 @@ def test_resolved_depth_is_a_copy() -> None:
 
 
 @given(st.floats(width=32), st.sampled_from([None, *THRESHOLDS.tolist()]), st.sampled_from(COUNTS))
-def test_alpha_covers_as_many_samples_as_rational_arithmetic_says(alpha: float, threshold: float | None, samples: int) -> None:
+def test_alpha_covers_as_many_samples_as_rational_arithmetic_says(
+    alpha: float, threshold: float | None, samples: int
+) -> None:
     thresholds = None if threshold is None else np.array([threshold], np.float32)
     (mask,) = alpha_coverage(np.array([alpha], np.float32), thresholds, samples)
     assert mask == (1 << exact_count(alpha, threshold, samples)) - 1
@@ -290,4 +330,6 @@ def test_the_tables_are_fresh(rows: list[Row]) -> None:
     fresh = study_numbers.fresh(page, rows)
     if os.environ.get("UPDATE"):
         study_numbers.PAGE.write_text(fresh, encoding="utf-8")
-    assert page == fresh or os.environ.get("UPDATE"), "python -m docs.study_numbers writes them anew"
+    assert page == fresh or os.environ.get("UPDATE"), (
+        "python -m docs.study_numbers writes them anew"
+    )

@@ -26,9 +26,16 @@ from tests.experiments.study import spans
 from tests.strength import examples
 
 MANY = Technique(SSAA, 256, grid=16)
-"""So many samples that what is left of an error is theirs: of an edge along an axis 1 / (16 sqrt(12)) = 0.018."""
+"""So many samples that what is left of an error is theirs: of an edge along an axis 1 / (16
+sqrt(12)) = 0.018.
+"""
 
-SAMPLED = [name for name in scenes.NAMES if name not in ("hdr-emitter", "hdr-emitter-weighted", "foliage-to-coverage", "intersecting-far")]
+SAMPLED = [
+    name
+    for name in scenes.NAMES
+    if name
+    not in ("hdr-emitter", "hdr-emitter-weighted", "foliage-to-coverage", "intersecting-far")
+]
 """Scenes whose picture many samples give. The others are there to show what does not."""
 
 
@@ -46,7 +53,12 @@ def exact_picture(made: Scene) -> np.ndarray:
 @pytest.mark.parametrize("name", scenes.NAMES)
 def test_a_scene_says_what_it_is_and_why_it_calls_for_what(name: str) -> None:
     made = scenes.scene(name, 96, 64)
-    assert (made.name, made.description, made.width, made.height) == (name, scenes.DESCRIPTIONS[name], 96, 64)
+    assert (made.name, made.description, made.width, made.height) == (
+        name,
+        scenes.DESCRIPTIONS[name],
+        96,
+        64,
+    )
     assert set(made.effects) <= set(BY_NAME)
     assert set(made.why) == set(made.effects) and all(made.why.values())
     assert made.triangles.shape == (len(made.colors), 3, 2) and np.isfinite(made.triangles).all()
@@ -67,7 +79,9 @@ def test_the_exact_picture_is_what_very_many_samples_give(name: str) -> None:
 @pytest.mark.parametrize("name", scenes.NAMES)
 def test_a_scene_is_the_same_every_time(name: str) -> None:
     one, other = (scenes.scene(name, 64, 64) for _ in range(2))
-    assert np.array_equal(one.triangles, other.triangles) and np.array_equal(one.colors, other.colors)
+    assert np.array_equal(one.triangles, other.triangles) and np.array_equal(
+        one.colors, other.colors
+    )
 
 
 def test_a_name_that_is_none_gets_the_nearest() -> None:
@@ -100,7 +114,8 @@ def directions(made: Scene) -> np.ndarray:
 
 def test_the_fan_has_edges_at_all_angles_evenly() -> None:
     found = directions(scenes.scene("edge-fan", 256, 256))
-    # Edges outwards by their own, the ends of wedges by theirs: no gap is wider than twice the mean.
+    # Edges outwards by their own, the ends of wedges by theirs: no gap is wider than twice the
+    # mean.
     for some in (found[:, ::2], found[:, 1::2]):
         angles = np.sort(some.ravel())
         gaps = np.diff(angles, append=angles[0] + 180)
@@ -137,11 +152,16 @@ def test_the_mesh_is_watertight() -> None:
     made = scenes.scene("mesh", 150, 90)
     triangles = snap.snapped(made.triangles)
     for count in (1, 4, 16):
-        assert (spans.hits(coverage.rows(triangles, 150, 90, locations.standard(count)), 150, 90) == count).all()
+        assert (
+            spans.hits(coverage.rows(triangles, 150, 90, locations.standard(count)), 150, 90)
+            == count
+        ).all()
     uses: dict[tuple[tuple[int, int], ...], list[int]] = {}
     for number, triangle in enumerate(triangles.tolist()):
         for a, b in ((0, 1), (1, 2), (2, 0)):
-            uses.setdefault(tuple(sorted((tuple(triangle[a]), tuple(triangle[b])))), []).append(number)
+            uses.setdefault(tuple(sorted((tuple(triangle[a]), tuple(triangle[b])))), []).append(
+                number
+            )
     for line, sharing in uses.items():
         (x0, y0), (x1, y1) = line
         border = (x0 == x1 and x0 in (0, 150 * 256)) or (y0 == y1 and y0 in (0, 90 * 256))
@@ -159,8 +179,13 @@ def test_alpha_tested_leaves_gain_nothing_from_coverage_and_much_from_alpha_to_c
 
 
 def test_light_is_to_be_tone_mapped_before_it_is_averaged() -> None:
-    after, before, weighted = (scenes.scene(f"hdr-emitter{each}", 96, 96) for each in ("", "-before", "-weighted"))
-    errors = {each.name: [measure.point(each, Technique(MSAA, count)).rmse for count in (1, 4, 16)] for each in (after, before, weighted)}
+    after, before, weighted = (
+        scenes.scene(f"hdr-emitter{each}", 96, 96) for each in ("", "-before", "-weighted")
+    )
+    errors = {
+        each.name: [measure.point(each, Technique(MSAA, count)).rmse for count in (1, 4, 16)]
+        for each in (after, before, weighted)
+    }
     assert errors["hdr-emitter"] == sorted(errors["hdr-emitter"])
     assert errors["hdr-emitter-before"] == sorted(errors["hdr-emitter-before"], reverse=True)
     assert errors["hdr-emitter-before"][2] < 0.06
@@ -169,14 +194,22 @@ def test_light_is_to_be_tone_mapped_before_it_is_averaged() -> None:
 
 
 def test_crossing_surfaces_are_the_same_with_standard_and_reversed_depth_near_by() -> None:
-    standard, turned = (simulate(scenes.scene(f"intersecting{each}", 96, 64), Technique(MSAA, 4)).image for each in ("", "-reversed"))
+    standard, turned = (
+        simulate(scenes.scene(f"intersecting{each}", 96, 64), Technique(MSAA, 4)).image
+        for each in ("", "-reversed")
+    )
     assert np.count_nonzero((standard != turned).any(axis=2)) <= 3
 
 
 def test_far_away_standard_depth_cannot_tell_surfaces_apart_and_reversed_can() -> None:
-    standard, turned = (measure.point(scenes.scene(f"intersecting-far{each}", 96, 64), Technique(MSAA, 8)) for each in ("", "-reversed"))
+    standard, turned = (
+        measure.point(scenes.scene(f"intersecting-far{each}", 96, 64), Technique(MSAA, 8))
+        for each in ("", "-reversed")
+    )
     assert standard.rmse_all > 10 * turned.rmse_all
-    assert turned.rmse == pytest.approx(measure.point(scenes.scene("intersecting", 96, 64), Technique(MSAA, 8)).rmse, rel=0.05)
+    assert turned.rmse == pytest.approx(
+        measure.point(scenes.scene("intersecting", 96, 64), Technique(MSAA, 8)).rmse, rel=0.05
+    )
 
 
 def test_detail_beyond_pixels_is_averaged_exactly() -> None:
@@ -193,11 +226,26 @@ def test_detail_beyond_pixels_is_averaged_exactly() -> None:
     assert mapped == pytest.approx(exact * 0.5, abs=1e-9)
 
 
-def squares(depths: tuple[list[float], list[float]], look: visible.Visibility) -> tuple[np.ndarray, np.ndarray]:
-    """A red square over x 0 to 4 and a green one over x 2 to 6 of a picture of 8 x 4, and what is crossed."""
-    corners = [[[0, 0], [4, 0], [4, 4]], [[0, 0], [4, 4], [0, 4]], [[2, 0], [6, 0], [6, 4]], [[2, 0], [6, 4], [2, 4]]]
+def squares(
+    depths: tuple[list[float], list[float]], look: visible.Visibility
+) -> tuple[np.ndarray, np.ndarray]:
+    """A red square over x 0 to 4 and a green one over x 2 to 6 of a picture of 8 x 4, and what is
+    crossed.
+    """
+    corners = [
+        [[0, 0], [4, 0], [4, 4]],
+        [[0, 0], [4, 4], [0, 4]],
+        [[2, 0], [6, 0], [6, 4]],
+        [[2, 0], [6, 4], [2, 4]],
+    ]
     colors = np.array([[1, 0, 0, 0.5]] * 2 + [[0, 1, 0, 0.5]] * 2)
-    given = np.array([[a, b, c] for own in depths for a, b, c in ([own[0], own[1], own[2]], [own[0], own[2], own[3]])])
+    given = np.array(
+        [
+            [a, b, c]
+            for own in depths
+            for a, b, c in ([own[0], own[1], own[2]], [own[0], own[2], own[3]])
+        ]
+    )
     exact = visible.overlapping(colors, given if look.depth else None, 8, 4, look)
     made = Scene(8, 4, np.array(corners, np.float64), colors, exact)
     picture, crossed = exact(view.whole(made.triangles, made.width, made.height))
@@ -213,7 +261,10 @@ def test_what_is_drawn_last_is_seen_without_depth() -> None:
 @pytest.mark.parametrize("turned", [False, True])
 def test_what_is_nearer_is_seen_with_depth(turned: bool) -> None:
     picture, _ = squares(([0.2] * 4, [0.7] * 4), visible.Visibility(depth=True, reversed=turned))
-    assert picture[:, 2:4, int(turned)] == pytest.approx(1) and not picture[:, 2:4, int(not turned)].any()
+    assert (
+        picture[:, 2:4, int(turned)] == pytest.approx(1)
+        and not picture[:, 2:4, int(not turned)].any()
+    )
 
 
 def test_equal_depth_leaves_what_was_drawn_first() -> None:
@@ -224,7 +275,11 @@ def test_equal_depth_leaves_what_was_drawn_first() -> None:
 def test_crossing_surfaces_are_cut_along_the_line_where_they_cross() -> None:
     """The red is 0.5 deep, the green from 0.3 at x 2 to 0.8 at x 6: they cross at x 3.6."""
     picture, crossed = squares(([0.5] * 4, [0.3, 0.8, 0.8, 0.3]), visible.Visibility(depth=True))
-    assert picture[:, 2, 1] == pytest.approx(1) and picture[:, 3, 1] == pytest.approx(0.6) and picture[:, 3, 0] == pytest.approx(0.4)
+    assert (
+        picture[:, 2, 1] == pytest.approx(1)
+        and picture[:, 3, 1] == pytest.approx(0.6)
+        and picture[:, 3, 0] == pytest.approx(0.4)
+    )
     assert crossed[:, 3].all() and crossed.sum() == 4
 
 
@@ -236,22 +291,32 @@ def test_blended_surfaces_are_mixed_in_their_order() -> None:
 
 
 @examples(0.25)
-@given(st.lists(st.tuples(*[st.integers(-40, 200)] * 6), min_size=1, max_size=6), st.integers(0, 2**20))
-def test_pieces_of_any_triangles_fill_the_picture_once(corners: list[tuple[int, ...]], seed: int) -> None:
+@given(
+    st.lists(st.tuples(*[st.integers(-40, 200)] * 6), min_size=1, max_size=6), st.integers(0, 2**20)
+)
+def test_pieces_of_any_triangles_fill_the_picture_once(
+    corners: list[tuple[int, ...]], seed: int
+) -> None:
     triangles = np.array(corners, np.float64).reshape(-1, 3, 2) / 8
     draws = np.random.default_rng(seed)
-    colors = np.concatenate([draws.random((len(triangles), 3)), np.ones((len(triangles), 1))], axis=1)
+    colors = np.concatenate(
+        [draws.random((len(triangles), 3)), np.ones((len(triangles), 1))], axis=1
+    )
     depths = draws.random((len(triangles), 3))
     numbers = np.arange(len(triangles))
     whole = view.View([Part(0, 0, 20, 18)], numbers, np.zeros_like(numbers), triangles)
     found = visible.tiles(whole, colors, depths, (20, 18), visible.Visibility(depth=True))
-    assert sum(abs(visible.signed_area(piece.polygon)) for tile in found for piece in tile.regions) == pytest.approx(20 * 18, abs=1e-6)
+    assert sum(
+        abs(visible.signed_area(piece.polygon)) for tile in found for piece in tile.regions
+    ) == pytest.approx(20 * 18, abs=1e-6)
 
 
 OBJ = "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 0 1 0\nf 1 2 3 4\n"
 PLY = (
-    "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n{colors}"
-    "element face 2\nproperty list uchar int vertex_indices\nend_header\n{vertices}3 0 1 2\n3 0 2 3\n"
+    "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float "
+    "z\n{colors}"
+    "element face 2\nproperty list uchar int vertex_indices\nend_header\n{vertices}3 0 1 2\n3 0 2 "
+    "3\n"
 )
 
 
@@ -263,7 +328,11 @@ def written(folder: Path, name: str, text: str | bytes) -> str:
 
 @pytest.mark.parametrize("name", ["square.obj", "SQUARE.OBJ", "square.ply"])
 def test_a_flat_mesh_is_white_and_fills_the_picture_upright(tmp_path: Path, name: str) -> None:
-    text = OBJ if "obj" in name.lower() else PLY.format(colors="", vertices="0 0 0\n2 0 0\n2 1 0\n0 1 0\n")
+    text = (
+        OBJ
+        if "obj" in name.lower()
+        else PLY.format(colors="", vertices="0 0 0\n2 0 0\n2 1 0\n0 1 0\n")
+    )
     made = from_mesh(written(tmp_path, name, text), 66, 64)
     assert (made.name, made.effects, made.coverage_matter, made.depths) == (name, (), True, None)
     exact = exact_picture(made)[..., 3]
@@ -281,13 +350,17 @@ def test_up_in_the_file_is_up_in_the_picture(tmp_path: Path) -> None:
 def test_vertex_colours_are_light(tmp_path: Path) -> None:
     colors = "property uchar red\nproperty uchar green\nproperty uchar blue\n"
     vertices = "".join(f"{x} {y} 0 188 0 255\n" for x, y in ((0, 0), (2, 0), (2, 1), (0, 1)))
-    made = from_mesh(written(tmp_path, "a.ply", PLY.format(colors=colors, vertices=vertices)), 64, 64)
+    made = from_mesh(
+        written(tmp_path, "a.ply", PLY.format(colors=colors, vertices=vertices)), 64, 64
+    )
     assert not made.coverage_matter
     assert made.colors[0] == pytest.approx([0.5029, 0, 1, 1], abs=1e-4)
     assert measure.point(made, MANY).rmse < 0.02
 
 
-def test_a_mesh_with_depth_is_tested_for_depth_and_what_has_more_z_is_nearer(tmp_path: Path) -> None:
+def test_a_mesh_with_depth_is_tested_for_depth_and_what_has_more_z_is_nearer(
+    tmp_path: Path,
+) -> None:
     text = "v 0 0 0\nv 4 0 0\nv 0 4 0\nv 0 0 1\nv 4 0 1.5\nv 4 4 3\nf 1 2 3\nf 4 5 6\n"
     made = from_mesh(written(tmp_path, "a.obj", text), 64, 64)
     assert made.effects == ("depth-test",) and set(made.why) == {"depth-test"}
@@ -316,13 +389,16 @@ def test_overlapping_flat_triangles_are_no_matter_of_coverage(tmp_path: Path) ->
         ("a.ply", "plx\n", "not a valid PLY mesh"),
         (
             "a.ply",
-            b"ply\nformat binary_little_endian 1.0\nelement vertex 999999999999\nproperty float x\nend_header\n",
+            b"ply\nformat binary_little_endian 1.0\nelement vertex 999999999999\nproperty float x\n"
+            b"end_header\n",
             "not a valid PLY mesh",
         ),
         ("a.stl", "solid\n", r"a mesh must be a \.obj or \.ply file"),
     ],
 )
-def test_files_that_are_no_mesh_are_said_to_be_none(tmp_path: Path, name: str, text: str | bytes, words: str) -> None:
+def test_files_that_are_no_mesh_are_said_to_be_none(
+    tmp_path: Path, name: str, text: str | bytes, words: str
+) -> None:
     with pytest.raises(ValueError, match=words):
         from_mesh(written(tmp_path, name, text), 64, 64)
 
@@ -347,7 +423,9 @@ def _random_triangles(count: int, size: float) -> str:
     return vertices + "".join(f"f {n} {n + 1} {n + 2}\n" for n in range(1, 3 * count, 3))
 
 
-def test_the_exact_picture_of_a_mesh_takes_a_limited_number_of_comparisons(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_exact_picture_of_a_mesh_takes_a_limited_number_of_comparisons(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     drawn = 0
 
     def counted(tile: list[visible.Region], *rest: object) -> list[visible.Region]:
@@ -364,7 +442,9 @@ def test_the_exact_picture_of_a_mesh_takes_a_limited_number_of_comparisons(tmp_p
     assert limit - 1000 < drawn <= limit
 
 
-def test_the_comparisons_of_small_triangles_grow_with_their_number(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_comparisons_of_small_triangles_grow_with_their_number(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     path = written(tmp_path, "a.obj", _random_triangles(300, 0.02))
     quartered = from_mesh(path, 32, 32)
     monkeypatch.setattr(visible, "MAX_STEPS", 0)
@@ -415,28 +495,80 @@ def parts(made: Scene) -> list[str]:
         ("scene: {edges: false, textureDetail: true}\n", (), "zone-plate"),
         ("scene: {alphaTest: true}\n", ("alpha-test",), "edge-fan, foliage"),
         ("scene: {depth: STANDARD}\n", ("depth-test",), "edge-fan, intersecting"),
-        ("scene: {depth: REVERSED, depthResolveWants: FARTHEST}\n", ("depth-test", "depth-resolve"), "edge-fan, intersecting"),
-        ("scene: {depth: STANDARD, depthResolveWants: ANY}\n", ("depth-test",), "edge-fan, intersecting"),
+        (
+            "scene: {depth: REVERSED, depthResolveWants: FARTHEST}\n",
+            ("depth-test", "depth-resolve"),
+            "edge-fan, intersecting",
+        ),
+        (
+            "scene: {depth: STANDARD, depthResolveWants: ANY}\n",
+            ("depth-test",),
+            "edge-fan, intersecting",
+        ),
         ("scene: {color: LDR, toneMapping: AFTER_RESOLVE}\n", (), "edge-fan"),
         ("scene: {color: HDR, toneMapping: NONE}\n", ("hdr",), "edge-fan"),
         ("scene: {color: HDR}\n", ("hdr", "tone-mapping"), "edge-fan"),
-        ("pipelines: {a: {colorBlendState: {attachments: [{blendEnable: true}]}}}\n", ("blending",), "edge-fan, glass"),
-        ("pipelines: {a: {depthStencilState: {stencilTestEnable: true}}}\n", ("stencil",), "edge-fan, portal"),
-        ("pipelines: {a: {multisampleState: {alphaToCoverageEnable: true}}}\n", ("alpha-to-coverage",), "foliage"),
-        ("pipelines: {a: {multisampleState: {rasterizationSamples: 4, sampleMask: [15]}}}\n", (), "edge-fan"),
-        ("pipelines: {a: {multisampleState: {rasterizationSamples: 4, sampleMask: [5]}}}\n", ("sample-mask",), "edge-fan"),
-        ("images: {a: {format: R8G8B8A8_SRGB, usage: [COLOR_ATTACHMENT]}}\n", ("srgb",), "edge-fan"),
+        (
+            "pipelines: {a: {colorBlendState: {attachments: [{blendEnable: true}]}}}\n",
+            ("blending",),
+            "edge-fan, glass",
+        ),
+        (
+            "pipelines: {a: {depthStencilState: {stencilTestEnable: true}}}\n",
+            ("stencil",),
+            "edge-fan, portal",
+        ),
+        (
+            "pipelines: {a: {multisampleState: {alphaToCoverageEnable: true}}}\n",
+            ("alpha-to-coverage",),
+            "foliage",
+        ),
+        (
+            "pipelines: {a: {multisampleState: {rasterizationSamples: 4, sampleMask: [15]}}}\n",
+            (),
+            "edge-fan",
+        ),
+        (
+            "pipelines: {a: {multisampleState: {rasterizationSamples: 4, sampleMask: [5]}}}\n",
+            ("sample-mask",),
+            "edge-fan",
+        ),
+        (
+            "images: {a: {format: R8G8B8A8_SRGB, usage: [COLOR_ATTACHMENT]}}\n",
+            ("srgb",),
+            "edge-fan",
+        ),
         ("images: {a: {format: R8G8B8A8_SRGB, usage: [SAMPLED]}}\n", (), "edge-fan"),
-        ("images: {a: {format: R8G8B8A8_UNORM, encoding: GAMMA, usage: [COLOR_ATTACHMENT]}}\n", ("srgb",), "edge-fan"),
-        ("images: {a: {format: R8G8B8A8_UNORM, encoding: LINEAR, usage: [COLOR_ATTACHMENT]}}\n", (), "edge-fan"),
+        (
+            "images: {a: {format: R8G8B8A8_UNORM, encoding: GAMMA, usage: [COLOR_ATTACHMENT]}}\n",
+            ("srgb",),
+            "edge-fan",
+        ),
+        (
+            "images: {a: {format: R8G8B8A8_UNORM, encoding: LINEAR, usage: [COLOR_ATTACHMENT]}}\n",
+            (),
+            "edge-fan",
+        ),
         (
             FULL,
-            ("sample-mask", "alpha-test", "alpha-to-coverage", "stencil", "depth-test", "blending", "hdr", "depth-resolve", "tone-mapping"),
+            (
+                "sample-mask",
+                "alpha-test",
+                "alpha-to-coverage",
+                "stencil",
+                "depth-test",
+                "blending",
+                "hdr",
+                "depth-resolve",
+                "tone-mapping",
+            ),
             "intersecting, foliage, zone-plate, glass, portal",
         ),
     ],
 )
-def test_a_description_calls_for_what_it_says_and_nothing_else(text: str, effects: tuple[str, ...], says: str) -> None:
+def test_a_description_calls_for_what_it_says_and_nothing_else(
+    text: str, effects: tuple[str, ...], says: str
+) -> None:
     made = from_description(frame(text), 240, 64)
     assert parts(made) == says.split(", ")
     assert set(made.effects) == set(effects) == set(made.why)
@@ -448,15 +580,37 @@ def test_a_description_calls_for_what_it_says_and_nothing_else(text: str, effect
 @pytest.mark.parametrize(
     ("text", "setting"),
     [
-        ("scene: {depth: STANDARD, depthResolveWants: NEAREST}\n", {"depth-test": "LESS", "depth-resolve": "MIN"}),
-        ("scene: {depth: STANDARD, depthResolveWants: FARTHEST}\n", {"depth-test": "LESS", "depth-resolve": "MAX"}),
-        ("scene: {depth: REVERSED, depthResolveWants: NEAREST}\n", {"depth-test": "GREATER", "depth-resolve": "MAX"}),
-        ("scene: {depth: REVERSED, depthResolveWants: FARTHEST}\n", {"depth-test": "GREATER", "depth-resolve": "MIN"}),
+        (
+            "scene: {depth: STANDARD, depthResolveWants: NEAREST}\n",
+            {"depth-test": "LESS", "depth-resolve": "MIN"},
+        ),
+        (
+            "scene: {depth: STANDARD, depthResolveWants: FARTHEST}\n",
+            {"depth-test": "LESS", "depth-resolve": "MAX"},
+        ),
+        (
+            "scene: {depth: REVERSED, depthResolveWants: NEAREST}\n",
+            {"depth-test": "GREATER", "depth-resolve": "MAX"},
+        ),
+        (
+            "scene: {depth: REVERSED, depthResolveWants: FARTHEST}\n",
+            {"depth-test": "GREATER", "depth-resolve": "MIN"},
+        ),
         ("scene: {color: HDR, toneMapping: AFTER_RESOLVE}\n", {"tone-mapping": "after-resolve"}),
         ("scene: {color: HDR, toneMapping: IN_PASS}\n", {"tone-mapping": "before-resolve"}),
-        ("images: {a: {format: R8G8B8A8_SRGB, usage: [COLOR_ATTACHMENT]}}\n", {"srgb": "linear-light"}),
-        ("images: {a: {format: R8G8B8A8_UNORM, encoding: GAMMA, usage: [COLOR_ATTACHMENT]}}\n", {"srgb": "encoded"}),
-        ("pipelines: {a: {depthStencilState: {depthTestEnable: true, depthCompareOp: GREATER}}}\n", {"depth-test": "GREATER"}),
+        (
+            "images: {a: {format: R8G8B8A8_SRGB, usage: [COLOR_ATTACHMENT]}}\n",
+            {"srgb": "linear-light"},
+        ),
+        (
+            "images: {a: {format: R8G8B8A8_UNORM, encoding: GAMMA, usage: [COLOR_ATTACHMENT]}}\n",
+            {"srgb": "encoded"},
+        ),
+        (
+            "pipelines: {a: {depthStencilState: {depthTestEnable: true, depthCompareOp: "
+            "GREATER}}}\n",
+            {"depth-test": "GREATER"},
+        ),
     ],
 )
 def test_a_description_says_how(text: str, setting: dict[str, str]) -> None:
@@ -473,8 +627,10 @@ def test_the_mode_that_a_pass_resolves_depth_by_is_taken() -> None:
     "text",
     [
         "scene: {alphaTest: true, depth: REVERSED}\n",
-        "scene: {textureDetail: true, color: HDR, toneMapping: IN_PASS}\npipelines: {a: {depthStencilState: {stencilTestEnable: true}}}\n",
-        "pipelines: {a: {colorBlendState: {attachments: [{blendEnable: true}]}, depthStencilState: {depthTestEnable: true}}}\n",
+        "scene: {textureDetail: true, color: HDR, toneMapping: IN_PASS}\npipelines: {a: "
+        "{depthStencilState: {stencilTestEnable: true}}}\n",
+        "pipelines: {a: {colorBlendState: {attachments: [{blendEnable: true}]}, depthStencilState: "
+        "{depthTestEnable: true}}}\n",
     ],
 )
 def test_what_descriptions_show_has_the_exact_picture(text: str) -> None:
@@ -485,14 +641,19 @@ def test_what_descriptions_show_has_the_exact_picture(text: str) -> None:
 def test_parts_stand_side_by_side_as_they_are_alone() -> None:
     made = from_description(frame("scene: {depth: STANDARD, alphaTest: true}\n"), 200, 64)
     together = simulate(made, Technique(MSAA, 4)).image
-    for place, part in enumerate((edges.edge_fan(66, 64), depth.intersecting(66, 64), detail.foliage(66, 64))):
+    for place, part in enumerate(
+        (edges.edge_fan(66, 64), depth.intersecting(66, 64), detail.foliage(66, 64))
+    ):
         alone = simulate(part, Technique(MSAA, 4)).image
         assert np.array_equal(together[:, 66 * place : 66 * (place + 1)], alone)
     assert not together[:, 198:].any()
 
 
 def test_a_description_needs_room_for_all_that_it_calls_for() -> None:
-    with pytest.raises(ValueError, match="150x64 pixels are too few for intersecting, foliage, zone-plate, glass, portal"):
+    with pytest.raises(
+        ValueError,
+        match="150x64 pixels are too few for intersecting, foliage, zone-plate, glass, portal",
+    ):
         from_description(frame(FULL), 150, 64)
 
 
@@ -523,11 +684,18 @@ pipelines:
 commands:
 """
 
-UI = "  - beginRenderPass: {renderPass: ui}\n  - draw: {pipeline: widgets, vertexCount: 6}\n  - endRenderPass\n"
+UI = (
+    "  - beginRenderPass: {renderPass: ui}\n  - draw: {pipeline: widgets, vertexCount: 6}\n  - "
+    "endRenderPass\n"
+)
 
 
 def drawn(render_pass: str, *draws: str, color: str = "color") -> Scene:
-    lines = [f"beginRenderPass: {{renderPass: {render_pass}}}", *(f"draw: {{{draw}}}" for draw in draws), "endRenderPass"]
+    lines = [
+        f"beginRenderPass: {{renderPass: {render_pass}}}",
+        *(f"draw: {{{draw}}}" for draw in draws),
+        "endRenderPass",
+    ]
     text = DRAWN.replace("TARGET", color) + "".join(f"  - {line}\n" for line in lines) + UI
     if not any("bricks" in draw for draw in draws):
         text = "".join(line for line in text.splitlines(True) if not line.startswith("  bricks"))
@@ -539,7 +707,10 @@ def drawn(render_pass: str, *draws: str, color: str = "color") -> Scene:
 def test_small_triangles_are_a_mesh_of_as_large_ones() -> None:
     """200 x 64 pixels hold 400 triangles of 32 pixels, or 4 of 3200."""
     small = drawn("scene", "pipeline: bricks, vertexCount: 1200")
-    assert small.description == "what the description calls for: mesh (triangles have 32 pixels on average)"
+    assert (
+        small.description
+        == "what the description calls for: mesh (triangles have 32 pixels on average)"
+    )
     assert 350 <= len(small.triangles) <= 450 and not small.coverage_matter
     assert parts(drawn("scene", "pipeline: bricks, vertexCount: 12")) == ["edge-fan"]
     found = measure.point(small, MANY)
@@ -552,13 +723,19 @@ def test_what_draws_with_one_sample_does_not_count() -> None:
 
 
 def test_leaves_alone_have_no_other_edges() -> None:
-    assert drawn("scene", "pipeline: leaves").description == "what the description calls for: foliage (leaves sets alphaToCoverageEnable)"
+    assert (
+        drawn("scene", "pipeline: leaves").description
+        == "what the description calls for: foliage (leaves sets alphaToCoverageEnable)"
+    )
     assert parts(drawn("scene", "pipeline: leaves", "pipeline: bricks")) == ["edge-fan", "foliage"]
 
 
 def test_depth_alone_is_compared_where_surfaces_intersect() -> None:
     made = drawn("shadow", "vertexCount: 300")
-    assert made.description == "what the description calls for: intersecting (the multisampled passes draw depth alone)"
+    assert (
+        made.description
+        == "what the description calls for: intersecting (the multisampled passes draw depth alone)"
+    )
 
 
 def test_formats_that_hold_light_are_hdr() -> None:

@@ -1,4 +1,6 @@
-"""Sweeps: every point once, whatever the backend; kept as they come; what fails is said and the others go on."""
+"""Sweeps: every point once, whatever the backend; kept as they come; what fails is said and the
+others go on.
+"""
 
 from __future__ import annotations
 
@@ -24,13 +26,20 @@ from tests.experiments.study.fakes import DeviceClock, measure, point, tasks
 from tests.strength import examples
 
 ALL = techniques()
-FEW = [Technique(MSAA, 1), Technique(MSAA, 4), Technique(MSAA, 8), Technique(SAMPLE_SHADING, 4, 0.5)]
+FEW = [
+    Technique(MSAA, 1),
+    Technique(MSAA, 4),
+    Technique(MSAA, 8),
+    Technique(SAMPLE_SHADING, 4, 0.5),
+]
 
 NO_SHADING = [Shading("")]
 WORK = Shading("2ops", operations=2)
 
 
-def in_order(results: list[Point | FailedPoint], *names: str, own: list[Technique]) -> list[Point | FailedPoint]:
+def in_order(
+    results: list[Point | FailedPoint], *names: str, own: list[Technique]
+) -> list[Point | FailedPoint]:
     return ordered(results, names, own)
 
 
@@ -47,16 +56,40 @@ def test_every_number_of_jobs_gives_every_point(jobs: int | None) -> None:
 
 @pytest.mark.parametrize("jobs", [1, 2])
 def test_a_point_that_fails_is_said_and_the_others_go_on(jobs: int) -> None:
-    results = in_order(list(sweep(tasks("breaks", "a", techniques=FEW), jobs=jobs, measure=measure)), "breaks", "a", own=FEW)
-    assert results[1] == FailedPoint("breaks", FEW[1], "ValueError: the picture \x1b[31m is no picture")
-    assert [isinstance(each, Point) for each in results] == [True, False, True, True, True, True, True, True]
+    results = in_order(
+        list(sweep(tasks("breaks", "a", techniques=FEW), jobs=jobs, measure=measure)),
+        "breaks",
+        "a",
+        own=FEW,
+    )
+    assert results[1] == FailedPoint(
+        "breaks", FEW[1], "ValueError: the picture \x1b[31m is no picture"
+    )
+    assert [isinstance(each, Point) for each in results] == [
+        True,
+        False,
+        True,
+        True,
+        True,
+        True,
+        True,
+        True,
+    ]
 
 
 def test_a_worker_that_dies_takes_only_its_own_point() -> None:
-    results = in_order(list(sweep(tasks("a", "dies", techniques=FEW), jobs=2, measure=measure)), "a", "dies", own=FEW)
+    results = in_order(
+        list(sweep(tasks("a", "dies", techniques=FEW), jobs=2, measure=measure)),
+        "a",
+        "dies",
+        own=FEW,
+    )
     (failed,) = [each for each in results if isinstance(each, FailedPoint)]
     assert (failed.scene, failed.technique) == ("dies", Technique(MSAA, 4))
-    assert failed.reason == "it ended the process that read it (exit code 3): please report it with the input"
+    assert (
+        failed.reason
+        == "it ended the process that read it (exit code 3): please report it with the input"
+    )
     assert len(results) == 8
 
 
@@ -69,7 +102,9 @@ def test_points_that_are_kept_are_not_had_again(tmp_path: Path) -> None:
 
 def test_each_point_is_kept_before_the_next_is_asked_for(tmp_path: Path) -> None:
     """What a stop at any place loses is at most what was under way."""
-    running = sweep(tasks("a", techniques=ALL), checkpoint=Checkpoint(str(tmp_path)), measure=measure)
+    running = sweep(
+        tasks("a", techniques=ALL), checkpoint=Checkpoint(str(tmp_path)), measure=measure
+    )
     for count in range(1, 6):
         next(running)
         assert len(list(tmp_path.glob("*.json"))) == count
@@ -87,7 +122,12 @@ def test_resumed_after_any_stop_it_is_the_same(stop: int, jobs: int) -> None:
         running.close()  # type: ignore[attr-defined]
         told: list[tuple[int, int]] = []
         again = list(
-            sweep(wanted, checkpoint=Checkpoint(folder), measure=measure, progress=lambda done, total, _: told.append((done, total)))
+            sweep(
+                wanted,
+                checkpoint=Checkpoint(folder),
+                measure=measure,
+                progress=lambda done, total, _: told.append((done, total)),
+            )
         )
     assert in_order(again, "a", own=ALL) == [point(technique, "a") for technique in ALL]
     assert told == [(n + 1, len(ALL)) for n in range(len(ALL))]
@@ -95,8 +135,16 @@ def test_resumed_after_any_stop_it_is_the_same(stop: int, jobs: int) -> None:
 
 def test_failures_are_not_kept(tmp_path: Path) -> None:
     wanted = tasks("breaks", techniques=FEW)
-    assert [type(each) for each in sweep(wanted, checkpoint=Checkpoint(str(tmp_path)), measure=measure)].count(FailedPoint) == 1
-    mended = list(sweep(wanted, checkpoint=Checkpoint(str(tmp_path)), measure=lambda task: point(task.technique, "breaks")))
+    assert [
+        type(each) for each in sweep(wanted, checkpoint=Checkpoint(str(tmp_path)), measure=measure)
+    ].count(FailedPoint) == 1
+    mended = list(
+        sweep(
+            wanted,
+            checkpoint=Checkpoint(str(tmp_path)),
+            measure=lambda task: point(task.technique, "breaks"),
+        )
+    )
     assert [type(each) for each in mended].count(FailedPoint) == 0
 
 
@@ -137,7 +185,10 @@ def test_a_mesh_that_changed_is_had_anew(tmp_path: Path) -> None:
     assert kept.point(task) is None
 
 
-@pytest.mark.parametrize("text", ["", "{", "[]", "null", '{"schema": "msaa-lint/study-point-v1"}', "[" * 100_000, "\udcff"])
+@pytest.mark.parametrize(
+    "text",
+    ["", "{", "[]", "null", '{"schema": "msaa-lint/study-point-v1"}', "[" * 100_000, "\udcff"],
+)
 def test_what_is_kept_and_broken_is_had_anew(tmp_path: Path, text: str) -> None:
     (task,) = tasks("a", techniques=[Technique(MSAA, 4)])
     kept = Checkpoint(str(tmp_path))
@@ -152,11 +203,17 @@ def test_a_stored_point_of_another_scene_is_simulated_again(tmp_path: Path) -> N
     (task,) = tasks("a", techniques=[Technique(MSAA, 4)])
     checkpoint = Checkpoint(str(tmp_path))
     checkpoint.save_point(task, point(task.technique, "b"))
-    assert list(sweep([task], checkpoint=checkpoint, measure=measure)) == [point(task.technique, "a")]
+    assert list(sweep([task], checkpoint=checkpoint, measure=measure)) == [
+        point(task.technique, "a")
+    ]
 
 
 @given(
-    st.dictionaries(st.sampled_from([*Point._fields, "more"]), st.none() | st.booleans() | st.floats() | st.text(max_size=3), max_size=30)
+    st.dictionaries(
+        st.sampled_from([*Point._fields, "more"]),
+        st.none() | st.booleans() | st.floats() | st.text(max_size=3),
+        max_size=30,
+    )
 )
 def test_no_content_of_the_folder_makes_a_crash(values: dict[str, object]) -> None:
     (task,) = tasks("a", techniques=[Technique(MSAA, 4)])
@@ -193,19 +250,34 @@ def test_infinity_survives(tmp_path: Path) -> None:
 
 def test_one_sample_is_always_timed_and_each_technique_once() -> None:
     clock = DeviceClock()
-    found = costs([Technique(MSAA, 4), Technique(MSAA, 4)], [Shading("none"), WORK], (64, 48), clock)
+    found = costs(
+        [Technique(MSAA, 4), Technique(MSAA, 4)], [Shading("none"), WORK], (64, 48), clock
+    )
     assert clock.input == [Technique(MSAA, 1), Technique(MSAA, 4)]
     made = with_cost(point(Technique(MSAA, 4)), found, Shading("none"), clock.name)
-    assert (made.shading, made.time_ms, made.time_from, made.ratio, made.bytes_per_frame) == ("none", 8.0, "a device", 4.0, 4000)
+    assert (made.shading, made.time_ms, made.time_from, made.ratio, made.bytes_per_frame) == (
+        "none",
+        8.0,
+        "a device",
+        4.0,
+        4000,
+    )
     assert (made.low_ms, made.high_ms) == (0.95 * 8.0, 1.05 * 8.0)
     worked = with_cost(point(Technique(MSAA, 4)), found, WORK, clock.name)
-    assert (worked.shading, worked.time_ms, worked.ratio) == ("2ops", 24.0, 4.0), "the ratio is to one sample under the same cost"
+    assert (worked.shading, worked.time_ms, worked.ratio) == ("2ops", 24.0, 4.0), (
+        "the ratio is to one sample under the same cost"
+    )
 
 
 def test_what_the_device_does_not_draw_has_no_time_and_no_source() -> None:
     found = costs([Technique(MSAA, 8)], NO_SHADING, (64, 48), DeviceClock(unsupported=(8,)))
     made = with_cost(point(Technique(MSAA, 8)), found, NO_SHADING[0], "a device")
-    assert (made.time_ms, made.time_from, made.ratio, made.bytes_per_frame) == (None, "", None, 1000)
+    assert (made.time_ms, made.time_from, made.ratio, made.bytes_per_frame) == (
+        None,
+        "",
+        None,
+        1000,
+    )
     unknown = with_cost(
         point(Technique(MSAA, 4)),
         {(Technique(MSAA, 1), ""): Cost(), (Technique(MSAA, 4), ""): Cost(time_ms=2.0)},
@@ -235,17 +307,20 @@ def test_the_models_costs_are_kept_by_what_it_takes_a_frame_to_be(tmp_path: Path
     kept = Checkpoint(str(tmp_path))
     plain = costs(FEW, NO_SHADING, (64, 48), CostModel(), kept)
     assert plain[Technique(MSAA, 4), ""].time_ms is None, "the cost model has no time"
-    assert costs(FEW, NO_SHADING, (64, 48), CostModel(hdr=True), kept)[Technique(MSAA, 1), ""].bytes_per_frame == 2 * (
-        plain[Technique(MSAA, 1), ""].bytes_per_frame or 0
-    )
+    assert costs(FEW, NO_SHADING, (64, 48), CostModel(hdr=True), kept)[
+        Technique(MSAA, 1), ""
+    ].bytes_per_frame == 2 * (plain[Technique(MSAA, 1), ""].bytes_per_frame or 0)
     assert costs(FEW, NO_SHADING, (64, 48), CostModel(), kept) == plain
 
 
 @pytest.mark.parametrize(("package", "backend", "words"), [
-    ("distributed", "dask", f"--backend dask: distributed is not installed: run `{pip_install('distributed')}`"),
+    ("distributed", "dask", f"--backend dask: distributed is not installed: run "
+        f"`{pip_install('distributed')}`"),
     ("ray", "ray", f"--backend ray: ray is not installed: run `{pip_install('ray')}`"),
 ])  # fmt: skip
-def test_a_backend_that_is_not_installed_is_said(monkeypatch: pytest.MonkeyPatch, package: str, backend: str, words: str) -> None:
+def test_a_backend_that_is_not_installed_is_said(
+    monkeypatch: pytest.MonkeyPatch, package: str, backend: str, words: str
+) -> None:
     for name in [name for name in sys.modules if name.partition(".")[0] == package]:
         monkeypatch.delitem(sys.modules, name)
     monkeypatch.setitem(sys.modules, package, None)  # type: ignore[arg-type]
@@ -255,7 +330,9 @@ def test_a_backend_that_is_not_installed_is_said(monkeypatch: pytest.MonkeyPatch
 
 
 def test_a_sweep_beside_other_threads_gives_every_point() -> None:
-    """Of a process with threads, as a progress bar has one, no copies are made: others are started, which import what they need."""
+    """Of a process with threads, as a progress bar has one, no copies are made: others are started,
+    which import what they need.
+    """
     end = threading.Event()
     thread = threading.Thread(target=end.wait)
     thread.start()
@@ -272,4 +349,6 @@ def test_points_of_one_picture_are_simulated_together(shader: bool, pictures: in
     """One sample, four, and eight; without a shader half of four samples shaded is four."""
     wanted = [task._replace(shader=shader) for task in tasks("a", techniques=FEW)]
     assert len({task.picture for task in wanted}) == pictures
-    assert in_order(list(sweep(wanted, measure=measure)), "a", own=FEW) == [point(technique, "a") for technique in FEW]
+    assert in_order(list(sweep(wanted, measure=measure)), "a", own=FEW) == [
+        point(technique, "a") for technique in FEW
+    ]

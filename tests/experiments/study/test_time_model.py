@@ -28,26 +28,45 @@ ALL = techniques(counts=(1, 2, 4, 8))
 def terms_of(technique: Technique) -> Terms:
     pixels = SIZE[0] * SIZE[1]
     resolved = pixels * 4e-9 if technique.samples > 1 else 0.0
-    return Terms(pixels * technique.samples * 4e-9, resolved, *(number / 1e6 for number in count(TRIANGLES, SIZE, technique)))
+    return Terms(
+        pixels * technique.samples * 4e-9,
+        resolved,
+        *(number / 1e6 for number in count(TRIANGLES, SIZE, technique)),
+    )
 
 
 KNOWN = {technique: terms_of(technique) for technique in ALL}
 
 
-def times(coefficients: tuple[float, ...], of: list[Technique] = ALL, costs: tuple[float, ...] = COSTS) -> list[MeasuredTime]:
-    return [MeasuredTime(technique, cost, _time(coefficients, KNOWN[technique], cost)) for technique in of for cost in costs]
+def times(
+    coefficients: tuple[float, ...], of: list[Technique] = ALL, costs: tuple[float, ...] = COSTS
+) -> list[MeasuredTime]:
+    return [
+        MeasuredTime(technique, cost, _time(coefficients, KNOWN[technique], cost))
+        for technique in of
+        for cost in costs
+    ]
 
 
-@given(st.lists(st.floats(0.1, 10), min_size=len(TERMS) - 1, max_size=len(TERMS) - 1), st.floats(0, 1))
+@given(
+    st.lists(st.floats(0.1, 10), min_size=len(TERMS) - 1, max_size=len(TERMS) - 1), st.floats(0, 1)
+)
 def test_times_without_noise_are_fitted(factors: list[float], hidden: float) -> None:
-    coefficients = (0.01 * factors[0], 20 * factors[1], 20 * factors[2], *(0.1 * factor for factor in factors[3:8]), *factors[8:], hidden)
+    coefficients = (
+        0.01 * factors[0],
+        20 * factors[1],
+        20 * factors[2],
+        *(0.1 * factor for factor in factors[3:8]),
+        *factors[8:],
+        hidden,
+    )
     model = fit("edges", times(coefficients), KNOWN)
     assert model is not None and model.residual < 0.02
     for each in times(coefficients):
         predicted = model.predict(each.technique, each.nanoseconds)
-        assert predicted is not None and predicted.time_ms == pytest.approx(each.time_ms, rel=1e-6), (
-            "measured times are predicted as they are"
-        )
+        assert predicted is not None and predicted.time_ms == pytest.approx(
+            each.time_ms, rel=1e-6
+        ), "measured times are predicted as they are"
         assert predicted.low_ms <= predicted.time_ms <= predicted.high_ms
 
 
@@ -74,13 +93,18 @@ def test_few_times_give_no_model() -> None:
     assert fit("edges", times(coefficients, ALL[:1]), KNOWN) is None
     assert fit("edges", [], KNOWN) is None
     assert fit("edges", [each._replace(time_ms=0.0) for each in times(coefficients)], KNOWN) is None
-    assert fit("edges", [each._replace(time_ms=math.inf) for each in times(coefficients)], KNOWN) is None
+    assert (
+        fit("edges", [each._replace(time_ms=math.inf) for each in times(coefficients)], KNOWN)
+        is None
+    )
 
 
 def test_times_that_cannot_check_a_model_give_none() -> None:
     coefficients = COEFFICIENTS
     assert fit("edges", times(coefficients, costs=(2e6,)), KNOWN) is None, "one cost of shading"
-    assert fit("edges", times(coefficients, [Technique(MSAA, 1), Technique(MSAA, 4)]), KNOWN) is None, "as many times as coefficients"
+    assert (
+        fit("edges", times(coefficients, [Technique(MSAA, 1), Technique(MSAA, 4)]), KNOWN) is None
+    ), "as many times as coefficients"
     empty = {technique: Terms() for technique in ALL}
     model = fit("edges", times(coefficients), empty)
     assert model is None or model.predict(ALL[0], 0.0) is not None
@@ -101,7 +125,12 @@ def by_pixel(technique: Technique) -> Invocations:
     from msaa_lint.experiments.study.shade import groups
 
     grid, samples = (technique.grid, 1) if technique.kind == SSAA else (1, technique.samples)
-    rows = coverage.rows(snap.snapped(TRIANGLES * grid, 8), SIZE[0] * grid, SIZE[1] * grid, locations.standard(samples))
+    rows = coverage.rows(
+        snap.snapped(TRIANGLES * grid, 8),
+        SIZE[0] * grid,
+        SIZE[1] * grid,
+        locations.standard(samples),
+    )
     drawn = fragments(rows, samples)
 
     def counted(masks: tuple[int, ...]) -> tuple[int, int]:
@@ -109,13 +138,22 @@ def by_pixel(technique: Technique) -> Invocations:
         for mask in masks:
             covered = (drawn.mask & np.uint16(mask)) != 0
             pixels += int(covered.sum())
-            quads += len({(int(t), int(y) // 2, int(x) // 2) for t, y, x in zip(*(c[covered] for c in drawn[:3]), strict=True)})
+            quads += len(
+                {
+                    (int(t), int(y) // 2, int(x) // 2)
+                    for t, y, x in zip(*(c[covered] for c in drawn[:3]), strict=True)
+                }
+            )
         return pixels, 4 * quads
 
     pixels, lanes = counted(groups(samples, 1))
-    every, every_lane = counted(groups(samples, technique.shaded if technique.kind == SAMPLE_SHADING else 1))
+    every, every_lane = counted(
+        groups(samples, technique.shaded if technique.kind == SAMPLE_SHADING else 1)
+    )
     covered = sum(int(mask).bit_count() for mask in drawn.mask)
-    return Invocations(covered, pixels, lanes - pixels, every - pixels, every_lane - every - lanes + pixels)
+    return Invocations(
+        covered, pixels, lanes - pixels, every - pixels, every_lane - every - lanes + pixels
+    )
 
 
 @pytest.mark.parametrize("technique", techniques(), ids=lambda technique: technique.name)
@@ -125,7 +163,9 @@ def test_invocations_and_helpers_are_those_of_each_pixel(technique: Technique) -
 
 def test_a_full_screen_has_an_invocation_for_each_pixel_and_no_helpers() -> None:
     whole = np.array([[(-1.0, -1.0), (1000.0, -1.0), (-1.0, 1000.0)]])
-    assert count(whole, SIZE, Technique(MSAA, 4)) == Invocations(4 * SIZE[0] * SIZE[1], SIZE[0] * SIZE[1])
+    assert count(whole, SIZE, Technique(MSAA, 4)) == Invocations(
+        4 * SIZE[0] * SIZE[1], SIZE[0] * SIZE[1]
+    )
     assert count(whole, SIZE, Technique(SAMPLE_SHADING, 4, 1.0)).total == 4 * SIZE[0] * SIZE[1]
     assert count(whole[:0], SIZE, Technique(MSAA, 4)) == Invocations()
     assert math.isfinite(count(whole + 1e6, SIZE, Technique(MSAA, 4)).total)

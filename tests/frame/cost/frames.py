@@ -27,7 +27,9 @@ def document(text: str) -> Document:
     return found
 
 
-def cost(text: str, device: str | DeviceProfile | None = None, terms: Terms | None = None) -> FrameCost:
+def cost(
+    text: str, device: str | DeviceProfile | None = None, terms: Terms | None = None
+) -> FrameCost:
     """What a description costs on its own device, else on the named one."""
     found = document(text)
     default = builtin(device) if isinstance(device, str) else device
@@ -40,8 +42,13 @@ def example(name: str, terms: Terms | None = None) -> FrameCost:
 
 
 def lines(found: PassCost) -> list[tuple[str, str, str, str, int]]:
-    """A pass's lines without places and corrected bytes: attachment, aspect, action, direction, bytes of a frame."""
-    return [(line.attachment, line.aspect, line.action, line.direction, line.bytes) for line in found.lines]
+    """A pass's lines without places and corrected bytes: attachment, aspect, action, direction,
+    bytes of a frame.
+    """
+    return [
+        (line.attachment, line.aspect, line.action, line.direction, line.bytes)
+        for line in found.lines
+    ]
 
 
 def of_pass(found: FrameCost, name: str) -> PassCost:

@@ -1,4 +1,6 @@
-"""The tables of docs/cost.md, computed by the model. `UPDATE=1 python -m pytest tests/frame/cost/test_docs.py` writes them."""
+"""The tables of docs/cost.md, computed by the model. `UPDATE=1 python -m pytest
+tests/frame/cost/test_docs.py` writes them.
+"""
 
 from __future__ import annotations
 
@@ -30,7 +32,10 @@ def table(head: Row, rows: Iterable[Row]) -> str:
 def stored(samples: int, width: int, height: int) -> FrameCost:
     """A pass that stores RGBA8 of that many samples, at 60 frames a second, and nothing else."""
     image = f"{{format: R8G8B8A8_UNORM, samples: {samples}, loadOp: CLEAR, storeOp: STORE}}"
-    text = f"renderPasses: {{scene: {{attachments: [{image}], subpasses: [{{colorAttachments: [0]}}]}}}}\n"
+    text = (
+        f"renderPasses: {{scene: {{attachments: [{image}], subpasses: [{{colorAttachments: "
+        f"[0]}}]}}}}\n"
+    )
     return cost(text, terms=Terms(60, width, height))
 
 
@@ -40,7 +45,9 @@ def separate(width: int, height: int) -> FrameCost:
 
 
 def between(one: str, other: str) -> tuple[Amount, float, float]:
-    """What one published configuration costs more than another: by the model, and as measured (read and write in MiB/s)."""
+    """What one published configuration costs more than another: by the model, and as measured (read
+    and write in MiB/s).
+    """
     a, b = CONFIGURATIONS[one], CONFIGURATIONS[other]
     return difference(a.cost().total, b.cost().total), a.read - b.read, a.write - b.write
 
@@ -51,10 +58,16 @@ def share(milliwatts: float) -> str:
 
 
 def arithmetic() -> str:
-    one, four = stored(1, 2168, 1080).total.write_mb_per_s, stored(4, 2168, 1080).total.write_mb_per_s
+    one, four = (
+        stored(1, 2168, 1080).total.write_mb_per_s,
+        stored(4, 2168, 1080).total.write_mb_per_s,
+    )
     color, color_read, color_write = between("C", "B")
     worst, worst_read, worst_write = between("F", "E")
-    measured, most = (color_read + color_write) * MB_PER_MIB, (worst_read + worst_write) * MB_PER_MIB
+    measured, most = (
+        (color_read + color_write) * MB_PER_MIB,
+        (worst_read + worst_write) * MB_PER_MIB,
+    )
     full, wide = separate(1920, 1080).total, separate(2560, 1440).total
     plain = stored(1, 1920, 1080).total.write_mb_per_s
     a, b, d, e = (CONFIGURATIONS[name] for name in "ABDE")
@@ -67,7 +80,12 @@ def arithmetic() -> str:
             f"{one:.2f} MB/s = {one / MB_PER_MIB:.2f} MiB/s",
             "the number is MB/s",
         ),
-        ("2247", "2168 * 1080 * 4 B * 4 * 60 Hz", f"{four:.2f} MB/s = {four / MB_PER_MIB:.2f} MiB/s", "MB/s, truncated, not rounded"),
+        (
+            "2247",
+            "2168 * 1080 * 4 B * 4 * 60 Hz",
+            f"{four:.2f} MB/s = {four / MB_PER_MIB:.2f} MiB/s",
+            "MB/s, truncated, not rounded",
+        ),
         ("1685", "the two above", f"{four - one:.2f} MB/s", "MB/s"),
         (
             "3 %",
@@ -84,7 +102,8 @@ def arithmetic() -> str:
         (
             "500 mW, 20 %",
             "the line above, 100 mW per GB/s, 2.5 W",
-            f"{color.milliwatts:.0f} mW, {share(color.milliwatts)}; measured {measured / 10:.0f} mW, {share(measured / 10)}",
+            f"{color.milliwatts:.0f} mW, {share(color.milliwatts)}; measured {measured / 10:.0f} "
+            f"mW, {share(measured / 10)}",
             "follows from the line above",
         ),
         (
@@ -96,26 +115,31 @@ def arithmetic() -> str:
         (
             "write +3951 MiB/s = 1685 + 2247",
             "F - E: color at 4x; depth at 4x instead of 1x",
-            f"{worst.write_mb_per_s:.1f} MB/s = {worst.write_mb_per_s / MB_PER_MIB:.1f} MiB/s; measured {worst_write:.1f} MiB/s",
+            f"{worst.write_mb_per_s:.1f} MB/s = {worst.write_mb_per_s / MB_PER_MIB:.1f} MiB/s; "
+            f"measured {worst_write:.1f} MiB/s",
             "the sum is in MB/s, the counter in MiB/s",
         ),
         (
             "6.3 GB/s, 302 %, 630 mW, 25 %",
             "F - E, together",
-            f"{worst.traffic_mb_per_s / 1000:.2f} GB/s; measured {worst_read + worst_write:.0f} MiB/s = {most / 1000:.2f} GB/s, "
-            f"{100 * (worst_read + worst_write) / resolved:.0f} %, {most / 10:.0f} mW, {share(most / 10)}",
+            f"{worst.traffic_mb_per_s / 1000:.2f} GB/s; measured {worst_read + worst_write:.0f} "
+            f"MiB/s = {most / 1000:.2f} GB/s, "
+            f"{100 * (worst_read + worst_write) / resolved:.0f} %, {most / 10:.0f} mW, "
+            f"{share(most / 10)}",
             "MiB/s called GB/s; color and depth together, not depth alone",
         ),
         (
             "3.9 GB/s against 500 MB/s",
             "1920 * 1080 * 4 B * (4 + 4) * 60 Hz against 1",
             f"{(full.traffic_mb_per_s - plain) / 1000:.3f} against {plain / 1000:.3f} GB/s",
-            f"without the write of the resolved picture; with it {full.traffic_mb_per_s / 1000:.3f} GB/s",
+            f"without the write of the resolved picture; with it "
+            f"{full.traffic_mb_per_s / 1000:.3f} GB/s",
         ),
         (
             "7.9 GB/s, 790 mW (Arm)",
             "2560 * 1440 * 4 B * (4 + 4 + 1) * 60 Hz",
-            f"{wide.traffic_mb_per_s / 1000:.3f} GB/s, {wide.milliwatts:.0f} mW, {share(wide.milliwatts)}",
+            f"{wide.traffic_mb_per_s / 1000:.3f} GB/s, {wide.milliwatts:.0f} mW, "
+            f"{share(wide.milliwatts)}",
             "includes the write that the line above leaves out",
         ),
     ]
@@ -131,7 +155,9 @@ def counters() -> str:
             one = found[name, direction]
             cells += [f"{one.measured:.1f}", f"{one.predicted:.1f}", f"{one.error:+.1f} %"]
         rows.append(cells)
-    return table(("configuration", "", "read, published", "model", "", "write, published", "model", ""), rows)
+    return table(
+        ("configuration", "", "read, published", "model", "", "write, published", "model", ""), rows
+    )
 
 
 def constants() -> str:
@@ -139,23 +165,49 @@ def constants() -> str:
     return table(
         ("constant", "read", "write", "from"),
         [
-            ("scene besides its targets", f"{read.base:.1f} MiB/s", f"{write.base:.1f} MiB/s", "fitted to A, B, D, E"),
-            ("1x traffic, relative to arithmetic", f"{read.ratio:.3f}", f"{write.ratio:.3f}", "fitted to A, B, D, E"),
-            ("4x traffic, relative to arithmetic", "1", "1", "not fitted: AFBC applies to single-sampled images"),
+            (
+                "scene besides its targets",
+                f"{read.base:.1f} MiB/s",
+                f"{write.base:.1f} MiB/s",
+                "fitted to A, B, D, E",
+            ),
+            (
+                "1x traffic, relative to arithmetic",
+                f"{read.ratio:.3f}",
+                f"{write.ratio:.3f}",
+                "fitted to A, B, D, E",
+            ),
+            (
+                "4x traffic, relative to arithmetic",
+                "1",
+                "1",
+                "not fitted: AFBC applies to single-sampled images",
+            ),
         ],
     )
 
 
-SIZES = {"1920x1080": (1920, 1080), "2168x1080": (2168, 1080), "2560x1440": (2560, 1440), "3840x2160": (3840, 2160)}
+SIZES = {
+    "1920x1080": (1920, 1080),
+    "2168x1080": (2168, 1080),
+    "2560x1440": (2560, 1440),
+    "3840x2160": (3840, 2160),
+}
 
 
 def memory() -> str:
     rows = []
     for title, (width, height) in SIZES.items():
-        for color, depth in (("R8G8B8A8_UNORM", "D32_SFLOAT"), ("R16G16B16A16_SFLOAT", "D32_SFLOAT_S8_UINT")):
+        for color, depth in (
+            ("R8G8B8A8_UNORM", "D32_SFLOAT"),
+            ("R16G16B16A16_SFLOAT", "D32_SFLOAT_S8_UINT"),
+        ):
             cells = [title, f"{color}, {depth}"]
             for samples in (1, 2, 4, 8, 16):
-                text = f"images: {{c: {{format: {color}, samples: {samples}}}, d: {{format: {depth}, samples: {samples}}}}}\n"
+                text = (
+                    f"images: {{c: {{format: {color}, samples: {samples}}}, d: {{format: "
+                    f"{depth}, samples: {samples}}}}}\n"
+                )
                 cells.append(f"{cost(text, terms=Terms(60, width, height)).total.memory_mib:.1f}")
             rows.append(cells)
     return table(("MiB", "formats", "1x", "2x", "4x", "8x", "16x"), rows)
@@ -186,7 +238,13 @@ def tiles() -> str:
             pixels = []
             for samples in (1, 4, 8, 16):
                 use = tile_use(model, [(format, samples) for format in formats], (depth, samples))
-                pixels.append("-" if use is None else f"{use.pixels} spills" if use.spills else str(use.pixels))
+                pixels.append(
+                    "-"
+                    if use is None
+                    else f"{use.pixels} spills"
+                    if use.spills
+                    else str(use.pixels)
+                )
             cells.append(" / ".join(pixels))
         rows.append(cells)
     return table(("model", *TARGETS), rows)
@@ -218,14 +276,34 @@ def shading() -> str:
 
 
 def phone() -> str:
-    """The frame of a phone's engine, as written, after fixes, and with other counts after the same fixes."""
-    (frame,) = run_costs(Request([(ROOT / "examples/phone/frame.msaa.yaml").as_posix()], isolated=True), Terms(), (1, 4)).frames
-    costs = [(f"{title} (4x)" if title == "as written" else f"`{title.removeprefix('with ')}`", cost) for title, cost in frame.states]
-    costs += [(f"{variant_title(variant)}, after the same fixes", variant.cost) for variant in frame.counts if variant.samples == 1]
+    """The frame of a phone's engine, as written, after fixes, and with other counts after the same
+    fixes.
+    """
+    (frame,) = run_costs(
+        Request([(ROOT / "examples/phone/frame.msaa.yaml").as_posix()], isolated=True),
+        Terms(),
+        (1, 4),
+    ).frames
+    costs = [
+        (f"{title} (4x)" if title == "as written" else f"`{title.removeprefix('with ')}`", cost)
+        for title, cost in frame.states
+    ]
+    costs += [
+        (f"{variant_title(variant)}, after the same fixes", variant.cost)
+        for variant in frame.counts
+        if variant.samples == 1
+    ]
     rows = [
         (
             title,
-            *(f"{figure:,.0f}" for figure in (cost.total.traffic_mb_per_s, cost.total.memory_mib, cost.total.milliwatts)),
+            *(
+                f"{figure:,.0f}"
+                for figure in (
+                    cost.total.traffic_mb_per_s,
+                    cost.total.memory_mib,
+                    cost.total.milliwatts,
+                )
+            ),
             share(cost.total.milliwatts),
         )
         for title, cost in costs
@@ -234,6 +312,7 @@ def phone() -> str:
 
 
 TABLES: dict[str, Callable[[], str]] = {
-    "counters": counters, "constants": constants, "arithmetic": arithmetic, "memory": memory, "tiles": tiles, "adreno": adreno,
+    "counters": counters, "constants": constants, "arithmetic": arithmetic, "memory": memory,
+    "tiles": tiles, "adreno": adreno,
     "shading": shading, "phone": phone,
 }  # fmt: skip

@@ -15,13 +15,21 @@ FOUR = 2247.7824
 """MB/s: 2168 * 1080 * 4 B * 4 samples * 60 Hz."""
 
 
-def a_pass(name: str, amount: Amount, corrected: Amount | None = None, kind: str = "renderPass", images: tuple[str, ...] = ()) -> PassCost:
+def a_pass(
+    name: str,
+    amount: Amount,
+    corrected: Amount | None = None,
+    kind: str = "renderPass",
+    images: tuple[str, ...] = (),
+) -> PassCost:
     lines = tuple(Line(image, image, "color", 1, "copy", "read", 1, None, None) for image in images)
     return PassCost(name, name, kind, 1, 1, 1, lines, amount, corrected, None, None, ())
 
 
 def a_frame(*passes: PassCost, fps: float = 60, device: str | None = None) -> FrameCost:
-    total = Amount(*(sum(column) for column in zip(NOTHING, *(each.amount for each in passes), strict=True)))
+    total = Amount(
+        *(sum(column) for column in zip(NOTHING, *(each.amount for each in passes), strict=True))
+    )
     return FrameCost(passes, (), total, None, fps, device, (), ())
 
 
@@ -29,7 +37,9 @@ ONE, TWO = Amount(1, 2, 3, 4), Amount(10, 20, 30, 40)
 
 
 def test_what_a_resolve_by_command_and_a_stored_depth_add() -> None:
-    found = compare(example("khronos-msaa/inline.msaa.yaml"), example("khronos-msaa/depth-unresolved.msaa.yaml"))
+    found = compare(
+        example("khronos-msaa/inline.msaa.yaml"), example("khronos-msaa/depth-unresolved.msaa.yaml")
+    )
     one = FOUR / 4
     assert [(each.name, each.status) for each in found.passes] == [
         ("scene", CHANGED), ("resolveImage color_ms, color", ADDED), ("post", CHANGED),
@@ -54,7 +64,9 @@ def test_passes_are_matched_by_name() -> None:
 
 
 def test_commands_are_matched_by_their_images() -> None:
-    copies = [a_pass("copyImage", ONE, kind="command", images=(image, "out")) for image in ("a", "b", "b")]
+    copies = [
+        a_pass("copyImage", ONE, kind="command", images=(image, "out")) for image in ("a", "b", "b")
+    ]
     found = compare(a_frame(*copies), a_frame(*copies[1:]))
     assert [(each.name, each.status) for each in found.passes] == [
         ("copyImage a, out", REMOVED), ("copyImage b, out", SAME), ("copyImage b, out", SAME),
@@ -85,14 +97,24 @@ def test_documents_are_matched_by_their_number() -> None:
     costs = [a_frame(a_pass("a", ONE)), a_frame(a_pass("a", TWO))]
     old = [CostedFrame("old", 0, 1, costs[0])]
     new = [CostedFrame("new", number, 2, cost) for number, cost in enumerate(costs)]
-    assert [each.total.status for each in compare_inputs("old", old, "new", new).frames] == [SAME, ADDED]
-    assert [each.total.status for each in compare_inputs("new", new, "old", old).frames] == [SAME, REMOVED]
+    assert [each.total.status for each in compare_inputs("old", old, "new", new).frames] == [
+        SAME,
+        ADDED,
+    ]
+    assert [each.total.status for each in compare_inputs("new", new, "old", old).frames] == [
+        SAME,
+        REMOVED,
+    ]
 
 
 figures = st.floats(0, 1e12)
 amounts = st.builds(Amount, figures, figures, figures, figures)
 passes = st.builds(
-    a_pass, st.sampled_from("abcd"), amounts, st.one_of(st.none(), amounts), st.sampled_from(["renderPass", "rendering", "command"])
+    a_pass,
+    st.sampled_from("abcd"),
+    amounts,
+    st.one_of(st.none(), amounts),
+    st.sampled_from(["renderPass", "rendering", "command"]),
 )
 frames = st.lists(passes, max_size=6).map(lambda made: a_frame(*made))
 
@@ -117,9 +139,17 @@ def test_the_way_back_costs_the_opposite(old: FrameCost, new: FrameCost) -> None
         return each.name, each.kind, opposite[each.status], negative, corrected
 
     def as_is(each: Change) -> tuple[str, str, str, tuple[float, ...], tuple[float, ...] | None]:
-        return each.name, each.kind, each.status, tuple(each.difference), None if each.corrected is None else tuple(each.corrected)
+        return (
+            each.name,
+            each.kind,
+            each.status,
+            tuple(each.difference),
+            None if each.corrected is None else tuple(each.corrected),
+        )
 
-    assert sorted(map(turned, there.passes), key=repr_without_sign) == sorted(map(as_is, back.passes), key=repr_without_sign)
+    assert sorted(map(turned, there.passes), key=repr_without_sign) == sorted(
+        map(as_is, back.passes), key=repr_without_sign
+    )
     assert turned(there.total) == as_is(back.total)
 
 
@@ -132,4 +162,6 @@ def test_every_pass_of_both_is_there_once(old: FrameCost, new: FrameCost) -> Non
     found = compare(old, new).passes
     assert sum(each.old is not None for each in found) == len(old.passes)
     assert sum(each.new is not None for each in found) == len(new.passes)
-    assert [each.new for each in found if each.new is not None] == [each.amount for each in new.passes]
+    assert [each.new for each in found if each.new is not None] == [
+        each.amount for each in new.passes
+    ]

@@ -1,4 +1,6 @@
-"""docs/cost.md and the README show what the model says: UPDATE=1 writes their tables anew, and their figures are worked out again."""
+"""docs/cost.md and the README show what the model says: UPDATE=1 writes their tables anew, and
+their figures are worked out again.
+"""
 
 from __future__ import annotations
 
@@ -20,7 +22,9 @@ BLOCK = re.compile(r"(<!-- table: (\w+) -->\n)(.*?)(<!-- end -->)", re.DOTALL)
 
 
 def test_every_table_is_in_a_page() -> None:
-    assert sorted(match[2] for page in PAGES for match in BLOCK.finditer(page.read_text(encoding="utf-8"))) == sorted(TABLES)
+    assert sorted(
+        match[2] for page in PAGES for match in BLOCK.finditer(page.read_text(encoding="utf-8"))
+    ) == sorted(TABLES)
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
@@ -44,7 +48,9 @@ def test_the_printed_numbers_with_their_units() -> None:
     assert worst.read_mb_per_s == pytest.approx(2247.7824)
     assert worst.write_mb_per_s == pytest.approx(1685.8368 + 2247.7824)
     assert separate(1920, 1080).total.traffic_mb_per_s == pytest.approx(4478.976)
-    assert separate(1920, 1080).total.traffic_mb_per_s - stored(1, 1920, 1080).total.write_mb_per_s == pytest.approx(3981.312)
+    assert separate(1920, 1080).total.traffic_mb_per_s - stored(
+        1, 1920, 1080
+    ).total.write_mb_per_s == pytest.approx(3981.312)
     assert separate(2560, 1440).total.traffic_mb_per_s == pytest.approx(7962.624)
     assert separate(2560, 1440).total.milliwatts == pytest.approx(796.2624)
 
@@ -60,13 +66,17 @@ def test_the_measured_ratios_of_four_samples() -> None:
 
 def test_four_samples_of_depth_instead_of_one_would_be_far_off() -> None:
     text = (
-        CONFIGURATIONS["F"].path.read_text(encoding="utf-8").replace("samples: 1}\n  - endRenderPass", "samples: ALL}\n  - endRenderPass")
+        CONFIGURATIONS["F"]
+        .path.read_text(encoding="utf-8")
+        .replace("samples: 1}\n  - endRenderPass", "samples: ALL}\n  - endRenderPass")
     )
     more = difference(cost(text).total, CONFIGURATIONS["F"].cost().total).read_mb_per_s / MB_PER_MIB
     found = next(each for each in predictions() if (each.name, each.direction) == ("F", "read"))
     assert 100 * ((found.predicted + more) / found.measured - 1) == pytest.approx(46.5, abs=0.05)
 
 
-@pytest.mark.parametrize("link", re.findall(r"\]\(([^)#:]+)(?:#[^)]*)?\)", PAGE.read_text(encoding="utf-8")))
+@pytest.mark.parametrize(
+    "link", re.findall(r"\]\(([^)#:]+)(?:#[^)]*)?\)", PAGE.read_text(encoding="utf-8"))
+)
 def test_links_lead_somewhere(link: str) -> None:
     assert (PAGE.parent / link).exists()

@@ -1,4 +1,6 @@
-"""Laws that hold for every frame: costs are linear, sums are sums, and nothing unknown is counted."""
+"""Laws that hold for every frame: costs are linear, sums are sums, and nothing unknown is
+counted.
+"""
 
 from __future__ import annotations
 
@@ -20,13 +22,20 @@ from tests.frame.cost.frames import cost, document
 from tests.frames import frames
 from tests.strength import examples
 
-OPS = {"loadOp": st.sampled_from(["LOAD", "CLEAR", "DONT_CARE"]), "storeOp": st.sampled_from(["STORE", "DONT_CARE"])}
-COMPRESSED = DeviceProfile("compressed", tiler=True, compression=dict.fromkeys((1, 2, 4, 8, 16, 32, 64), (0.5, 0.75)))
+OPS = {
+    "loadOp": st.sampled_from(["LOAD", "CLEAR", "DONT_CARE"]),
+    "storeOp": st.sampled_from(["STORE", "DONT_CARE"]),
+}
+COMPRESSED = DeviceProfile(
+    "compressed", tiler=True, compression=dict.fromkeys((1, 2, 4, 8, 16, 32, 64), (0.5, 0.75))
+)
 
 
 @st.composite
 def passes(draw: st.DrawFn) -> dict[str, Any]:
-    """Frames in which everything is known: some passes of some attachments of one count, and commands on their images."""
+    """Frames in which everything is known: some passes of some attachments of one count, and
+    commands on their images.
+    """
     samples = draw(st.sampled_from([1, 2, 4, 8]))
     formats = draw(st.lists(st.sampled_from(["R8G8B8A8_UNORM", "R16G16B16A16_SFLOAT"]), max_size=3))
     formats += ["D24_UNORM_S8_UINT"] if not formats or draw(st.booleans()) else []
@@ -42,12 +51,23 @@ def passes(draw: st.DrawFn) -> dict[str, Any]:
                 depth = n
             else:
                 color.append(n)
-        made[f"p{number}"] = {"attachments": attachments, "subpasses": [{"colorAttachments": color, "depthStencilAttachment": depth}]}
-    found: dict[str, Any] = {"frame": {"width": 64, "height": 32, "fps": 50}, "images": images, "renderPasses": made}
+        made[f"p{number}"] = {
+            "attachments": attachments,
+            "subpasses": [{"colorAttachments": color, "depthStencilAttachment": depth}],
+        }
+    found: dict[str, Any] = {
+        "frame": {"width": 64, "height": 32, "fps": 50},
+        "images": images,
+        "renderPasses": made,
+    }
     if draw(st.booleans()):
         begins = draw(st.lists(st.sampled_from(sorted(made)), max_size=4))
         reads = draw(st.lists(st.sampled_from(sorted(images)), max_size=3))
-        found["commands"] = [each for name in begins for each in ({"beginRenderPass": {"renderPass": name}}, "endRenderPass")]
+        found["commands"] = [
+            each
+            for name in begins
+            for each in ({"beginRenderPass": {"renderPass": name}}, "endRenderPass")
+        ]
         found["commands"] += [{"readImage": {"image": name, "samples": "ALL"}} for name in reads]
     return found
 
@@ -57,12 +77,19 @@ def of(description: dict[str, Any], terms: Terms | None = None) -> FrameCost:
 
 
 def scaled(amount: Amount, factor: float, memory: float) -> Amount:
-    return Amount(amount.read_mb_per_s * factor, amount.write_mb_per_s * factor, amount.memory_mib * memory, amount.milliwatts * factor)
+    return Amount(
+        amount.read_mb_per_s * factor,
+        amount.write_mb_per_s * factor,
+        amount.memory_mib * memory,
+        amount.milliwatts * factor,
+    )
 
 
 @given(passes(), st.integers(1, 240))
 def test_linear_in_the_rate(description: dict[str, Any], fps: int) -> None:
-    assert of(description, Terms(fps=fps)).total == pytest.approx(scaled(of(description, Terms(fps=1)).total, fps, 1))
+    assert of(description, Terms(fps=fps)).total == pytest.approx(
+        scaled(of(description, Terms(fps=1)).total, fps, 1)
+    )
 
 
 @given(passes(), st.integers(1, 8), st.integers(1, 8))
@@ -80,18 +107,26 @@ def test_linear_in_the_samples(description: dict[str, Any]) -> None:
 
 
 @given(passes())
-def test_the_total_is_the_sum_of_its_passes_and_they_of_their_lines(description: dict[str, Any]) -> None:
+def test_the_total_is_the_sum_of_its_passes_and_they_of_their_lines(
+    description: dict[str, Any],
+) -> None:
     found = of(description)
     for name in ("read_mb_per_s", "write_mb_per_s", "milliwatts"):
-        assert getattr(found.total, name) == pytest.approx(math.fsum(getattr(each.amount, name) for each in found.passes))
+        assert getattr(found.total, name) == pytest.approx(
+            math.fsum(getattr(each.amount, name) for each in found.passes)
+        )
         assert found.corrected is not None
         corrected = [each.corrected for each in found.passes]
-        assert getattr(found.corrected, name) == pytest.approx(math.fsum(getattr(each, name) for each in corrected))
+        assert getattr(found.corrected, name) == pytest.approx(
+            math.fsum(getattr(each, name) for each in corrected)
+        )
     for each in found.passes:
         moved = sum(line.bytes for line in each.lines)
         assert each.amount.traffic_mb_per_s == pytest.approx(moved * found.fps / 1e6)
         assert each.amount.milliwatts == pytest.approx(each.amount.traffic_mb_per_s / 10)
-    assert found.total.memory_mib == pytest.approx(sum(image.committed or 0 for image in found.images) / 2**20)
+    assert found.total.memory_mib == pytest.approx(
+        sum(image.committed or 0 for image in found.images) / 2**20
+    )
 
 
 @given(passes())
@@ -105,7 +140,9 @@ def test_compression_never_adds(description: dict[str, Any]) -> None:
 
 
 @given(passes(), st.data())
-def test_an_unknown_operation_counts_nothing_and_is_named(description: dict[str, Any], data: st.DataObject) -> None:
+def test_an_unknown_operation_counts_nothing_and_is_named(
+    description: dict[str, Any], data: st.DataObject
+) -> None:
     name = data.draw(st.sampled_from(sorted(description["renderPasses"])))
     attachment = data.draw(st.sampled_from(description["renderPasses"][name]["attachments"]))
     before = of(description)
@@ -121,7 +158,9 @@ def test_an_unknown_operation_counts_nothing_and_is_named(description: dict[str,
 @examples(1)
 @given(
     frames(),
-    st.sampled_from([None, "mali-g76", "nvidia", "v3d", "powervr", "apple-m1", "adreno-740", "portable"]),
+    st.sampled_from(
+        [None, "mali-g76", "nvidia", "v3d", "powervr", "apple-m1", "adreno-740", "portable"]
+    ),
     st.sampled_from(sorted(MODELS)),
 )
 def test_any_frame_has_a_cost(description: Any, name: str | None, tile: str) -> None:

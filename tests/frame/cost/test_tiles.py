@@ -6,7 +6,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from msaa_lint.frame.devices.tile_models import MODELS, Misstated, TileModel, stated_compression, stated_tile
+from msaa_lint.frame.devices.tile_models import (
+    MODELS,
+    Misstated,
+    TileModel,
+    stated_compression,
+    stated_tile,
+)
 from msaa_lint.frame.devices.tiles import TileUse, bins, tile_use
 from msaa_lint.frame.vulkan.formats import Format, format_of
 from tests.frame.cost.frames import cost
@@ -18,7 +24,9 @@ def of(name: str) -> Format:
     return found
 
 
-RGBA8, RGBA16F, RGBA32F, DEPTH = (of(n) for n in ("R8G8B8A8_UNORM", "R16G16B16A16_SFLOAT", "R32G32B32A32_SFLOAT", "D32_SFLOAT"))
+RGBA8, RGBA16F, RGBA32F, DEPTH = (
+    of(n) for n in ("R8G8B8A8_UNORM", "R16G16B16A16_SFLOAT", "R32G32B32A32_SFLOAT", "D32_SFLOAT")
+)
 
 
 def pixels(model: str, colors: list[Format], samples: int) -> int:
@@ -37,7 +45,9 @@ MALI = {
     "mali-g720": ("4096/2048/1024/512/256", "4096/2048/1024/512/256", "2048/1024/512/256/128"),
     "mali-g725": ("4096/4096/2048/1024/512", "4096/2048/1024/512/256", "2048/1024/512/256/128"),
 }
-"""Pixels a tile at 1, 2, 4, 8 and 16 samples of RGBA8, RGBA16F and 16 bytes in four attachments. From G71 to before G720, 2x is 4x."""
+"""Pixels a tile at 1, 2, 4, 8 and 16 samples of RGBA8, RGBA16F and 16 bytes in four attachments.
+From G71 to before G720, 2x is 4x.
+"""
 
 
 @pytest.mark.parametrize("model", MALI)
@@ -49,8 +59,10 @@ def test_mali(model: str) -> None:
 @pytest.mark.parametrize(
     ("colors", "samples", "expected", "spills"),
     [
-        ([RGBA8], 1, 1024, False), ([RGBA8], 2, 1024, False), ([RGBA8], 4, 512, False), ([RGBA8], 8, 256, False),
-        ([RGBA16F], 4, 512, False), ([RGBA16F], 8, 256, False), ([RGBA32F], 4, 256, False), ([RGBA32F], 8, 256, True),
+        ([RGBA8], 1, 1024, False), ([RGBA8], 2, 1024, False), ([RGBA8], 4, 512, False), ([RGBA8],
+        8, 256, False),
+        ([RGBA16F], 4, 512, False), ([RGBA16F], 8, 256, False), ([RGBA32F], 4, 256, False),
+        ([RGBA32F], 8, 256, True),
         ([RGBA32F] * 2, 4, 256, True), ([RGBA32F] * 5, 1, 256, True),
     ],
 )  # fmt: skip
@@ -63,8 +75,10 @@ def test_apple(colors: list[Format], samples: int, expected: int, spills: bool) 
 @pytest.mark.parametrize(
     ("model", "colors", "samples", "expected"),
     [
-        ("v3d-7", [RGBA8], 1, 64 * 64), ("v3d-7", [RGBA8], 4, 32 * 32), ("v3d-7", [RGBA16F], 1, 64 * 32), ("v3d-7", [RGBA16F], 4, 32 * 16),
-        ("v3d-7", [of("R8G8B8A8_SRGB")], 1, 64 * 32), ("v3d-4", [RGBA8], 1, 64 * 64), ("v3d-4", [RGBA8], 4, 32 * 32),
+        ("v3d-7", [RGBA8], 1, 64 * 64), ("v3d-7", [RGBA8], 4, 32 * 32), ("v3d-7", [RGBA16F], 1,
+        64 * 32), ("v3d-7", [RGBA16F], 4, 32 * 16),
+        ("v3d-7", [of("R8G8B8A8_SRGB")], 1, 64 * 32), ("v3d-4", [RGBA8], 1, 64 * 64), ("v3d-4",
+        [RGBA8], 4, 32 * 32),
         ("v3d-4", [RGBA16F, RGBA16F], 4, 16 * 16),
     ],
 )  # fmt: skip
@@ -90,13 +104,31 @@ def test_adreno_bins_of_a_quest_eye(samples: int, expected: int) -> None:
     assert bins(1216, 1344, use.bytes_per_pixel, MODELS["adreno-quest"].color_bytes) == expected
 
 
-FORMATS = st.sampled_from([RGBA8, RGBA16F, RGBA32F, of("R8_UNORM"), of("R32G32B32A32_UINT"), of("A2B10G10R10_UNORM_PACK32")])
+FORMATS = st.sampled_from(
+    [
+        RGBA8,
+        RGBA16F,
+        RGBA32F,
+        of("R8_UNORM"),
+        of("R32G32B32A32_UINT"),
+        of("A2B10G10R10_UNORM_PACK32"),
+    ]
+)
 
 
-@given(st.sampled_from(sorted(MODELS)), st.lists(FORMATS, max_size=8), st.sampled_from([1, 2, 4, 8]), st.booleans())
-def test_more_samples_never_enlarge_a_tile(model: str, colors: list[Format], samples: int, depth: bool) -> None:
+@given(
+    st.sampled_from(sorted(MODELS)),
+    st.lists(FORMATS, max_size=8),
+    st.sampled_from([1, 2, 4, 8]),
+    st.booleans(),
+)
+def test_more_samples_never_enlarge_a_tile(
+    model: str, colors: list[Format], samples: int, depth: bool
+) -> None:
     def use(count: int) -> TileUse | None:
-        return tile_use(MODELS[model], [(format, count) for format in colors], (DEPTH, count) if depth else None)
+        return tile_use(
+            MODELS[model], [(format, count) for format in colors], (DEPTH, count) if depth else None
+        )
 
     few, many = use(samples), use(samples * 2)
     if few is not None and many is not None:
@@ -132,7 +164,10 @@ renderPasses:
 
 
 def test_a_device_without_a_model_has_no_tile() -> None:
-    text = "renderPasses: {forward: {attachments: [{format: R8G8B8A8_UNORM, samples: 4}], subpasses: [{colorAttachments: [0]}]}}"
+    text = (
+        "renderPasses: {forward: {attachments: [{format: R8G8B8A8_UNORM, samples: 4}], "
+        "subpasses: [{colorAttachments: [0]}]}}"
+    )
     assert cost(text, "mali-g715").passes[0].tile is None
     assert cost(text).passes[0].tile is None
 
@@ -146,14 +181,20 @@ def test_every_model_says_where_it_is_from(name: str) -> None:
 @pytest.mark.parametrize(
     ("mapping", "key"),
     [
-        ({}, None), ({"model": "mali-g77"}, "model"), ({"model": 5}, "model"), ({"model": "mali-g76", "colorBytes": 4096}, "colorBytes"),
-        ({"kind": "apple"}, "kind"), ({"kind": "adreno"}, None), ({"kind": "adreno", "gmem": 4096}, "gmem"),
-        ({"kind": "adreno", "gmemBytes": 1.5}, "gmemBytes"), ({"kind": "adreno", "gmemBytes": 0}, "gmemBytes"),
-        ({"kind": "adreno", "gmemBytes": 2**40}, "gmemBytes"), ({"kind": "mali", "colorBytes": 4096, "depthBytes": 4096}, None),
+        ({}, None), ({"model": "mali-g77"}, "model"), ({"model": 5}, "model"),
+        ({"model": "mali-g76", "colorBytes": 4096}, "colorBytes"),
+        ({"kind": "apple"}, "kind"), ({"kind": "adreno"}, None), ({"kind": "adreno", "gmem": 4096},
+        "gmem"),
+        ({"kind": "adreno", "gmemBytes": 1.5}, "gmemBytes"), ({"kind": "adreno", "gmemBytes": 0},
+        "gmemBytes"),
+        ({"kind": "adreno", "gmemBytes": 2**40}, "gmemBytes"), ({"kind": "mali",
+        "colorBytes": 4096, "depthBytes": 4096}, None),
         ({"kind": "mali", "colorBytes": None, "depthBytes": 4096, "maxPixels": 256}, "colorBytes"),
     ],
 )  # fmt: skip
-def test_a_misstated_tile_is_told_at_its_key(mapping: dict[str, float | str | None], key: str | None) -> None:
+def test_a_misstated_tile_is_told_at_its_key(
+    mapping: dict[str, float | str | None], key: str | None
+) -> None:
     found = stated_tile(mapping)
     assert isinstance(found, Misstated)
     assert found.key == key
@@ -161,7 +202,15 @@ def test_a_misstated_tile_is_told_at_its_key(mapping: dict[str, float | str | No
 
 
 def test_a_stated_tile() -> None:
-    found = stated_tile({"kind": "mali", "colorBytes": 8192, "depthBytes": 4096, "maxPixels": 256, "limitBytes": 16384})
+    found = stated_tile(
+        {
+            "kind": "mali",
+            "colorBytes": 8192,
+            "depthBytes": 4096,
+            "maxPixels": 256,
+            "limitBytes": 16384,
+        }
+    )
     assert found == TileModel("mali", 8192, 4096, 256, 16384, "the description")
     assert isinstance(stated_tile({"kind": "adreno", "gmemBytes": 2**20}), TileModel)
 
@@ -176,7 +225,9 @@ def test_a_stated_tile() -> None:
         ({}, {}),
     ],
 )
-def test_a_stated_compression(mapping: dict[str, float | None], found: dict[int, tuple[float, float]]) -> None:
+def test_a_stated_compression(
+    mapping: dict[str, float | None], found: dict[int, tuple[float, float]]
+) -> None:
     assert stated_compression(mapping) == found
 
 
@@ -192,7 +243,9 @@ def test_a_stated_compression(mapping: dict[str, float | None], found: dict[int,
         ({"4": None}, "4"),
     ],
 )
-def test_a_misstated_compression_is_told_at_its_key(mapping: dict[str, float | None], key: str) -> None:
+def test_a_misstated_compression_is_told_at_its_key(
+    mapping: dict[str, float | None], key: str
+) -> None:
     found = stated_compression(mapping)
     assert isinstance(found, Misstated)
     assert found.key == key

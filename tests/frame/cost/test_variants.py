@@ -1,4 +1,6 @@
-"""A frame at other sample counts and with its resolves placed otherwise: the published numbers, and the laws that all variants keep."""
+"""A frame at other sample counts and with its resolves placed otherwise: the published numbers, and
+the laws that all variants keep.
+"""
 
 from __future__ import annotations
 
@@ -27,10 +29,17 @@ ONE, FOUR = 561.9456, 2247.7824
 MIB = 2168 * 1080 * 4 / 2**20
 """Of one such image with one sample."""
 
-LAZY = DeviceProfile("lazy", memory_types=(("DEVICE_LOCAL", "LAZILY_ALLOCATED"),), color_samples=(1, 4), depth_samples=(1, 4))
+LAZY = DeviceProfile(
+    "lazy",
+    memory_types=(("DEVICE_LOCAL", "LAZILY_ALLOCATED"),),
+    color_samples=(1, 4),
+    depth_samples=(1, 4),
+)
 
 
-def made(text: str, device: str | DeviceProfile | None = None, counts: tuple[int, ...] = (1, 2, 4, 8)) -> dict[tuple[int, str], Variant]:
+def made(
+    text: str, device: str | DeviceProfile | None = None, counts: tuple[int, ...] = (1, 2, 4, 8)
+) -> dict[tuple[int, str], Variant]:
     found = document(text)
     default = builtin(device) if isinstance(device, str) else device
     listed = variants(found, profile(found.description, default), Terms(), counts)
@@ -58,13 +67,19 @@ def test_the_printed_numbers_of_the_khronos_sample() -> None:
 def test_separate_resolves_of_colour_and_depth_store_and_read_all_samples() -> None:
     found = example("khronos-msaa/inline.msaa.yaml")
     assert found[4, INLINE].cost == found[4, AS_WRITTEN].cost
-    more = [b - a for a, b in zip(traffic(found[4, INLINE]), traffic(found[4, SEPARATE]), strict=True)]
+    more = [
+        b - a for a, b in zip(traffic(found[4, INLINE]), traffic(found[4, SEPARATE]), strict=True)
+    ]
     assert more == pytest.approx([2 * FOUR, 2 * FOUR])
 
 
 def test_the_guides_number_for_1080p() -> None:
     """3.98 GB/s more than 0.50: four samples written and read."""
-    text = (EXAMPLES / "khronos-msaa/color-separate.msaa.yaml").read_text(encoding="utf-8").replace("width: 2168", "width: 1920")
+    text = (
+        (EXAMPLES / "khronos-msaa/color-separate.msaa.yaml")
+        .read_text(encoding="utf-8")
+        .replace("width: 2168", "width: 1920")
+    )
     found = made(text)
     inline, separate = (found[4, place].cost.total.traffic_mb_per_s for place in (INLINE, SEPARATE))
     assert (round(inline / 1000, 2), round((separate - inline) / 1000, 2)) == (0.50, 3.98)
@@ -87,7 +102,9 @@ def test_the_guides_number_for_1080p() -> None:
 )
 def test_memory_is_that_of_the_images_left(name: str, count: int, place: str, images: int) -> None:
     """In images of one sample; what stays on the tile of a Mali is not committed."""
-    assert example(f"khronos-msaa/{name}.msaa.yaml")[count, place].cost.total.memory_mib == pytest.approx(images * MIB)
+    assert example(f"khronos-msaa/{name}.msaa.yaml")[
+        count, place
+    ].cost.total.memory_mib == pytest.approx(images * MIB)
 
 
 RENDERING = """
@@ -108,19 +125,27 @@ commands:
 
 
 def test_dynamic_rendering() -> None:
-    """A megapixel a second: figures are bytes a pixel. A command moves depth and stencil, a shader reads depth."""
+    """A megapixel a second: figures are bytes a pixel. A command moves depth and stencil, a shader
+    reads depth.
+    """
     found = made(RENDERING)
     assert traffic(found[4, INLINE]) == pytest.approx((4, 4 + 4))
     assert traffic(found[4, SEPARATE]) == pytest.approx((4 + 16 + 20, 16 + 20 + 4 + 5))
     assert traffic(found[1, NONE]) == pytest.approx((4, 4 + 4))
     assert found[1, NONE].cost.total.memory_mib == pytest.approx((4 + 5) * 1e4 / 2**20)
-    assert found[4, SEPARATE].cost.total.memory_mib == pytest.approx((16 + 20 + 4 + 5) * 1e4 / 2**20)
+    assert found[4, SEPARATE].cost.total.memory_mib == pytest.approx(
+        (16 + 20 + 4 + 5) * 1e4 / 2**20
+    )
 
 
 def test_a_command_goes_into_the_rendering_before_it() -> None:
     unresolved = "storeOp: STORE, resolveMode: NONE"
-    text = RENDERING.replace("storeOp: DONT_CARE, resolveMode: AVERAGE, resolveImage: out", unresolved)
-    text = text.replace("- readImage", "- resolveImage: {srcImage: ms, dstImage: out}\n  - readImage")
+    text = RENDERING.replace(
+        "storeOp: DONT_CARE, resolveMode: AVERAGE, resolveImage: out", unresolved
+    )
+    text = text.replace(
+        "- readImage", "- resolveImage: {srcImage: ms, dstImage: out}\n  - readImage"
+    )
     found = made(text)
     assert traffic(found[4, AS_WRITTEN]) == pytest.approx((4 + 16, 16 + 4 + 4))
     assert traffic(found[4, INLINE]) == pytest.approx((4, 4 + 4))
@@ -141,7 +166,11 @@ def test_what_is_read_later_stays_stored() -> None:
     """
     found = made(text)
     assert traffic(found[4, INLINE]) == pytest.approx((16, 16 + 4))
-    assert traffic(found[4, SEPARATE]) == traffic(found[4, AS_WRITTEN]) == pytest.approx((16 + 16, 16 + 4))
+    assert (
+        traffic(found[4, SEPARATE])
+        == traffic(found[4, AS_WRITTEN])
+        == pytest.approx((16 + 16, 16 + 4))
+    )
     assert traffic(found[1, NONE]) == pytest.approx((4, 4)), "out is loaded and drawn to"
 
 
@@ -204,11 +233,21 @@ def test_multisampled_render_to_single_sampled_has_no_other_place_to_resolve() -
     """
     found = made(text)
     assert {traffic(each) for each in found.values()} == {(0.0, 4.0)}
-    assert [each.cost.passes[0].shading.samples for each in found.values() if each.cost.passes[0].shading] == [1, 2, 4, 8]
+    assert [
+        each.cost.passes[0].shading.samples
+        for each in found.values()
+        if each.cost.passes[0].shading
+    ] == [1, 2, 4, 8]
 
 
 def test_a_frame_without_multisampling_has_no_variants() -> None:
-    assert made("renderPasses: {main: {attachments: [{samples: 1, format: R8_UNORM}], subpasses: [{colorAttachments: [0]}]}}") == {}
+    assert (
+        made(
+            "renderPasses: {main: {attachments: [{samples: 1, format: R8_UNORM}], subpasses: "
+            "[{colorAttachments: [0]}]}}"
+        )
+        == {}
+    )
 
 
 def test_a_count_that_is_none_is_refused() -> None:
@@ -221,7 +260,9 @@ def test_offered_is_what_the_device_says_of_every_format() -> None:
     assert [made(text, LAZY)[count, INLINE].offered for count in (2, 4, 8)] == [False, True, False]
     assert made(text)[4, INLINE].offered is None
     assert made(RENDERING, LAZY)[4, INLINE].offered is None, "nothing is known of stencil"
-    assert made(text, LAZY._replace(minimum=True))[8, INLINE].offered is None, "not promised is not refused"
+    assert made(text, LAZY._replace(minimum=True))[8, INLINE].offered is None, (
+        "not promised is not refused"
+    )
 
 
 def plain(found: Amount) -> tuple[float, ...]:
@@ -230,31 +271,65 @@ def plain(found: Amount) -> tuple[float, ...]:
 
 @st.composite
 def resolving(draw: st.DrawFn) -> dict[str, Any]:
-    """Frames of a pass or a rendering with colours and depth, each resolved inside, by command, or not at all."""
+    """Frames of a pass or a rendering with colours and depth, each resolved inside, by command, or
+    not at all.
+    """
     colors = draw(st.integers(1, 3))
     depth = draw(st.booleans())
     count = draw(st.sampled_from([2, 4, 8]))
     names = [f"c{n}" for n in range(colors)] + (["d"] if depth else [])
-    where = {name: draw(st.sampled_from(["inside", "command", "never"] if name != "d" else ["inside", "never"])) for name in names}
+    where = {
+        name: draw(
+            st.sampled_from(["inside", "command", "never"] if name != "d" else ["inside", "never"])
+        )
+        for name in names
+    }
     formats = {name: "D32_SFLOAT" if name == "d" else "R8G8B8A8_UNORM" for name in names}
     images = {name: {"format": formats[name], "samples": count} for name in names}
-    images |= {f"{name}_out": {"format": formats[name], "samples": 1} for name in names if where[name] != "never"}
+    images |= {
+        f"{name}_out": {"format": formats[name], "samples": 1}
+        for name in names
+        if where[name] != "never"
+    }
     load = {name: draw(st.sampled_from(["CLEAR", "LOAD"])) for name in names}
-    store = {name: "STORE" if where[name] == "command" else draw(st.sampled_from(["STORE", "DONT_CARE"])) for name in names}
-    after: list[Any] = [{"resolveImage": {"srcImage": n, "dstImage": f"{n}_out"}} for n in names if where[n] == "command"]
+    store = {
+        name: "STORE" if where[name] == "command" else draw(st.sampled_from(["STORE", "DONT_CARE"]))
+        for name in names
+    }
+    after: list[Any] = [
+        {"resolveImage": {"srcImage": n, "dstImage": f"{n}_out"}}
+        for n in names
+        if where[n] == "command"
+    ]
     found: dict[str, Any] = {"frame": {"width": 100, "height": 100, "fps": 100}, "images": images}
     if draw(st.booleans()):
         infos = {
-            name: {"image": name, "loadOp": load[name], "storeOp": store[name], "resolveMode": "NONE"}
-            | ({"resolveMode": "SAMPLE_ZERO", "resolveImage": f"{name}_out"} if where[name] == "inside" else {})
+            name: {
+                "image": name,
+                "loadOp": load[name],
+                "storeOp": store[name],
+                "resolveMode": "NONE",
+            }
+            | (
+                {"resolveMode": "SAMPLE_ZERO", "resolveImage": f"{name}_out"}
+                if where[name] == "inside"
+                else {}
+            )
             for name in names
         }
-        begin = {"colorAttachments": [infos[n] for n in names if n != "d"]} | ({"depthAttachment": infos["d"]} if depth else {})
+        begin = {"colorAttachments": [infos[n] for n in names if n != "d"]} | (
+            {"depthAttachment": infos["d"]} if depth else {}
+        )
         found["commands"] = [{"beginRendering": begin}, "endRendering", *after]
         return found
-    attachments = {name: {"image": name, "loadOp": load[name], "storeOp": store[name]} for name in names}
+    attachments = {
+        name: {"image": name, "loadOp": load[name], "storeOp": store[name]} for name in names
+    }
     inside = [name for name in names if where[name] == "inside"]
-    attachments |= {f"{name}_out": {"image": f"{name}_out", "loadOp": "DONT_CARE", "storeOp": "STORE"} for name in inside}
+    attachments |= {
+        f"{name}_out": {"image": f"{name}_out", "loadOp": "DONT_CARE", "storeOp": "STORE"}
+        for name in inside
+    }
     subpass: dict[str, Any] = {
         "colorAttachments": [n for n in names if n != "d"],
         "resolveAttachments": [f"{n}_out" if n in inside else None for n in names if n != "d"],
@@ -262,7 +337,11 @@ def resolving(draw: st.DrawFn) -> dict[str, Any]:
     if depth:
         subpass["depthStencilAttachment"] = "d"
         if "d" in inside:
-            subpass["depthStencilResolve"] = {"attachment": "d_out", "depthResolveMode": "SAMPLE_ZERO", "stencilResolveMode": "NONE"}
+            subpass["depthStencilResolve"] = {
+                "attachment": "d_out",
+                "depthResolveMode": "SAMPLE_ZERO",
+                "stencilResolveMode": "NONE",
+            }
     found["renderPasses"] = {"main": {"attachments": attachments, "subpasses": [subpass]}}
     recorded = draw(st.booleans())
     if after or recorded:
@@ -273,8 +352,9 @@ def resolving(draw: st.DrawFn) -> dict[str, Any]:
 @examples(1)
 @given(resolving())
 def test_laws_of_frames_that_resolve(description: dict[str, Any]) -> None:
-    """With its own count a frame is as written; inside costs at most what is written, apart at least what inside costs, and the
-    difference is all samples stored and read."""
+    """With its own count a frame is as written; inside costs at most what is written, apart at
+    least what inside costs, and the difference is all samples stored and read.
+    """
     text = json.dumps(description)
     count = description["images"]["c0"]["samples"]
     found = made(text, LAZY)
@@ -291,7 +371,9 @@ def test_laws_of_frames_that_resolve(description: dict[str, Any]) -> None:
     assert separate.memory_mib >= inline.memory_mib
     one = found[1, NONE].cost.total
     assert all(a <= b + 1e-9 for a, b in zip(plain(one), plain(separate), strict=True))
-    assert one.memory_mib == pytest.approx(len({n.removesuffix("_out") for n in description["images"]}) * 4e4 / 2**20)
+    assert one.memory_mib == pytest.approx(
+        len({n.removesuffix("_out") for n in description["images"]}) * 4e4 / 2**20
+    )
 
 
 @examples(1.5, suppress_health_check=[HealthCheck.too_slow])
@@ -305,7 +387,9 @@ def test_no_frame_is_too_odd(description: dict[str, Any]) -> None:
     assert frame_cost(Frame(found), own, Terms()) == before, "the description is as it was"
 
 
-@pytest.mark.parametrize("example", [each for each in all_examples() if "Pipeline" not in each.text], ids=str)
+@pytest.mark.parametrize(
+    "example", [each for each in all_examples() if "Pipeline" not in each.text], ids=str
+)
 def test_examples_of_the_rules_have_variants(example: Any) -> None:
     found = document(example.text)
     for each in variants(found, profile(found.description, builtin("mali-g76")), Terms()):

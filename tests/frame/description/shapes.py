@@ -1,4 +1,6 @@
-"""Values by the models: for every shape that a member has, what it may hold as JSON, in each of its spellings."""
+"""Values by the models: for every shape that a member has, what it may hold as JSON, in each of its
+spellings.
+"""
 
 from __future__ import annotations
 
@@ -28,7 +30,9 @@ MODELS: dict[str, type[Structure]] = {name: model_of(kind) for name, kind in REC
 
 
 def spellings(enum: str) -> list[str]:
-    """Every enumerant as the specification writes it, without the type's prefix, and without `VK_` alone; flags with and without `_BIT`."""
+    """Every enumerant as the specification writes it, without the type's prefix, and without `VK_`
+    alone; flags with and without `_BIT`.
+    """
     found = []
     for name in ENUMS[enum]:
         shorts = [name]
@@ -47,13 +51,17 @@ METAL_SPELLINGS = {enum: metal_names.spellings(enum) for enum in metal_names.ENU
 
 
 def enumerants(enums: str) -> st.SearchStrategy[str]:
-    return st.sampled_from([name for enum in enums.split("|") for name in {**SPELLINGS, **METAL_SPELLINGS}[enum]])
+    return st.sampled_from(
+        [name for enum in enums.split("|") for name in {**SPELLINGS, **METAL_SPELLINGS}[enum]]
+    )
 
 
 def flags(enum: str) -> st.SearchStrategy[Json]:
     names = st.lists(enumerants(enum), max_size=3)
     joined = names.filter(bool).map(" | ".join)
-    return names | joined | (st.sampled_from([0, "0", "0x0"]) if "FlagBits" in enum else st.nothing())
+    return (
+        names | joined | (st.sampled_from([0, "0", "0x0"]) if "FlagBits" in enum else st.nothing())
+    )
 
 
 def by_shape(shape: tuple[Any, ...]) -> st.SearchStrategy[Json]:
@@ -71,26 +79,50 @@ def by_shape(shape: tuple[Any, ...]) -> st.SearchStrategy[Json]:
         case "list":
             return st.lists(by_shape(shape[1]), max_size=3 if len(shape) == 2 else shape[2])
         case "counted":
-            return st.lists(by_shape(shape[1]), max_size=3) | st.dictionaries(NAMES, by_shape(shape[1]), max_size=3)
+            return st.lists(by_shape(shape[1]), max_size=3) | st.dictionaries(
+                NAMES, by_shape(shape[1]), max_size=3
+            )
         case "map":
             return st.dictionaries(NAMES, by_shape(shape[1]), max_size=2)
         case "numbered":
-            return st.dictionaries(st.integers(0, shape[2] if len(shape) > 2 else 2**32 - 1).map(str), by_shape(shape[1]), max_size=2)
+            return st.dictionaries(
+                st.integers(0, shape[2] if len(shape) > 2 else 2**32 - 1).map(str),
+                by_shape(shape[1]),
+                max_size=2,
+            )
         case "slot":
             return st.none() | NAMES | st.integers(0, 2**32 - 1) | structure("AttachmentReference")
         case "subpass":
             return st.integers(0, 2**32 - 1) | st.sampled_from(["EXTERNAL", "VK_SUBPASS_EXTERNAL"])
         case "samples":
-            return st.sampled_from([1, 2, 4, 8, 16, 32, 64, "4", "SAMPLE_COUNT_8", "VK_SAMPLE_COUNT_16_BIT", "VK_SAMPLE_COUNT_2"])
+            return st.sampled_from(
+                [
+                    1,
+                    2,
+                    4,
+                    8,
+                    16,
+                    32,
+                    64,
+                    "4",
+                    "SAMPLE_COUNT_8",
+                    "VK_SAMPLE_COUNT_16_BIT",
+                    "VK_SAMPLE_COUNT_2",
+                ]
+            )
         case "shading":
-            return st.sampled_from(["none", "medium", 200, 0, "200", "200ops", "500000ns", "4.2ms", "0.5ns"])
+            return st.sampled_from(
+                ["none", "medium", 200, 0, "200", "200ops", "500000ns", "4.2ms", "0.5ns"]
+            )
         case "bool":
             return st.booleans()
         case "int":
             return st.integers(shape[1], shape[2])
         case "number":
             low = 1e-300 if shape[1] else None
-            return st.floats(low, allow_nan=False, allow_infinity=False) | st.integers(1 if shape[1] else None, 10**30)
+            return st.floats(low, allow_nan=False, allow_infinity=False) | st.integers(
+                1 if shape[1] else None, 10**30
+            )
         case "share":
             return st.floats(1e-300, 1) | st.just(1)
         case "text":
@@ -100,14 +132,21 @@ def by_shape(shape: tuple[Any, ...]) -> st.SearchStrategy[Json]:
         case "word":
             return st.sampled_from(shape[1])
         case "caseless":
-            return st.sampled_from(shape[1]).flatmap(lambda word: st.sampled_from([word, word.upper(), word.capitalize()]))
+            return st.sampled_from(shape[1]).flatmap(
+                lambda word: st.sampled_from([word, word.upper(), word.capitalize()])
+            )
         case "either":
             return st.one_of(*(by_shape(arm) for arm in shape[1:]))
         case "command":
             members = shape[1].SHAPE
             words = [name for name, found in members.items() if found[0] == "null"]
             bare = st.sampled_from(words) if words else st.nothing()
-            return bare | st.one_of(*(by_shape(found).map(lambda value, name=name: {name: value}) for name, found in members.items()))
+            return bare | st.one_of(
+                *(
+                    by_shape(found).map(lambda value, name=name: {name: value})
+                    for name, found in members.items()
+                )
+            )
     raise TypeError(kind)
 
 
@@ -122,7 +161,9 @@ _structures: dict[str, st.SearchStrategy[dict[str, Json]]] = {}
 
 
 def _members(name: str) -> st.SearchStrategy[dict[str, Json]]:
-    return st.fixed_dictionaries({}, optional={key: by_shape(shape) for key, shape in RECORDS[name].SHAPE.items()})
+    return st.fixed_dictionaries(
+        {}, optional={key: by_shape(shape) for key, shape in RECORDS[name].SHAPE.items()}
+    )
 
 
 def paths(value: Json, at: tuple[Any, ...] = ()) -> list[tuple[Any, ...]]:

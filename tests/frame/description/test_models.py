@@ -1,4 +1,6 @@
-"""The pydantic models and the binder accept and refuse the same inputs, and read them to the same values."""
+"""The pydantic models and the binder accept and refuse the same inputs, and read them to the same
+values.
+"""
 
 from __future__ import annotations
 
@@ -47,7 +49,9 @@ def accepted(value: Json, kind: str) -> BaseModel | None:
 
 
 def plain(value: Any, name: str = "") -> Any:
-    """What a model or a record holds, in one form: an attachment slot that says nothing but which is that alone."""
+    """What a model or a record holds, in one form: an attachment slot that says nothing but which
+    is that alone.
+    """
     if isinstance(value, AttachmentReference) or type(value).__name__ == "AttachmentReference":
         return reference(plain(value.attachment), value.layout)
     if type(value).__name__ in ("Command", "MetalCommand"):
@@ -102,12 +106,21 @@ def command(value: Any) -> Any:
 def bare_commands(held: Any) -> Any:
     """A model holds a bare word where a record holds the command."""
     if isinstance(held, dict) and isinstance(held.get("commands"), list):
-        held["commands"] = [(each, {}) if isinstance(each, str) else each for each in held["commands"]]
+        held["commands"] = [
+            (each, {}) if isinstance(each, str) else each for each in held["commands"]
+        ]
     return held
 
 
 def test_every_model_has_the_members_of_its_record() -> None:
-    assert set(MODELS) >= {"Description", "RenderPass", "Command", "Metal", "MetalCommand", "RenderTarget"}
+    assert set(MODELS) >= {
+        "Description",
+        "RenderPass",
+        "Command",
+        "Metal",
+        "MetalCommand",
+        "RenderTarget",
+    }
     for name, model in MODELS.items():
         assert list(model.model_fields) == list(RECORDS[name].SHAPE)
 
@@ -125,7 +138,9 @@ def test_what_the_models_accept_the_binder_reads_to_the_same(value: Json) -> Non
 @MANY
 @given(data=st.data())
 def test_every_structure_is_read_to_the_same(data: st.DataObject) -> None:
-    name = data.draw(st.sampled_from(sorted(set(RECORDS) - {"Description", "Command", "MetalCommand"})))
+    name = data.draw(
+        st.sampled_from(sorted(set(RECORDS) - {"Description", "Command", "MetalCommand"}))
+    )
     value = data.draw(structure(name))
     model = accepted(value, name)
     assert model is not None
@@ -145,7 +160,23 @@ def test_mutated_structures_are_refused_by_both_or_by_neither(data: st.DataObjec
         found = found[key]
     if isinstance(found, dict) and data.draw(st.booleans()):
         # A key that the structure may have, or may not.
-        where = (*where, data.draw(st.sampled_from(["x", "image", "samples", "format", "attachment", "commands", "flags", "storeOp"])))
+        where = (
+            *where,
+            data.draw(
+                st.sampled_from(
+                    [
+                        "x",
+                        "image",
+                        "samples",
+                        "format",
+                        "attachment",
+                        "commands",
+                        "flags",
+                        "storeOp",
+                    ]
+                )
+            ),
+        )
     mutated = replaced(value, where, data.draw(JUNK))
     if not isinstance(mutated, dict):
         return
@@ -205,6 +236,13 @@ def test_null_in_lists(value: Json, fine: bool) -> None:
 
 def test_a_model_is_made_of_what_a_program_hands_in() -> None:
     made: Any = MODELS["Description"].model_validate(
-        {"images": {"a": {"samples": "VK_SAMPLE_COUNT_4_BIT", "usage": "SAMPLED | COLOR_ATTACHMENT"}}}
+        {
+            "images": {
+                "a": {"samples": "VK_SAMPLE_COUNT_4_BIT", "usage": "SAMPLED | COLOR_ATTACHMENT"}
+            }
+        }
     )
-    assert (made.images["a"].samples, made.images["a"].usage) == (4, ("SAMPLED", "COLOR_ATTACHMENT"))
+    assert (made.images["a"].samples, made.images["a"].usage) == (
+        4,
+        ("SAMPLED", "COLOR_ATTACHMENT"),
+    )

@@ -51,7 +51,13 @@ def mistakes(value: Json) -> list[str]:
 
 
 def test_the_command_prints_it() -> None:
-    done = subprocess.run([sys.executable, "-m", "msaa_lint", "schema"], cwd=ROOT, capture_output=True, text=True, check=True)
+    done = subprocess.run(
+        [sys.executable, "-m", "msaa_lint", "schema"],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        check=True,
+    )
     assert json.loads(done.stdout) == SCHEMA
     Draft202012Validator.check_schema(SCHEMA)
 
@@ -66,7 +72,9 @@ def nodes(value: Any) -> Iterator[dict[str, Any]]:
 
 
 def test_the_schema_is_whole() -> None:
-    """Every reference leads somewhere, no structure takes unknown members, every pattern is anchored."""
+    """Every reference leads somewhere, no structure takes unknown members, every pattern is
+    anchored.
+    """
     for node in nodes(SCHEMA):
         if "$ref" in node:
             assert node["$ref"].removeprefix("#/$defs/") in SCHEMA["$defs"]
@@ -77,13 +85,17 @@ def test_the_schema_is_whole() -> None:
             re.compile(node["pattern"])
 
 
-@pytest.mark.parametrize("path", sorted((ROOT / "examples").rglob("*.msaa.*")), ids=lambda path: path.name)
+@pytest.mark.parametrize(
+    "path", sorted((ROOT / "examples").rglob("*.msaa.*")), ids=lambda path: path.name
+)
 def test_examples_are_valid(path: Path) -> None:
     for value in documents(path.read_text(encoding="utf-8")):
         assert mistakes(value) == []
 
 
-@pytest.mark.parametrize("example", [e for e in all_examples() if "PipelineState" not in e.text], ids=str)
+@pytest.mark.parametrize(
+    "example", [e for e in all_examples() if "PipelineState" not in e.text], ids=str
+)
 def test_examples_of_the_pages_are_valid(example: Any) -> None:
     for value in documents(example.text):
         assert mistakes(value) == []
@@ -104,7 +116,10 @@ def test_what_the_models_accept_is_valid(value: Json) -> None:
     [
         ("image: {}", [""]),
         ("images: {a: {formt: D16_UNORM}}", ["images/a"]),
-        ("renderPasses: {a: {subpasses: [{colorAttachment: [0]}]}}", ["renderPasses/a/subpasses/0"]),
+        (
+            "renderPasses: {a: {subpasses: [{colorAttachment: [0]}]}}",
+            ["renderPasses/a/subpasses/0"],
+        ),
         ("images: {a: {format: RGBA8}}", ["images/a/format"]),
         ("images: {a: {format: VK_FORMAT_RGBA8}}", ["images/a/format"]),
         ("images: {a: {format: FORMAT_}}", ["images/a/format"]),
@@ -120,12 +135,24 @@ def test_what_the_models_accept_is_valid(value: Json) -> None:
         ("frame: {fps: 0}", ["frame/fps"]),
         ("frame: {width: 0}", ["frame/width"]),
         ("frame: {width: 2147483648}", ["frame/width"]),
-        ("renderPasses: {a: {attachments: {c: {storeOp: NONE_BIT}}}}", ["renderPasses/a/attachments"]),
+        (
+            "renderPasses: {a: {attachments: {c: {storeOp: NONE_BIT}}}}",
+            ["renderPasses/a/attachments"],
+        ),
         ("renderPasses: {a: {subpasses: [null]}}", ["renderPasses/a/subpasses/0"]),
-        ("renderPasses: {a: {subpasses: [{colorAttachments: [-1]}]}}", ["renderPasses/a/subpasses/0/colorAttachments/0"]),
-        ("renderPasses: {a: {dependencies: [{srcSubpass: OUTSIDE}]}}", ["renderPasses/a/dependencies/0/srcSubpass"]),
+        (
+            "renderPasses: {a: {subpasses: [{colorAttachments: [-1]}]}}",
+            ["renderPasses/a/subpasses/0/colorAttachments/0"],
+        ),
+        (
+            "renderPasses: {a: {dependencies: [{srcSubpass: OUTSIDE}]}}",
+            ["renderPasses/a/dependencies/0/srcSubpass"],
+        ),
         ("pipelines: {p: {dynamicState: [VIEWPORTS]}}", ["pipelines/p/dynamicState"]),
-        ("pipelines: {p: {stages: [{specialization: {x: 1}}]}}", ["pipelines/p/stages/0/specialization"]),
+        (
+            "pipelines: {p: {stages: [{specialization: {x: 1}}]}}",
+            ["pipelines/p/stages/0/specialization"],
+        ),
         ("commands: [draw]", ["commands/0"]),
         ("commands: [{draw: null}]", ["commands/0"]),
         ("commands: [{}]", ["commands/0"]),
@@ -149,11 +176,23 @@ def test_every_spelling_is_valid(enum: str) -> None:
 
 
 @given(st.sampled_from(sorted(VALUES)), st.data())
-def test_names_that_are_nearly_right_are_valid_where_the_linter_takes_them(enum: str, data: st.DataObject) -> None:
+def test_names_that_are_nearly_right_are_valid_where_the_linter_takes_them(
+    enum: str, data: st.DataObject
+) -> None:
     name = data.draw(st.sampled_from(SPELLINGS[enum]))
     cut = data.draw(st.integers(0, len(name)))
     text = data.draw(
-        st.sampled_from([name[cut:], name[:cut], name.lower(), f"VK_{name}", f"{name}_BIT", f" {name}", name[:cut] + "_" + name[cut:]])
+        st.sampled_from(
+            [
+                name[cut:],
+                name[:cut],
+                name.lower(),
+                f"VK_{name}",
+                f"{name}_BIT",
+                f" {name}",
+                name[:cut] + "_" + name[cut:],
+            ]
+        )
     )
     valid = re.fullmatch(spellings(enum), text) is not None
     assert valid <= (parse_enum(enum, text) is not None)

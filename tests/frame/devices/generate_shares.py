@@ -2,9 +2,10 @@
 
     python -m tests.frame.devices.generate_shares TABLE.csv [--check]
 
-The table has a row a device, with the columns `vendorID` (hexadecimal), `framebufferColorSampleCounts`,
-`framebufferIntegerColorSampleCounts` (masks, the second empty where a report lacks it) and `has_LAZILY_ALLOCATED` (0 or 1). `--check`
-writes nothing and exits with 1 where the file is stale.
+The table has a row a device, with the columns `vendorID` (hexadecimal),
+`framebufferColorSampleCounts`, `framebufferIntegerColorSampleCounts` (masks, the second empty where
+a report lacks it) and `has_LAZILY_ALLOCATED` (0 or 1). `--check` writes nothing and exits with 1
+where the file is stale.
 """
 
 from __future__ import annotations
@@ -34,10 +35,17 @@ def source(table: str) -> str:
     vendors = [vendor_of(int(row["vendorID"], 16)) for row in rows]
     masks = [int(row["framebufferColorSampleCounts"]) for row in rows]
     lazy = [row["has_LAZILY_ALLOCATED"] == "1" for row in rows]
-    integer = [int(row["framebufferIntegerColorSampleCounts"]) for row in rows if row["framebufferIntegerColorSampleCounts"]]
+    integer = [
+        int(row["framebufferIntegerColorSampleCounts"])
+        for row in rows
+        if row["framebufferIntegerColorSampleCounts"]
+    ]
     of_tilers = [mask for mask, vendor in zip(masks, vendors, strict=True) if vendor in TILERS]
     by_vendor = {
-        name: (sum(has for has, vendor in zip(lazy, vendors, strict=True) if vendor == name), vendors.count(name))
+        name: (
+            sum(has for has, vendor in zip(lazy, vendors, strict=True) if vendor == name),
+            vendors.count(name),
+        )
         for name in sorted({vendor for vendor in vendors if vendor is not None})
     }
     out = [HEADER]
@@ -49,9 +57,15 @@ def source(table: str) -> str:
     out.append('"""The same of tile-based devices."""\n\n')
     out.append("LAZILY_ALLOCATED: dict[str, tuple[int, int]] = {\n")
     out.append("".join(f'    "{name}": {counts},\n' for name, counts in by_vendor.items()) + "}\n")
-    out.append('"""A vendor\'s devices that have a lazily allocated memory type, and all its devices."""\n\n')
+    out.append(
+        '"""A vendor\'s devices that have a lazily allocated memory type, and all its devices."""\n'
+        "\n"
+    )
     out.append(f"INTEGER_SINGLE_SAMPLED = ({integer.count(1)}, {len(integer)})\n")
-    out.append('"""Devices that offer integer colour attachments no more than one sample, of those that report it."""\n')
+    out.append(
+        '"""Devices that offer integer colour attachments no more than one sample, of those that '
+        'report it."""\n'
+    )
     return "".join(out)
 
 

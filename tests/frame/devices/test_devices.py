@@ -1,4 +1,6 @@
-"""The built-in profiles against Vulkan's guarantees, and against the reports they are from where those are at hand."""
+"""The built-in profiles against Vulkan's guarantees, and against the reports they are from where
+those are at hand.
+"""
 
 from __future__ import annotations
 
@@ -23,7 +25,17 @@ def profile(name: str) -> DeviceProfile:
 
 def test_names() -> None:
     assert set(names()) == {
-        *("mali-g76", "mali-g610", "mali-g715", "mali-g720", "adreno-740", "apple-m1", "apple-a15", "powervr", "v3d"),
+        *(
+            "mali-g76",
+            "mali-g610",
+            "mali-g715",
+            "mali-g720",
+            "adreno-740",
+            "apple-m1",
+            "apple-a15",
+            "powervr",
+            "v3d",
+        ),
         *("samsung-xclipse", "nvidia", "amd", "intel", "lavapipe", *CLASSES),
     }
     assert builtin("mali") is None
@@ -40,7 +52,9 @@ def test_profiles_keep_vulkans_guarantees(name: str) -> None:
         assert list(counts) == sorted(set(counts))
     assert device.integer_samples is None or 1 in device.integer_samples
     assert device.depth_resolve_modes is not None and "SAMPLE_ZERO" in device.depth_resolve_modes
-    assert device.stencil_resolve_modes is not None and "SAMPLE_ZERO" in device.stencil_resolve_modes
+    assert (
+        device.stencil_resolve_modes is not None and "SAMPLE_ZERO" in device.stencil_resolve_modes
+    )
     assert "AVERAGE" not in device.stencil_resolve_modes
     if device.independent_resolve:
         assert device.independent_resolve_none
@@ -48,7 +62,9 @@ def test_profiles_keep_vulkans_guarantees(name: str) -> None:
     assert device.vendor in {*VENDORS.values(), "khronos"}
     assert device.source
     assert (device.api_version or "").split(".")[0] == "1"
-    assert device.max_efficient_samples is None or device.max_efficient_samples in (device.color_samples or ())
+    assert device.max_efficient_samples is None or device.max_efficient_samples in (
+        device.color_samples or ()
+    )
 
 
 @pytest.mark.parametrize("name", names())
@@ -63,13 +79,31 @@ def test_only_classes_are_minimums(name: str) -> None:
 
 
 def test_lazily_allocated_memory() -> None:
-    offering = {name for name in names() if any("LAZILY_ALLOCATED" in flags for flags in profile(name).memory_types or ())}
-    assert offering == {"mali-g76", "mali-g610", "mali-g715", "mali-g720", "adreno-740", "apple-m1", "apple-a15", "powervr"}
+    offering = {
+        name
+        for name in names()
+        if any("LAZILY_ALLOCATED" in flags for flags in profile(name).memory_types or ())
+    }
+    assert offering == {
+        "mali-g76",
+        "mali-g610",
+        "mali-g715",
+        "mali-g720",
+        "adreno-740",
+        "apple-m1",
+        "apple-a15",
+        "powervr",
+    }
 
 
 def test_mali_g76() -> None:
     device = profile("mali-g76")
-    assert (device.name, device.vendor, device.tiler, device.minimum) == ("Mali-G76", "arm", True, False)
+    assert (device.name, device.vendor, device.tiler, device.minimum) == (
+        "Mali-G76",
+        "arm",
+        True,
+        False,
+    )
     assert device.color_samples == device.depth_samples == device.stencil_samples == (1, 4, 8)
     assert device.integer_samples is None
     assert device.memory_types == (
@@ -80,7 +114,11 @@ def test_mali_g76() -> None:
     )
     assert device.depth_resolve_modes == device.stencil_resolve_modes == ("SAMPLE_ZERO",)
     assert (device.independent_resolve, device.independent_resolve_none) == (False, False)
-    assert (device.features, device.max_efficient_samples, device.api_version) == (("sampleRateShading",), 4, "1.1.213")
+    assert (device.features, device.max_efficient_samples, device.api_version) == (
+        ("sampleRateShading",),
+        4,
+        "1.1.213",
+    )
     assert "38559" in device.source
 
 
@@ -98,10 +136,15 @@ def test_unknown_facts_are_none() -> None:
     assert profile("desktop").tiler is None
     assert profile("apple-m1").integer_samples is None
     assert profile("nvidia").max_efficient_samples is None
-    assert DeviceProfile("mine") == DeviceProfile("mine", vendor=None, memory_types=None, minimum=False)
+    assert DeviceProfile("mine") == DeviceProfile(
+        "mine", vendor=None, memory_types=None, minimum=False
+    )
 
 
-@pytest.mark.parametrize(("mask", "counts"), [(0, ()), (1, (1,)), (13, (1, 4, 8)), (127, (1, 2, 4, 8, 16, 32, 64)), (128 | 4, (4,))])
+@pytest.mark.parametrize(
+    ("mask", "counts"),
+    [(0, ()), (1, (1,)), (13, (1, 4, 8)), (127, (1, 2, 4, 8, 16, 32, 64)), (128 | 4, (4,))],
+)
 def test_sample_counts(mask: int, counts: tuple[int, ...]) -> None:
     assert sample_counts(mask) == counts
 
@@ -125,7 +168,9 @@ def test_vendors() -> None:
 def test_profiles_agree_with_their_reports(name: str, file: str) -> None:
     path = os.path.join(SAMPLES, "devices", file)
     if not os.path.exists(path):
-        pytest.skip(f"the report {file} is not at hand: MSAA_LINT_SAMPLES names the folder of samples")
+        pytest.skip(
+            f"the report {file} is not at hand: MSAA_LINT_SAMPLES names the folder of samples"
+        )
     with open(path, encoding="utf-8") as text:
         report = json.load(text)
     device, limits = profile(name), report["properties"]["limits"]
@@ -135,20 +180,35 @@ def test_profiles_agree_with_their_reports(name: str, file: str) -> None:
     core = report.get("core12", {}).get("properties", {})
     integer = core.get("framebufferIntegerColorSampleCounts")
     assert device.integer_samples == (None if integer is None else sample_counts(integer))
-    bits = {1: "DEVICE_LOCAL", 2: "HOST_VISIBLE", 4: "HOST_COHERENT", 8: "HOST_CACHED", 16: "LAZILY_ALLOCATED", 32: "PROTECTED"}
+    bits = {
+        1: "DEVICE_LOCAL",
+        2: "HOST_VISIBLE",
+        4: "HOST_COHERENT",
+        8: "HOST_CACHED",
+        16: "LAZILY_ALLOCATED",
+        32: "PROTECTED",
+    }
     masks = dict.fromkeys(entry["propertyFlags"] for entry in report["memory"]["memoryTypes"])
-    assert device.memory_types == tuple(tuple(flag for bit, flag in bits.items() if mask & bit) for mask in masks)
+    assert device.memory_types == tuple(
+        tuple(flag for bit, flag in bits.items() if mask & bit) for mask in masks
+    )
     resolve = {
         entry["name"]: entry["value"]
         for entry in report["extended"]["deviceproperties2"]
         if entry["extension"] == "VK_KHR_depth_stencil_resolve"
     }
     modes = {1: "SAMPLE_ZERO", 2: "AVERAGE", 4: "MIN", 8: "MAX"}
-    assert device.depth_resolve_modes == tuple(m for bit, m in modes.items() if int(resolve["supportedDepthResolveModes"]) & bit)
-    assert device.stencil_resolve_modes == tuple(m for bit, m in modes.items() if int(resolve["supportedStencilResolveModes"]) & bit)
+    assert device.depth_resolve_modes == tuple(
+        m for bit, m in modes.items() if int(resolve["supportedDepthResolveModes"]) & bit
+    )
+    assert device.stencil_resolve_modes == tuple(
+        m for bit, m in modes.items() if int(resolve["supportedStencilResolveModes"]) & bit
+    )
     assert device.independent_resolve == (resolve["independentResolve"] == "true")
     assert device.independent_resolve_none == (resolve["independentResolveNone"] == "true")
-    assert ("sampleRateShading" in (device.features or ())) == bool(report["features"]["sampleRateShading"])
+    assert ("sampleRateShading" in (device.features or ())) == bool(
+        report["features"]["sampleRateShading"]
+    )
     offered = {entry["extensionName"] for entry in report["extensions"]}
     assert set(device.extensions or ()) == offered & set(RECORDED)
     assert device.api_version == report["properties"]["apiVersionText"]

@@ -1,4 +1,6 @@
-"""Reports of devices: each dialect gives the same device, a class of devices promises what it must, and nothing hostile crashes."""
+"""Reports of devices: each dialect gives the same device, a class of devices promises what it must,
+and nothing hostile crashes.
+"""
 
 from __future__ import annotations
 
@@ -34,7 +36,12 @@ def changed(dialect: dict[str, Any], value: object, *path: str | int) -> str:
 def test_a_dialect_gives_the_device(dialect: str) -> None:
     found = one(reported.DIALECTS[dialect])
     profile, details = found.profile, found.details
-    assert (profile.name, profile.vendor, profile.tiler, profile.minimum) == ("Mali-G999 MC3", "arm", True, False)
+    assert (profile.name, profile.vendor, profile.tiler, profile.minimum) == (
+        "Mali-G999 MC3",
+        "arm",
+        True,
+        False,
+    )
     assert profile.color_samples == (1, 4, 8)
     assert profile.depth_samples == (1, 4)
     assert profile.stencil_samples == (1, 4, 8, 16)
@@ -42,11 +49,27 @@ def test_a_dialect_gives_the_device(dialect: str) -> None:
     assert profile.depth_resolve_modes == ("SAMPLE_ZERO", "MIN", "MAX")
     assert profile.stencil_resolve_modes == ("SAMPLE_ZERO",)
     assert (profile.independent_resolve, profile.independent_resolve_none) == (False, True)
-    assert profile.features == ("dynamicRendering", "sampleRateShading", "shaderStorageImageMultisample")
-    assert profile.extensions == ("VK_ARM_shader_core_properties", "VK_EXT_sample_locations", "VK_KHR_depth_stencil_resolve")
+    assert profile.features == (
+        "dynamicRendering",
+        "sampleRateShading",
+        "shaderStorageImageMultisample",
+    )
+    assert profile.extensions == (
+        "VK_ARM_shader_core_properties",
+        "VK_EXT_sample_locations",
+        "VK_KHR_depth_stencil_resolve",
+    )
     assert (profile.api_version, profile.max_efficient_samples) == ("1.3.77", 4)
-    assert (details.counts["no_attachments"], details.counts["sampled_integer"], details.counts["storage"]) == ((1, 2, 4, 8), (1,), (1,))
-    assert (details.standard_sample_locations, details.sub_pixel_precision_bits, details.max_framebuffer) == (True, 8, (8192, 4096))
+    assert (
+        details.counts["no_attachments"],
+        details.counts["sampled_integer"],
+        details.counts["storage"],
+    ) == ((1, 2, 4, 8), (1,), (1,))
+    assert (
+        details.standard_sample_locations,
+        details.sub_pixel_precision_bits,
+        details.max_framebuffer,
+    ) == (True, 8, (8192, 4096))
     assert (details.device_type, details.driver) == ("integrated GPU", "Own v7")
     assert profile.source.startswith("own.json: ")
     assert "Arm GPU Best Practices" in profile.source
@@ -60,7 +83,11 @@ def test_memory_is_read_where_the_dialect_has_it(dialect: str) -> None:
         assert found.details.heaps is None
         assert found.notes == ("memory types are not in it: the text of `vulkaninfo` has them",)
         return
-    assert found.profile.memory_types == ((), ("DEVICE_LOCAL", "HOST_VISIBLE", "HOST_COHERENT"), ("DEVICE_LOCAL", "LAZILY_ALLOCATED"))
+    assert found.profile.memory_types == (
+        (),
+        ("DEVICE_LOCAL", "HOST_VISIBLE", "HOST_COHERENT"),
+        ("DEVICE_LOCAL", "LAZILY_ALLOCATED"),
+    )
     assert found.details.heaps == ((3 << 30, True), (256 << 20, False))
     assert found.notes == ()
 
@@ -68,22 +95,36 @@ def test_memory_is_read_where_the_dialect_has_it(dialect: str) -> None:
 def test_old_spellings_of_vulkaninfo() -> None:
     text = reported.text()
     old = text.replace("GPU0:", "GPU0").replace(
-        ": count = 3\n\t\tSAMPLE_COUNT_1_BIT\n\t\tSAMPLE_COUNT_4_BIT\n\t\tSAMPLE_COUNT_8_BIT", " = 0xd"
+        ": count = 3\n\t\tSAMPLE_COUNT_1_BIT\n\t\tSAMPLE_COUNT_4_BIT\n\t\tSAMPLE_COUNT_8_BIT",
+        " = 0xd",
     )
-    old = old.replace("memoryTypes[", "memoryTypes[").replace("]:\n\t\theapIndex", "] :\n\t\theapIndex").replace("= true", "= 1")
+    old = (
+        old.replace("memoryTypes[", "memoryTypes[")
+        .replace("]:\n\t\theapIndex", "] :\n\t\theapIndex")
+        .replace("= true", "= 1")
+    )
     old = old.replace("MEMORY_", "VK_MEMORY_").replace("0x0011: count = 2", "0x11:")
     assert old != text
     assert one(old).profile == one(text).profile
 
 
 def test_several_devices() -> None:
-    found = read(reported.text("Own A", "Own B").replace("INTEGRATED_GPU\n\tdeviceName        = Own B", "CPU\n\tdeviceName        = Own B"))
+    found = read(
+        reported.text("Own A", "Own B").replace(
+            "INTEGRATED_GPU\n\tdeviceName        = Own B", "CPU\n\tdeviceName        = Own B"
+        )
+    )
     assert [each.profile.name for each in found] == ["Own A", "Own B"]
     assert found[0].profile.memory_types == found[1].profile.memory_types
     assert pick(found, "2") is found[1]
     assert pick(found, "own b") is found[1]
     assert pick(found, "") is found[0], "the other is a CPU"
-    assert (pick(found, "0"), pick(found, "3"), pick(found, "Own C"), pick(found, "²")) == (None, None, None, None)
+    assert (pick(found, "0"), pick(found, "3"), pick(found, "Own C"), pick(found, "²")) == (
+        None,
+        None,
+        None,
+        None,
+    )
     assert pick(read(reported.text("Own A", "Own B")), "") is None
 
 
@@ -91,9 +132,16 @@ def test_a_profile_is_a_minimum() -> None:
     base, more = read(json.dumps(reported.profiles()), "own.json")
     profile = base.profile
     assert (profile.name, profile.minimum, profile.api_version) == ("VP_OWN_base", True, "1.1.106")
-    assert (profile.vendor, profile.tiler, profile.memory_types, profile.max_efficient_samples) == (None, None, None, None)
+    assert (profile.vendor, profile.tiler, profile.memory_types, profile.max_efficient_samples) == (
+        None,
+        None,
+        None,
+        None,
+    )
     assert profile.color_samples == (1, 4)
-    assert (profile.depth_samples, profile.integer_samples) == (None, None), "what it does not list is unknown"
+    assert (profile.depth_samples, profile.integer_samples) == (None, None), (
+        "what it does not list is unknown"
+    )
     assert profile.depth_resolve_modes == ("SAMPLE_ZERO", "MIN"), "what both alternatives have"
     assert profile.stencil_resolve_modes is None
     assert profile.independent_resolve is None, "one alternative alone has it"
@@ -121,13 +169,29 @@ def test_the_same_hardware_has_its_tiles() -> None:
     assert known.tile.color_bytes == 8192
     assert known.compression is not None
     assert "as of mali-g76" in known.source
-    assert one(reported.DIALECTS["gpuinfo"].replace("Mali-G999 MC3", "Mali-G760")).profile.tile is None
-    assert one(reported.DIALECTS["gpuinfo"].replace("Mali-G999 MC3", "Mali-G76").replace("5045", "4203")).profile.tile is None
+    assert (
+        one(reported.DIALECTS["gpuinfo"].replace("Mali-G999 MC3", "Mali-G760")).profile.tile is None
+    )
+    assert (
+        one(
+            reported.DIALECTS["gpuinfo"]
+            .replace("Mali-G999 MC3", "Mali-G76")
+            .replace("5045", "4203")
+        ).profile.tile
+        is None
+    )
 
 
 @pytest.mark.parametrize(
     ("vendor", "kind", "tiler"),
-    [(0x13B5, 1, True), (0x144D, 1, False), (0x10005, 4, False), (0x10005, 1, None), (0x10DE, 2, False), (7, 2, None)],
+    [
+        (0x13B5, 1, True),
+        (0x144D, 1, False),
+        (0x10005, 4, False),
+        (0x10005, 1, None),
+        (0x10DE, 2, False),
+        (7, 2, None),
+    ],
 )
 def test_tilers(vendor: int, kind: int, tiler: bool | None) -> None:
     given_report = reported.gpuinfo()
@@ -136,9 +200,24 @@ def test_tilers(vendor: int, kind: int, tiler: bool | None) -> None:
 
 
 WRONG = [
-    (("properties", "limits", "framebufferColorSampleCounts"), {"a": 1}, "color_samples", "framebufferColorSampleCounts: an object"),
-    (("properties", "limits", "framebufferColorSampleCounts"), -1, "color_samples", "framebufferColorSampleCounts: -1"),
-    (("properties", "limits", "framebufferColorSampleCounts"), [4, "VK_X"], "color_samples", "framebufferColorSampleCounts: a list"),
+    (
+        ("properties", "limits", "framebufferColorSampleCounts"),
+        {"a": 1},
+        "color_samples",
+        "framebufferColorSampleCounts: an object",
+    ),
+    (
+        ("properties", "limits", "framebufferColorSampleCounts"),
+        -1,
+        "color_samples",
+        "framebufferColorSampleCounts: -1",
+    ),
+    (
+        ("properties", "limits", "framebufferColorSampleCounts"),
+        [4, "VK_X"],
+        "color_samples",
+        "framebufferColorSampleCounts: a list",
+    ),
     (
         ("core12", "properties", "framebufferIntegerColorSampleCounts"),
         "many",
@@ -151,7 +230,9 @@ WRONG = [
 
 
 @pytest.mark.parametrize(("path", "value", "fact", "note"), WRONG)
-def test_a_wrong_type_is_unknown_and_mentioned(path: tuple[str | int, ...], value: object, fact: str, note: str) -> None:
+def test_a_wrong_type_is_unknown_and_mentioned(
+    path: tuple[str | int, ...], value: object, fact: str, note: str
+) -> None:
     found = one(changed(reported.gpuinfo(), value, *path))
     assert getattr(found.profile, fact) is None
     assert [each for each in found.notes if each.startswith(note)], found.notes
@@ -164,12 +245,16 @@ def test_a_wrong_feature_is_mentioned() -> None:
 
 
 def test_a_mask_of_nothing_is_unknown() -> None:
-    found = one(changed(reported.gpuinfo(), 0, "properties", "limits", "framebufferColorSampleCounts"))
+    found = one(
+        changed(reported.gpuinfo(), 0, "properties", "limits", "framebufferColorSampleCounts")
+    )
     assert found.profile.color_samples is None
     assert found.notes == ()
     root = reported.gpuinfo()
     root["core12"]["properties"]["supportedDepthResolveModes"] = 0
-    assert one(json.dumps(root)).profile.depth_resolve_modes == ("SAMPLE_ZERO", "MIN", "MAX"), "the extension's value counts"
+    assert one(json.dumps(root)).profile.depth_resolve_modes == ("SAMPLE_ZERO", "MIN", "MAX"), (
+        "the extension's value counts"
+    )
 
 
 def test_new_bits_count_for_nothing() -> None:
@@ -177,8 +262,12 @@ def test_new_bits_count_for_nothing() -> None:
     limits = root["capabilities"]["device"]["properties"]["VkPhysicalDeviceProperties"]["limits"]
     limits["framebufferColorSampleCounts"].append("VK_SAMPLE_COUNT_128_BIT")
     assert one(json.dumps(root)).profile.color_samples == (1, 4, 8)
-    assert one(changed(reported.gpuinfo(), 0x8D, "properties", "limits", "framebufferColorSampleCounts")).profile.color_samples == (1, 4, 8)
-    assert one(changed(reported.gpuinfo(), 1 << 20 | 1, "memory", "memoryTypes", 0, "propertyFlags")).profile.memory_types == (
+    assert one(
+        changed(reported.gpuinfo(), 0x8D, "properties", "limits", "framebufferColorSampleCounts")
+    ).profile.color_samples == (1, 4, 8)
+    assert one(
+        changed(reported.gpuinfo(), 1 << 20 | 1, "memory", "memoryTypes", 0, "propertyFlags")
+    ).profile.memory_types == (
         ("DEVICE_LOCAL",),
         ("DEVICE_LOCAL", "HOST_VISIBLE", "HOST_COHERENT"),
         ("DEVICE_LOCAL", "LAZILY_ALLOCATED"),
@@ -219,8 +308,15 @@ def sane(found: list[Report]) -> None:
         profile = report.profile
         assert isinstance(profile.name, str)
         assert profile.name
-        for each in (profile.color_samples, profile.depth_samples, profile.integer_samples, report.details.counts["storage"]):
-            assert each is None or (each and set(each) <= COUNTS and list(each) == sorted(set(each)))
+        for each in (
+            profile.color_samples,
+            profile.depth_samples,
+            profile.integer_samples,
+            report.details.counts["storage"],
+        ):
+            assert each is None or (
+                each and set(each) <= COUNTS and list(each) == sorted(set(each))
+            )
         assert profile.depth_resolve_modes is None or profile.depth_resolve_modes
         assert profile.tiler in (True, False, None)
         assert len(report.notes) <= 12
@@ -245,14 +341,20 @@ JUNK = st.recursive(
     | st.floats()
     | st.text(max_size=20)
     | st.sampled_from(["0x", "13", "VK_SAMPLE_COUNT_4_BIT", "\ud800"]),
-    lambda inner: st.lists(inner, max_size=3) | st.dictionaries(st.text(max_size=5), inner, max_size=3),
+    lambda inner: (
+        st.lists(inner, max_size=3) | st.dictionaries(st.text(max_size=5), inner, max_size=3)
+    ),
     max_leaves=6,
 )
 
 
 @examples(3)
-@given(st.data(), st.sampled_from(["gpuinfo", "vulkaninfo_json", "devsim", "vkjson", "profiles"]), JUNK)
-def test_a_report_with_a_value_exchanged_never_crashes(data: st.DataObject, dialect: str, junk: object) -> None:
+@given(
+    st.data(), st.sampled_from(["gpuinfo", "vulkaninfo_json", "devsim", "vkjson", "profiles"]), JUNK
+)
+def test_a_report_with_a_value_exchanged_never_crashes(
+    data: st.DataObject, dialect: str, junk: object
+) -> None:
     root: Any = json.loads(json.dumps(getattr(reported, dialect)()))
     at = root
     while True:
@@ -273,7 +375,10 @@ def test_a_report_with_a_value_exchanged_never_crashes(data: st.DataObject, dial
 def test_vulkaninfo_with_lines_shuffled_never_crashes(data: st.DataObject) -> None:
     lines = reported.text("Own A", "Own B").splitlines()
     for _ in range(data.draw(st.integers(1, 4))):
-        first, second = data.draw(st.integers(0, len(lines) - 1)), data.draw(st.integers(0, len(lines) - 1))
+        first, second = (
+            data.draw(st.integers(0, len(lines) - 1)),
+            data.draw(st.integers(0, len(lines) - 1)),
+        )
         lines[first], lines[second] = lines[second], lines[first][: data.draw(st.integers(0, 60))]
     try:
         sane(read("\n".join(lines)))

@@ -1,4 +1,6 @@
-"""Which device a name means: paths of reports, picks, and what a description from a stranger may not name."""
+"""Which device a name means: paths of reports, picks, and what a description from a stranger may
+not name.
+"""
 
 from __future__ import annotations
 
@@ -32,7 +34,9 @@ def description(text: str) -> Description:
     return document.description
 
 
-def named(folder: Path, device: str, default: DeviceProfile | None = None) -> DeviceProfile | Problem | None:
+def named(
+    folder: Path, device: str, default: DeviceProfile | None = None
+) -> DeviceProfile | Problem | None:
     """The device that a description in a folder means by a name."""
     text = json.dumps({"device": device, "images": {}})
     return device_for(description(text), str(folder / "a.msaa.yaml"), default)
@@ -74,7 +78,9 @@ def test_a_device_is_picked(project: Path) -> None:
     assert isinstance(found, DeviceProfile)
     assert found.name == "Own A"
     assert named(project / "frames", "two.txt") == Problem(
-        "MSAA903", "`two.txt` has 2 devices: say which", "`two.txt#1` is Own A, `two.txt#2` is Own B"
+        "MSAA903",
+        "`two.txt` has 2 devices: say which",
+        "`two.txt#1` is Own A, `two.txt#2` is Own B",
     )
     assert named(project / "frames", "two.txt#Own C") == Problem(
         "MSAA904", "no device `Own C` in `two.txt`", "`two.txt#1` is Own A, `two.txt#2` is Own B"
@@ -92,23 +98,40 @@ def test_other_devices_of_a_description(project: Path) -> None:
 
 
 def test_a_file_that_is_missing(project: Path) -> None:
-    assert named(project, "phome.json") == Problem("MSAA904", "no file `phome.json`", "did you mean `phone.json`?")
-    assert named(project / "frames", "../phome.json") == Problem("MSAA904", "no file `../phome.json`", "did you mean `../phone.json`?")
+    assert named(project, "phome.json") == Problem(
+        "MSAA904", "no file `phome.json`", "did you mean `phone.json`?"
+    )
+    assert named(project / "frames", "../phome.json") == Problem(
+        "MSAA904", "no file `../phome.json`", "did you mean `../phone.json`?"
+    )
     found = named(project, "nowhere/phone.json")
-    assert found == Problem("MSAA904", "no file `nowhere/phone.json`", "the folder `nowhere` is not there")
+    assert found == Problem(
+        "MSAA904", "no file `nowhere/phone.json`", "the folder `nowhere` is not there"
+    )
 
 
 def test_what_leaves_the_project_is_not_looked_at(project: Path) -> None:
     help = "only --profile on the command line can name such a file"
-    for name in ("../outside.json", "../nothing.json", str(project.parent / "outside.json"), "/etc/hostname.txt"):
+    for name in (
+        "../outside.json",
+        "../nothing.json",
+        str(project.parent / "outside.json"),
+        "/etc/hostname.txt",
+    ):
         assert named(project, name) == Problem("MSAA903", f"`{name}` is outside the project", help)
     (project / "link.json").symlink_to(project.parent / "outside.json")
-    assert named(project, "link.json") == Problem("MSAA903", "`link.json` is outside the project", help)
+    assert named(project, "link.json") == Problem(
+        "MSAA903", "`link.json` is outside the project", help
+    )
     (project / "folder").symlink_to(project.parent)
-    assert named(project, "folder/outside.json") == Problem("MSAA903", "`folder/outside.json` is outside the project", help)
+    assert named(project, "folder/outside.json") == Problem(
+        "MSAA903", "`folder/outside.json` is outside the project", help
+    )
     (project / "inner.json").symlink_to("phone.json")
     assert isinstance(named(project, "inner.json"), DeviceProfile)
-    assert isinstance(profile_of(str(project / "link.json")), DeviceProfile), "who types the command line may"
+    assert isinstance(profile_of(str(project / "link.json")), DeviceProfile), (
+        "who types the command line may"
+    )
 
 
 def test_what_is_no_file_is_not_read(project: Path) -> None:
@@ -117,9 +140,15 @@ def test_what_is_no_file_is_not_read(project: Path) -> None:
     (project / "large.json").write_bytes(b" " * (MAX_BYTES + 1))
     (project / "bytes.json").write_bytes(b'{"a": "\xff"}')
     (project / "words.txt").write_text("hello")
-    assert named(project, "pipe.json") == Problem("MSAA903", "`pipe.json` cannot be read: it is a pipe, not a regular file")
-    assert named(project, "a.json") == Problem("MSAA903", "`a.json` cannot be read: it is a folder, not a regular file")
-    assert named(project, "large.json") == Problem("MSAA903", "`large.json` cannot be read: it is larger than 8 MiB")
+    assert named(project, "pipe.json") == Problem(
+        "MSAA903", "`pipe.json` cannot be read: it is a pipe, not a regular file"
+    )
+    assert named(project, "a.json") == Problem(
+        "MSAA903", "`a.json` cannot be read: it is a folder, not a regular file"
+    )
+    assert named(project, "large.json") == Problem(
+        "MSAA903", "`large.json` cannot be read: it is larger than 8 MiB"
+    )
     for name, reason in (("bytes.json", "not UTF-8: byte 7"), ("words.txt", "not a device report")):
         found = named(project, name)
         assert isinstance(found, Problem)
@@ -131,7 +160,9 @@ def test_what_is_no_file_is_not_read(project: Path) -> None:
 
 def test_a_report_in_utf_16_is_read(project: Path) -> None:
     """As PowerShell's `>` writes it."""
-    (project / "windows.txt").write_bytes(b"\xff\xfe" + reported.text().replace("\n", "\r\n").encode("utf-16-le"))
+    (project / "windows.txt").write_bytes(
+        b"\xff\xfe" + reported.text().replace("\n", "\r\n").encode("utf-16-le")
+    )
     found, plain = named(project, "windows.txt"), read(reported.text())[0].profile
     assert isinstance(found, DeviceProfile)
     assert found._replace(source="") == plain._replace(source="")
@@ -152,10 +183,14 @@ def test_names_of_the_command_line(project: Path, monkeypatch: pytest.MonkeyPatc
     found = device_of("phone.json")
     assert found is not None
     assert found.vendor == "arm"
-    assert device_of("arm") == DeviceProfile("arm", vendor="arm", minimum=True, source="only the vendor is known")
+    assert device_of("arm") == DeviceProfile(
+        "arm", vendor="arm", minimum=True, source="only the vendor is known"
+    )
     assert device_of("mali-g67") is None
     assert device_of(None) is None
-    assert profile_of("mali-g67") == Problem("MSAA904", "no profile `mali-g67`", "did you mean `mali-g76`?")
+    assert profile_of("mali-g67") == Problem(
+        "MSAA904", "no profile `mali-g67`", "did you mean `mali-g76`?"
+    )
     assert profiles.known_profiles() == (*names(), *WORDS["vendor"])
 
 
@@ -164,7 +199,9 @@ def facts_of(text: str, folder: Path) -> dict[str, object]:
     stated = description(text + "images: {}\n")
     device = device_for(stated, str(folder / "a.msaa.yaml"), None)
     assert isinstance(device, DeviceProfile)
-    return global_facts(stated, device).values | {"profile": device._replace(source="", name="", features=None, extensions=None)}
+    return global_facts(stated, device).values | {
+        "profile": device._replace(source="", name="", features=None, extensions=None)
+    }
 
 
 @pytest.mark.parametrize("name", names())
@@ -181,7 +218,9 @@ def test_a_built_in_device_written_out_lints_the_same(name: str, tmp_path: Path)
 def test_a_report_written_out_lints_the_same(dialect: str, tmp_path: Path) -> None:
     (tmp_path / "own.json").write_text(reported.DIALECTS[dialect])
     (report,) = read(reported.DIALECTS[dialect])
-    assert facts_of(mapping(Offer(report, "own.json")), tmp_path) == facts_of("device: own.json\n", tmp_path)
+    assert facts_of(mapping(Offer(report, "own.json")), tmp_path) == facts_of(
+        "device: own.json\n", tmp_path
+    )
 
 
 def test_a_class_of_devices_is_written_as_its_path(tmp_path: Path) -> None:
@@ -190,7 +229,10 @@ def test_a_class_of_devices_is_written_as_its_path(tmp_path: Path) -> None:
     text = mapping(Offer(first, "own.json#1"))
     assert text.splitlines()[1:] == ['device: "own.json#1"']
     assert facts_of(text, tmp_path)["device.minimum"] is True
-    assert mapping(Offer(first)).splitlines()[1] == "# Name a class of devices by the path of its report."
+    assert (
+        mapping(Offer(first)).splitlines()[1]
+        == "# Name a class of devices by the path of its report."
+    )
 
 
 def test_a_hostile_name_is_written_so_that_it_reads_back() -> None:

@@ -1,4 +1,6 @@
-"""The shares of devices: what they say, and that they are those of the table they were counted in."""
+"""The shares of devices: what they say, and that they are those of the table they were counted
+in.
+"""
 
 from __future__ import annotations
 
@@ -31,8 +33,25 @@ vendorID,framebufferColorSampleCounts,framebufferIntegerColorSampleCounts,has_LA
 @pytest.mark.parametrize(
     ("count", "tilers", "share"),
     [
-        *((1, False, 99), (2, False, 85), (4, False, 99), (8, False, 80), (16, False, 8), (32, False, 1), (64, False, 0), (3, False, 0)),
-        *((1, True, 100), (2, True, 74), (4, True, 100), (8, True, 18), (16, True, 8), (32, True, 0), (64, True, 0)),
+        *(
+            (1, False, 99),
+            (2, False, 85),
+            (4, False, 99),
+            (8, False, 80),
+            (16, False, 8),
+            (32, False, 1),
+            (64, False, 0),
+            (3, False, 0),
+        ),
+        *(
+            (1, True, 100),
+            (2, True, 74),
+            (4, True, 100),
+            (8, True, 18),
+            (16, True, 8),
+            (32, True, 0),
+            (64, True, 0),
+        ),
     ],
 )
 def test_sample_count_share(count: int, tilers: bool, share: int) -> None:
@@ -42,8 +61,20 @@ def test_sample_count_share(count: int, tilers: bool, share: int) -> None:
 @pytest.mark.parametrize(
     ("mode", "tilers", "share"),
     [
-        *(("SAMPLE_ZERO", False, 99), ("MIN", False, 81), ("MAX", False, 81), ("AVERAGE", False, 70), ("CUSTOM_EXT", False, None)),
-        *(("SAMPLE_ZERO", True, 100), ("MIN", True, 38), ("MAX", True, 38), ("AVERAGE", True, 14), ("NONE", True, None)),
+        *(
+            ("SAMPLE_ZERO", False, 99),
+            ("MIN", False, 81),
+            ("MAX", False, 81),
+            ("AVERAGE", False, 70),
+            ("CUSTOM_EXT", False, None),
+        ),
+        *(
+            ("SAMPLE_ZERO", True, 100),
+            ("MIN", True, 38),
+            ("MAX", True, 38),
+            ("AVERAGE", True, 14),
+            ("NONE", True, None),
+        ),
     ],
 )
 def test_resolve_mode_share(mode: str, tilers: bool, share: int | None) -> None:
@@ -51,13 +82,17 @@ def test_resolve_mode_share(mode: str, tilers: bool, share: int | None) -> None:
 
 
 @pytest.mark.parametrize(
-    ("vendor", "share"), [("arm", 91), ("apple", 100), ("qualcomm", 49), ("img", 31), ("nvidia", 0), ("khronos", None)]
+    ("vendor", "share"),
+    [("arm", 91), ("apple", 100), ("qualcomm", 49), ("img", 31), ("nvidia", 0), ("khronos", None)],
 )
 def test_lazily_allocated_share(vendor: str, share: int | None) -> None:
     assert lazily_allocated_share(vendor) == share
 
 
-@pytest.mark.parametrize(("part", "whole", "share"), [(0, 10, 0), (10, 10, 100), (1, 1000, 1), (999, 1000, 99), (1, 3, 33), (0, 0, 0)])
+@pytest.mark.parametrize(
+    ("part", "whole", "share"),
+    [(0, 10, 0), (10, 10, 100), (1, 1000, 1), (999, 1000, 99), (1, 3, 33), (0, 0, 0)],
+)
 def test_per_cent_keeps_none_and_all_apart(part: int, whole: int, share: int) -> None:
     assert per_cent(part, whole) == share
 
@@ -74,7 +109,9 @@ def test_counts() -> None:
 def test_the_table_is_the_one_that_was_counted() -> None:
     path = os.path.join(SAMPLES, "devices", "gpuinfo_devices_msaa_summary.csv")
     if not os.path.exists(path):
-        pytest.skip("the table of devices is not at hand: MSAA_LINT_SAMPLES names the folder of samples")
+        pytest.skip(
+            "the table of devices is not at hand: MSAA_LINT_SAMPLES names the folder of samples"
+        )
     assert generate_shares.main([path, "--check"]) == 0
 
 
@@ -91,7 +128,9 @@ def test_counting(tmp_path: object) -> None:
     assert made["INTEGER_SINGLE_SAMPLED"] == (2, 3)
 
 
-def test_another_table_is_told_and_written(tmp_path: object, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+def test_another_table_is_told_and_written(
+    tmp_path: object, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
     path, target = (os.path.join(str(tmp_path), name) for name in ("table.csv", "shares_table.py"))
     with open(path, "w", encoding="utf-8") as file:
         file.write(TABLE)

@@ -1,4 +1,6 @@
-"""Facts: what the modules put is what the table declares, and what it declares is found somewhere."""
+"""Facts: what the modules put is what the table declares, and what it declares is found
+somewhere.
+"""
 
 from __future__ import annotations
 
@@ -35,7 +37,9 @@ def found(text: str) -> Iterator[Subject]:
     for root in parse(source, Limits()).documents:
         document = readers.read(source, root)
         assert document.problems == ()
-        yield from subjects(document, shader=Modules(document, str(ROOT / "rules" / "example.yaml")).reflected)
+        yield from subjects(
+            document, shader=Modules(document, str(ROOT / "rules" / "example.yaml")).reflected
+        )
 
 
 CASES = (
@@ -105,13 +109,19 @@ def is_of(fact: Fact, value: object) -> bool:
 
 def undeclared(subject: Subject) -> list[tuple[str, object]]:
     declared = {fact.name: fact for fact in SUBJECTS[subject.kind]}
-    return [(name, value) for name, value in subject.facts.values.items() if name not in declared or not is_of(declared[name], value)]
+    return [
+        (name, value)
+        for name, value in subject.facts.values.items()
+        if name not in declared or not is_of(declared[name], value)
+    ]
 
 
 def test_every_fact_that_is_put_is_declared_with_its_type(every: list[Subject]) -> None:
     for subject in every:
         assert undeclared(subject) == [], subject.path
-        assert set(subject.facts.places) <= {fact.name for fact in SUBJECTS[subject.kind]}, subject.path
+        assert set(subject.facts.places) <= {fact.name for fact in SUBJECTS[subject.kind]}, (
+            subject.path
+        )
 
 
 @pytest.mark.parametrize("kind", SUBJECTS)
@@ -120,22 +130,32 @@ def test_every_declared_fact_is_put_somewhere(kind: str, every: list[Subject]) -
     assert {fact.name for fact in SUBJECTS[kind]} - put == set()
 
 
-@pytest.mark.parametrize("fact", [fact for fact in FACTS.values() if fact.type == "BOOL"], ids=lambda fact: fact.name)
+@pytest.mark.parametrize(
+    "fact", [fact for fact in FACTS.values() if fact.type == "BOOL"], ids=lambda fact: fact.name
+)
 def test_a_yes_or_no_is_both_somewhere(fact: Fact, every: list[Subject]) -> None:
     """A fact that is always the same decides nothing: its test, or its case, is missing."""
-    assert {subject.facts.values[fact.name] for subject in every if fact.name in subject.facts.values} == {True, False}
+    assert {
+        subject.facts.values[fact.name] for subject in every if fact.name in subject.facts.values
+    } == {True, False}
 
 
 def test_never_unknown_is_never_unknown(every: list[Subject]) -> None:
     """Facts that are declared so stand in every subject that has the rest of their group."""
     for kind, facts in SUBJECTS.items():
         for fact in facts:
-            if "never unknown" not in fact.doc or (kind == "pipeline" and fact.name.startswith(("pass.", "subpass."))):
+            if "never unknown" not in fact.doc or (
+                kind == "pipeline" and fact.name.startswith(("pass.", "subpass."))
+            ):
                 continue
             group = fact.name.partition(".")[0]
             for subject in every:
                 within = {name.partition(".")[0] for name in subject.facts.values}
-                if subject.kind == kind and group in within and subject.facts.values.get("image.stated", True):
+                if (
+                    subject.kind == kind
+                    and group in within
+                    and subject.facts.values.get("image.stated", True)
+                ):
                     assert fact.name in subject.facts.values, (fact.name, subject.path)
 
 
@@ -153,7 +173,12 @@ def test_the_table_is_in_order() -> None:
 
 def test_every_fact_is_asked_or_of_use_to_a_users_rules() -> None:
     """The built-in rules ask most facts; those that none asks yet are known."""
-    asked = {name for rule in load().rules for text in (rule.when, *(case.when for case in rule.cases)) for name in named(text)}
+    asked = {
+        name
+        for rule in load().rules
+        for text in (rule.when, *(case.when for case in rule.cases))
+        for name in named(text)
+    }
     assert len(set(FACTS) - asked) < len(FACTS) // 2
 
 
@@ -166,7 +191,9 @@ def test_random_frames_are_judged_without_a_failure(frame: Json) -> None:
     text = json.dumps(frame)
     for subject in found(text):
         assert undeclared(subject) == [], subject.path
-    linted = ENGINE.lint(text.encode(), "random.json", LintOptions(lambda rule, suggested, vendor: suggested))
+    linted = ENGINE.lint(
+        text.encode(), "random.json", LintOptions(lambda rule, suggested, vendor: suggested)
+    )
     assert [finding for finding in linted.findings if finding.fatal] == []
     size = len(text)
     for finding in linted.findings:

@@ -44,9 +44,17 @@ def undecided(tree: Any) -> list[Undecided] | None:
 
 def leaves(tree: Any, path: Path = ()) -> Iterator[Path]:
     """The paths of the members that hold no mapping."""
-    items = tree.items() if isinstance(tree, dict) else enumerate(tree) if isinstance(tree, list) else ()
+    items = (
+        tree.items()
+        if isinstance(tree, dict)
+        else enumerate(tree)
+        if isinstance(tree, list)
+        else ()
+    )
     for key, value in items:
-        if isinstance(value, dict) or (isinstance(value, list) and any(isinstance(item, (dict, list)) for item in value)):
+        if isinstance(value, dict) or (
+            isinstance(value, list) and any(isinstance(item, (dict, list)) for item in value)
+        ):
             yield from leaves(value, (*path, key))
         elif isinstance(tree, dict):
             yield (*path, key)
@@ -63,16 +71,23 @@ def without(tree: Any, path: Path) -> Any:
 
 def steps(path: str) -> Path:
     """`a.b[0].c` as keys and indices."""
-    return tuple(int(part[1:-1]) if part.startswith("[") else part for part in re.findall(r"\[\d+\]|[^.\[\]]+", path))
+    return tuple(
+        int(part[1:-1]) if part.startswith("[") else part
+        for part in re.findall(r"\[\d+\]|[^.\[\]]+", path)
+    )
 
 
 def written(tree: Any, path: Path, value: Any) -> Any:
-    """A description with a value at a path; structures on the way to it are added, lists by their first item."""
+    """A description with a value at a path; structures on the way to it are added, lists by their
+    first item.
+    """
     changed = copy.deepcopy(tree)
     inner: Any = changed
     for number, key in enumerate(path[:-1]):
         if isinstance(inner, dict) and key not in inner:
-            inner[key] = [{}] if path[number] in ("attachments", "stages", "colorAttachments") else {}
+            inner[key] = (
+                [{}] if path[number] in ("attachments", "stages", "colorAttachments") else {}
+            )
         inner = inner[key] if not isinstance(inner, list) or isinstance(key, int) else inner[0]
         if isinstance(inner, list) and not isinstance(path[number + 1], int):
             inner = inner[0]
@@ -156,7 +171,9 @@ REMOVED = [
 
 
 @pytest.mark.parametrize(("example", "path"), REMOVED)
-def test_an_explanation_names_what_was_removed_or_what_else_says_it(example: Any, path: Path) -> None:
+def test_an_explanation_names_what_was_removed_or_what_else_says_it(
+    example: Any, path: Path
+) -> None:
     """And no key is named again for a rule once it is written, with whatever value."""
     tree = data_of(example)
     before, lacking = undecided(tree), without(tree, path)
@@ -169,18 +186,30 @@ def test_an_explanation_names_what_was_removed_or_what_else_says_it(example: Any
             continue
         assert entry.keys or path[-1] in STRUCTURAL, (entry.rule, entry.subject, entry.missing)
         if path[-1] in PLAIN:
-            assert path in [steps(key.path) for key in entry.keys], (entry.rule, [key.path for key in entry.keys])
+            assert path in [steps(key.path) for key in entry.keys], (
+                entry.rule,
+                [key.path for key in entry.keys],
+            )
     for entry in after[:6]:
         for key in entry.keys:
             for value in VALUES.get(key.name.rpartition(".")[2], ()):
                 answer = undecided(written(lacking, steps(key.path), value))
-                same = [each for each in answer or () if (each.rule, each.subject) == (entry.rule, entry.subject)]
-                assert key.path not in [again.path for each in same for again in each.keys], (entry.rule, key.path, value)
+                same = [
+                    each
+                    for each in answer or ()
+                    if (each.rule, each.subject) == (entry.rule, entry.subject)
+                ]
+                assert key.path not in [again.path for each in same for again in each.keys], (
+                    entry.rule,
+                    key.path,
+                    value,
+                )
 
 
 STRUCTURAL = frozenset(
     {
-        "pipeline", "image", "texture", "srcImage", "dstImage", "resolveImage", "colorAttachments", "renderPass", "resolveMode", "resolves",
+        "pipeline", "image", "texture", "srcImage", "dstImage", "resolveImage", "colorAttachments",
+        "renderPass", "resolveMode", "resolves",
         "srcStageMask", "loadAction",
     }
 )  # fmt: skip
@@ -188,8 +217,10 @@ STRUCTURAL = frozenset(
 
 PLAIN = frozenset(
     {
-        "storeOp", "initialLayout", "finalLayout", "rasterizationSamples", "sampleShadingEnable", "minSampleShading",
-        "alphaToCoverageEnable", "blendEnable", "peak", "toneMapping", "depthResolveWants", "mipLevels", "encoding", "chosen", "combined",
+        "storeOp", "initialLayout", "finalLayout", "rasterizationSamples", "sampleShadingEnable",
+        "minSampleShading",
+        "alphaToCoverageEnable", "blendEnable", "peak", "toneMapping", "depthResolveWants",
+        "mipLevels", "encoding", "chosen", "combined",
     }
 )  # fmt: skip
 """Keys that nothing else says."""
@@ -199,7 +230,8 @@ def test_keys_are_members_of_structures() -> None:
     """A misspelled member in the table would never be found missing."""
     members = set(_members(("record", Description), set()))
     special = {
-        "load", "store", "initial", "loadOp", "resolveMode", "resolveFilter", "mode", "filter", "source", "target", "pipeline", "extent",
+        "load", "store", "initial", "loadOp", "resolveMode", "resolveFilter", "mode", "filter",
+        "source", "target", "pipeline", "extent",
         "pipelineBarrier", "present", "resolveModes",
     }  # fmt: skip
     for fact, groups in KEYS.items():

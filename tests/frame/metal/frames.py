@@ -73,7 +73,9 @@ def of(text: str, kind: str) -> list[Subject]:
 
 def image(text: str, name: str) -> Facts:
     """The facts of a texture."""
-    return next(subject.facts for subject in of(text, "image") if subject.facts.values["image.name"] == name)
+    return next(
+        subject.facts for subject in of(text, "image") if subject.facts.values["image.name"] == name
+    )
 
 
 def aspect(text: str, path: str, name: str = "color") -> Facts:

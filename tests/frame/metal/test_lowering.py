@@ -1,4 +1,6 @@
-"""A frame in Metal's words and the same frame in Vulkan's: the same findings of Vulkan's rules, the same cost, at Metal's places."""
+"""A frame in Metal's words and the same frame in Vulkan's: the same findings of Vulkan's rules, the
+same cost, at Metal's places.
+"""
 
 from __future__ import annotations
 
@@ -136,15 +138,21 @@ def found(document: Document) -> list[tuple[str, str, str]]:
     """What Vulkan's rules say of a frame."""
     if document.metal is not None:
         document = document._replace(metal=document.metal._replace(api="VULKAN"))
-    verdicts, _ = ENGINE.linter.lint_document(document, "given.yaml", LintOptions(lambda rule, suggested, vendor: suggested))
-    return sorted((finding.rule, finding.severity, finding.message) for finding in verdicts.findings)
+    verdicts, _ = ENGINE.linter.lint_document(
+        document, "given.yaml", LintOptions(lambda rule, suggested, vendor: suggested)
+    )
+    return sorted(
+        (finding.rule, finding.severity, finding.message) for finding in verdicts.findings
+    )
 
 
 @pytest.mark.parametrize(("metal", "vulkan"), [STORED, DEPTH])
 def test_it_is_the_same_frame(metal: str, vulkan: str) -> None:
     ours, theirs = document(metal), document(vulkan)
     for section in ("images", "renderPasses", "pipelines", "commands"):
-        assert meant(getattr(ours.description, section)) == meant(getattr(theirs.description, section)), section
+        assert meant(getattr(ours.description, section)) == meant(
+            getattr(theirs.description, section)
+        ), section
     # The cases for Metal word some findings otherwise.
     assert [each[:2] for each in found(ours)] == [each[:2] for each in found(theirs)] != []
     costs = [frame_cost(Frame(each), profile(each.description)) for each in (ours, theirs)]
@@ -153,20 +161,37 @@ def test_it_is_the_same_frame(metal: str, vulkan: str) -> None:
 
 
 def test_findings_stand_in_metals_text() -> None:
-    linted = ENGINE.lint(ARTICLE.encode(), "given.yaml", LintOptions(lambda rule, suggested, vendor: suggested))
-    stated = {(f.rule, ARTICLE[f.span.start : f.span.end], f.subject) for f in linted.findings if f.span is not None}
+    linted = ENGINE.lint(
+        ARTICLE.encode(), "given.yaml", LintOptions(lambda rule, suggested, vendor: suggested)
+    )
+    stated = {
+        (f.rule, ARTICLE[f.span.start : f.span.end], f.subject)
+        for f in linted.findings
+        if f.span is not None
+    }
     assert stated == {
         ("metal-usage-blocks-memoryless", "shaderRead", "metal.textures.ms"),
         ("metal-memoryless-possible", "private", "metal.textures.depth"),
-        ("metal-samples-stored-unread", "storeAndMultisampleResolve", "metal.renderPasses.forward.colorAttachments[0]"),
+        (
+            "metal-samples-stored-unread",
+            "storeAndMultisampleResolve",
+            "metal.renderPasses.forward.colorAttachments[0]",
+        ),
         ("metal-depth-stored-unread", "store", "metal.renderPasses.forward.depthAttachment"),
     }
-    assert ENGINE.lint(BEST.encode(), "given.yaml", LintOptions(lambda rule, suggested, vendor: suggested)).findings == []
+    assert (
+        ENGINE.lint(
+            BEST.encode(), "given.yaml", LintOptions(lambda rule, suggested, vendor: suggested)
+        ).findings
+        == []
+    )
 
 
 def test_paths_are_metals() -> None:
     paths = {(subject.kind, subject.path) for subject in subjects(document(DEPTH[0]))}
-    assert {path for kind, path in paths if kind in ("pass", "attachment", "subpass", "resolve")} == {
+    assert {
+        path for kind, path in paths if kind in ("pass", "attachment", "subpass", "resolve")
+    } == {
         "metal.renderPasses.geometry",
         "metal.renderPasses.geometry.colorAttachments.1",
         "metal.renderPasses.geometry.depthAttachment",
@@ -179,11 +204,21 @@ def test_paths_are_metals() -> None:
 
 def resolves(passes: str) -> list[tuple[str, str | None, str | None, str | None]]:
     """Of a frame with these passes: what is resolved, by which mode, from and to what."""
-    textures = "c: {pixelFormat: r8Unorm, sampleCount: 4}, d: {pixelFormat: depth32Float, sampleCount: 4}"
-    textures += ", s: {pixelFormat: stencil8, sampleCount: 4}, ds: {pixelFormat: depth32Float_stencil8, sampleCount: 4}"
-    textures += ", one: {pixelFormat: r8Unorm}, d1: {pixelFormat: depth32Float}, s1: {pixelFormat: stencil8}"
+    textures = (
+        "c: {pixelFormat: r8Unorm, sampleCount: 4}, d: {pixelFormat: depth32Float, sampleCount: 4}"
+    )
+    textures += (
+        ", s: {pixelFormat: stencil8, sampleCount: 4}, ds: {pixelFormat: "
+        "depth32Float_stencil8, sampleCount: 4}"
+    )
+    textures += (
+        ", one: {pixelFormat: r8Unorm}, d1: {pixelFormat: depth32Float}, s1: {pixelFormat: "
+        "stencil8}"
+    )
     textures += ", ds1: {pixelFormat: depth32Float_stencil8}"
-    frame = Frame(document(f"metal: {{textures: {{{textures}}}, renderPasses: {{p: {{{passes}}}}}}}"))
+    frame = Frame(
+        document(f"metal: {{textures: {{{textures}}}, renderPasses: {{p: {{{passes}}}}}}}")
+    )
     return [
         (r.aspect, r.mode, r.source.name if r.source else None, r.target.name if r.target else None)
         for r in frame.passes[0].subpasses[0].resolves
@@ -192,55 +227,97 @@ def resolves(passes: str) -> list[tuple[str, str | None, str | None, str | None]
 
 @pytest.mark.parametrize("action", ["multisampleResolve", "storeAndMultisampleResolve"])
 def test_an_action_and_a_texture_resolve(action: str) -> None:
-    assert resolves(f"colorAttachments: [null, {{texture: c, resolveTexture: one, storeAction: {action}}}]") == [
-        ("color", "AVERAGE", "c", "one")
-    ]
+    assert resolves(
+        f"colorAttachments: [null, {{texture: c, resolveTexture: one, storeAction: {action}}}]"
+    ) == [("color", "AVERAGE", "c", "one")]
     assert resolves(f"colorAttachments: [{{texture: c, storeAction: {action}}}]") == []
-    assert resolves("colorAttachments: [{texture: c, resolveTexture: one, storeAction: store}]") == []
-    assert resolves("colorAttachments: [{texture: c, resolveTexture: one, storeAction: unknown}]") == []
+    assert (
+        resolves("colorAttachments: [{texture: c, resolveTexture: one, storeAction: store}]") == []
+    )
+    assert (
+        resolves("colorAttachments: [{texture: c, resolveTexture: one, storeAction: unknown}]")
+        == []
+    )
     assert resolves("colorAttachments: [{texture: c, resolveTexture: one}]") == []
 
 
 @pytest.mark.parametrize(
     ("filter", "mode"),
-    [("", "SAMPLE_ZERO"), (", depthResolveFilter: sample0", "SAMPLE_ZERO"), (", depthResolveFilter: .min", "MIN"),
+    [("", "SAMPLE_ZERO"), (", depthResolveFilter: sample0", "SAMPLE_ZERO"),
+    (", depthResolveFilter: .min", "MIN"),
      (", depthResolveFilter: MTLMultisampleDepthResolveFilterMax", "MAX")],
 )  # fmt: skip
 def test_a_filter_is_a_mode(filter: str, mode: str) -> None:
-    stated = f"depthAttachment: {{texture: d, resolveTexture: d1, storeAction: multisampleResolve{filter}}}"
+    stated = (
+        f"depthAttachment: {{texture: d, resolveTexture: d1, storeAction: "
+        f"multisampleResolve{filter}}}"
+    )
     assert resolves(stated) == [("depth", mode, "d", "d1")]
 
 
 def test_depth_and_stencil_of_one_texture() -> None:
     depth = "depthAttachment: {texture: ds, resolveTexture: ds1, storeAction: multisampleResolve"
-    stencil = "stencilAttachment: {texture: ds, resolveTexture: ds1, storeAction: multisampleResolve"
+    stencil = (
+        "stencilAttachment: {texture: ds, resolveTexture: ds1, storeAction: multisampleResolve"
+    )
     both = [("depth", "MIN", "ds", "ds1"), ("stencil", "SAMPLE_ZERO", "ds", "ds1")]
     assert resolves(f"{depth}, depthResolveFilter: min}}, {stencil}}}") == both
-    chosen = resolves(f"{depth}, depthResolveFilter: min}}, {stencil}, stencilResolveFilter: depthResolvedSample}}")
-    assert [each[1] for each in chosen] == ["MIN", None], "Vulkan has no mode that follows the depth's"
-    assert [each[1] for each in resolves(f"{depth}}}, {stencil}, stencilResolveFilter: depthResolvedSample}}")] == ["SAMPLE_ZERO"] * 2
+    chosen = resolves(
+        f"{depth}, depthResolveFilter: min}}, {stencil}, stencilResolveFilter: "
+        f"depthResolvedSample}}"
+    )
+    assert [each[1] for each in chosen] == ["MIN", None], (
+        "Vulkan has no mode that follows the depth's"
+    )
+    assert [
+        each[1]
+        for each in resolves(f"{depth}}}, {stencil}, stencilResolveFilter: depthResolvedSample}}")
+    ] == ["SAMPLE_ZERO"] * 2
     alone = resolves(f"{depth}}}, stencilAttachment: {{texture: ds, storeAction: dontCare}}")
     assert [each[1] for each in alone] == ["SAMPLE_ZERO", "NONE"]
     assert [each[1] for each in resolves(f"{stencil}}}")] == ["NONE", "SAMPLE_ZERO"]
 
 
 def test_depth_and_stencil_of_two_textures() -> None:
-    depth = "depthAttachment: {texture: d, resolveTexture: d1, loadAction: clear, storeAction: multisampleResolve}"
-    stencil = "stencilAttachment: {texture: s, resolveTexture: s1, loadAction: load, storeAction: storeAndMultisampleResolve}"
-    assert resolves(f"{depth}, {stencil}") == [("depth", "SAMPLE_ZERO", "d", "d1"), ("stencil", "SAMPLE_ZERO", "s", "s1")]
-    textures = "d: {pixelFormat: depth32Float, sampleCount: 4}, s: {pixelFormat: stencil8, sampleCount: 4}, d1: {pixelFormat: depth32Float}"
-    text = f"metal: {{textures: {{{textures}, s1: {{pixelFormat: stencil8}}}}, renderPasses: {{p: {{{depth}, {stencil}}}}}}}"
+    depth = (
+        "depthAttachment: {texture: d, resolveTexture: d1, loadAction: clear, storeAction: "
+        "multisampleResolve}"
+    )
+    stencil = (
+        "stencilAttachment: {texture: s, resolveTexture: s1, loadAction: load, storeAction: "
+        "storeAndMultisampleResolve}"
+    )
+    assert resolves(f"{depth}, {stencil}") == [
+        ("depth", "SAMPLE_ZERO", "d", "d1"),
+        ("stencil", "SAMPLE_ZERO", "s", "s1"),
+    ]
+    textures = (
+        "d: {pixelFormat: depth32Float, sampleCount: 4}, s: {pixelFormat: stencil8, "
+        "sampleCount: 4}, d1: {pixelFormat: depth32Float}"
+    )
+    text = (
+        f"metal: {{textures: {{{textures}, s1: {{pixelFormat: stencil8}}}}, renderPasses: {{p: "
+        f"{{{depth}, {stencil}}}}}}}"
+    )
     frame = Frame(document(text))
     assert [each.name for each in frame.passes[0].subpasses[0].depth_stencil] == ["d", "s"]
     by_name = {each.name: each for each in frame.passes[0].attachments}
-    assert [(a.name, a.load, a.store) for a in by_name["s"].aspects] == [("stencil", "LOAD", "STORE")]
+    assert [(a.name, a.load, a.store) for a in by_name["s"].aspects] == [
+        ("stencil", "LOAD", "STORE")
+    ]
     assert by_name["s"].used and by_name["s"].drawn and by_name["s1"].resolve == {0: {"stencil"}}
 
 
 def test_attachments_have_names_of_their_own() -> None:
     """One texture in two slots, and names that mean something else in a description."""
-    attachments = "{texture: a, resolveTexture: a, storeAction: multisampleResolve}, {texture: a}, {texture: UNUSED}, {}"
-    text = f"metal: {{textures: {{a: {{}}, UNUSED: {{}}}}, renderPasses: {{p: {{colorAttachments: [{attachments}]}}}}}}"
+    attachments = (
+        "{texture: a, resolveTexture: a, storeAction: multisampleResolve}, {texture: a}, "
+        "{texture: UNUSED}, {}"
+    )
+    text = (
+        f"metal: {{textures: {{a: {{}}, UNUSED: {{}}}}, renderPasses: {{p: {{colorAttachments: "
+        f"[{attachments}]}}}}}}"
+    )
     frame = Frame(document(text))
     assert [each.name for each in frame.passes[0].attachments] == [
         "a",
@@ -252,49 +329,79 @@ def test_attachments_have_names_of_their_own() -> None:
     assert [each.name if each else None for each in frame.passes[0].subpasses[0].color] == [
         "a", "a (colorAttachments[1])", "UNUSED (colorAttachments[2])", "colorAttachments[3]",
     ]  # fmt: skip
-    assert [each.image for each in frame.description.renderPasses["p"].attachments] == ["a", "a", "UNUSED", None, "a"]
+    assert [each.image for each in frame.description.renderPasses["p"].attachments] == [
+        "a",
+        "a",
+        "UNUSED",
+        None,
+        "a",
+    ]
 
 
 def test_what_is_not_stated_stays_unknown() -> None:
-    text = "metal: {textures: {a: {}}, renderPasses: {p: {colorAttachments: [{texture: a}]}}, renderPipelines: {x: {renderPass: p}}}"
+    text = (
+        "metal: {textures: {a: {}}, renderPasses: {p: {colorAttachments: [{texture: a}]}}, "
+        "renderPipelines: {x: {renderPass: p}}}"
+    )
     described = document(text).description
     image, attachment = described.images["a"], described.renderPasses["p"].attachments[0]
     assert all(getattr(image, member) in (None, ()) for member in image.SHAPE)
-    assert [attachment.loadOp, attachment.storeOp, attachment.format, attachment.samples] == [None] * 4
+    assert [attachment.loadOp, attachment.storeOp, attachment.format, attachment.samples] == [
+        None
+    ] * 4
     assert described.pipelines["x"].multisampleState is None
     assert described.commands is None and not document(text).description.states("images")
 
 
 @pytest.mark.parametrize(
     ("texture", "samples"),
-    [("", None), ("drawable: true", 1), ("textureType: type2D", 1), ("textureType: type2DMultisample", None),
+    [("", None), ("drawable: true", 1), ("textureType: type2D", 1), ("textureType: "
+        "type2DMultisample", None),
      ("textureType: type2D, sampleCount: 4", 4)],
 )  # fmt: skip
 def test_samples_of_a_texture(texture: str, samples: int | None) -> None:
-    assert document(f"metal: {{textures: {{a: {{{texture}}}}}}}").description.images["a"].samples == samples
+    assert (
+        document(f"metal: {{textures: {{a: {{{texture}}}}}}}").description.images["a"].samples
+        == samples
+    )
 
 
 @pytest.mark.parametrize(
     ("texture", "usage"),
     [
         ("pixelFormat: r8Unorm, usage: [renderTarget]", ("COLOR_ATTACHMENT",)),
-        ("pixelFormat: stencil8, usage: [renderTarget, shaderRead]", ("DEPTH_STENCIL_ATTACHMENT", "SAMPLED")),
+        (
+            "pixelFormat: stencil8, usage: [renderTarget, shaderRead]",
+            ("DEPTH_STENCIL_ATTACHMENT", "SAMPLED"),
+        ),
         ("pixelFormat: r8Unorm, usage: [shaderWrite, shaderAtomic]", ("STORAGE",)),
         ("pixelFormat: r8Unorm, usage: [unknown]", None),
         ("pixelFormat: r8Unorm, usage: [renderTarget, unknown]", None),
         ("pixelFormat: r8Unorm", None),
         ("usage: [renderTarget]", None),
-        ("pixelFormat: r8Unorm, storageMode: memoryless", ("COLOR_ATTACHMENT", "TRANSIENT_ATTACHMENT")),
-        ("pixelFormat: r8Unorm, usage: [shaderRead], storageMode: memoryless", ("SAMPLED", "TRANSIENT_ATTACHMENT")),
+        (
+            "pixelFormat: r8Unorm, storageMode: memoryless",
+            ("COLOR_ATTACHMENT", "TRANSIENT_ATTACHMENT"),
+        ),
+        (
+            "pixelFormat: r8Unorm, usage: [shaderRead], storageMode: memoryless",
+            ("SAMPLED", "TRANSIENT_ATTACHMENT"),
+        ),
     ],
 )
 def test_usage_of_a_texture(texture: str, usage: tuple[str, ...] | None) -> None:
-    assert document(f"metal: {{textures: {{a: {{{texture}}}}}}}").description.images["a"].usage == usage
+    assert (
+        document(f"metal: {{textures: {{a: {{{texture}}}}}}}").description.images["a"].usage
+        == usage
+    )
 
 
 def test_a_render_target_of_no_vulkan_format_is_what_it_is_attached_as() -> None:
     texture = "a: {pixelFormat: bgr10_xr, usage: [renderTarget]}"
-    text = f"metal: {{textures: {{{texture}}}, renderPasses: {{p: {{colorAttachments: [{{texture: a}}]}}}}}}"
+    text = (
+        f"metal: {{textures: {{{texture}}}, renderPasses: {{p: {{colorAttachments: [{{texture: "
+        f"a}}]}}}}}}"
+    )
     image = document(text).description.images["a"]
     assert (image.format, image.usage) == (None, ("COLOR_ATTACHMENT",))
 

@@ -1,4 +1,6 @@
-"""What the catalogue says of frames in Metal's words, all rules together: one cause is one finding, sound frames have none."""
+"""What the catalogue says of frames in Metal's words, all rules together: one cause is one finding,
+sound frames have none.
+"""
 
 from __future__ import annotations
 
@@ -19,8 +21,16 @@ TEXTURES = """
 """
 
 
-def frame(color: str, *, storage: str = "memoryless", depth: str = "loadAction: clear, storeAction: dontCare", commands: str = "") -> str:
-    """A pass that draws to `colorMS` and `depthMS`; the rest of the colour attachment, of the depth attachment, and of the commands."""
+def frame(
+    color: str,
+    *,
+    storage: str = "memoryless",
+    depth: str = "loadAction: clear, storeAction: dontCare",
+    commands: str = "",
+) -> str:
+    """A pass that draws to `colorMS` and `depthMS`; the rest of the colour attachment, of the depth
+    attachment, and of the commands.
+    """
     return f"""metal:
   family: apple7
   textures:{TEXTURES.rstrip().replace("COLOR", storage)}
@@ -41,18 +51,32 @@ def found(text: str) -> list[tuple[str, str, str]]:
     assert linted.source is not None
     assert not [each for each in linted.findings if each.fatal]
     whole = linted.source.text
-    return sorted((each.rule, each.severity, whole[each.span.start : each.span.end]) for each in linted.findings if each.span)
+    return sorted(
+        (each.rule, each.severity, whole[each.span.start : each.span.end])
+        for each in linted.findings
+        if each.span
+    )
 
 
 @pytest.mark.parametrize(
     ("text", "expected"),
     [
         (
-            frame("resolveTexture: drawable, loadAction: clear, storeAction: storeAndMultisampleResolve", storage="private"),
-            [("metal-memoryless-possible", "warning", "private"), ("metal-samples-stored-unread", "warning", "storeAndMultisampleResolve")],
+            frame(
+                "resolveTexture: drawable, loadAction: clear, storeAction: "
+                "storeAndMultisampleResolve",
+                storage="private",
+            ),
+            [
+                ("metal-memoryless-possible", "warning", "private"),
+                ("metal-samples-stored-unread", "warning", "storeAndMultisampleResolve"),
+            ],
         ),
         (
-            frame("resolveTexture: drawable, loadAction: clear, storeAction: storeAndMultisampleResolve"),
+            frame(
+                "resolveTexture: drawable, loadAction: clear, storeAction: "
+                "storeAndMultisampleResolve"
+            ),
             [("metal-memoryless-needs-memory", "error", "storeAndMultisampleResolve")],
         ),
         (
@@ -61,8 +85,13 @@ def found(text: str) -> list[tuple[str, str, str]]:
             [("metal-memoryless-needs-memory", "error", "store")],
         ),
         (
-            frame("resolveTexture: drawable, loadAction: clear, storeAction: store", storage="private"),
-            [("metal-memoryless-possible", "warning", "private"), ("metal-resolve-texture-unused", "warning", "store")],
+            frame(
+                "resolveTexture: drawable, loadAction: clear, storeAction: store", storage="private"
+            ),
+            [
+                ("metal-memoryless-possible", "warning", "private"),
+                ("metal-resolve-texture-unused", "warning", "store"),
+            ],
         ),
         (
             frame("resolveTexture: drawable, loadAction: clear, storeAction: dontCare"),
@@ -81,7 +110,10 @@ def found(text: str) -> list[tuple[str, str, str]]:
         ),
         (
             # What it loads it threw away: the undefined contents are worse than their price.
-            frame("resolveTexture: drawable, loadAction: load, storeAction: multisampleResolve", storage="private"),
+            frame(
+                "resolveTexture: drawable, loadAction: load, storeAction: multisampleResolve",
+                storage="private",
+            ),
             [("discarded-then-loaded", "warning", "load")],
         ),
         (
@@ -91,19 +123,31 @@ def found(text: str) -> list[tuple[str, str, str]]:
         (
             frame(
                 "resolveTexture: color, loadAction: clear, storeAction: multisampleResolve",
-                commands="    - copy: {source: color, destination: drawable}\n    - present: drawable",
+                commands="    - copy: {source: color, destination: drawable}\n    - present: "
+                "drawable",
             ),
             [("metal-resolve-then-blit", "warning", "color")],
         ),
         (
-            # No finding of four samples being enough; that they do not fit on the tile is another matter.
-            frame("resolveTexture: drawable, loadAction: clear, storeAction: multisampleResolve").replace("Count: 4", "Count: 16"),
-            [*[("metal-sample-count-unsupported", "error", "16")] * 2, ("tile-budget-exceeded", "warning", "colorAttachments")],
+            # No finding of four samples being enough; that they do not fit on the tile is another
+            # matter.
+            frame(
+                "resolveTexture: drawable, loadAction: clear, storeAction: multisampleResolve"
+            ).replace("Count: 4", "Count: 16"),
+            [
+                *[("metal-sample-count-unsupported", "error", "16")] * 2,
+                ("tile-budget-exceeded", "warning", "colorAttachments"),
+            ],
         ),
         (
             # Colour of one sample: its own type, and what stands beside it.
-            frame("loadAction: clear, storeAction: store", commands="    - readTexture: {texture: colorMS, stage: fragment}").replace(
-                "type2DMultisample, sampleCount: 4, usage: [renderTarget], storageMode: memoryless", "type2D, sampleCount: 1", 1
+            frame(
+                "loadAction: clear, storeAction: store",
+                commands="    - readTexture: {texture: colorMS, stage: fragment}",
+            ).replace(
+                "type2DMultisample, sampleCount: 4, usage: [renderTarget], storageMode: memoryless",
+                "type2D, sampleCount: 1",
+                1,
             ),
             [("mixed-sample-counts", "error", "depthMS")],
         ),
@@ -119,19 +163,27 @@ def test_one_cause_is_one_finding(text: str, expected: list[tuple[str, str, str]
         frame("resolveTexture: drawable, loadAction: clear, storeAction: multisampleResolve"),
         frame("resolveTexture: drawable, loadAction: dontCare, storeAction: unknown"),
         # Samples that a tile function resolves: nothing is stored, and nothing is lost.
-        frame("loadAction: clear, storeAction: dontCare", commands="    - writeTexture: {texture: color, stage: tile}"),
+        frame(
+            "loadAction: clear, storeAction: dontCare",
+            commands="    - writeTexture: {texture: color, stage: tile}",
+        ),
         # A resolve of the application's own.
         frame(
             "loadAction: clear, storeAction: store",
             storage="private",
-            commands="    - readTexture: {texture: colorMS, stage: compute, samples: ALL, resolves: OTHER}",
+            commands="    - readTexture: {texture: colorMS, stage: compute, samples: ALL, "
+            "resolves: OTHER}",
         ),
         # A picture that later frames read.
-        frame("resolveTexture: color, loadAction: clear, storeAction: multisampleResolve", commands="    - readTexture: {texture: color}"),
+        frame(
+            "resolveTexture: color, loadAction: clear, storeAction: multisampleResolve",
+            commands="    - readTexture: {texture: color}",
+        ),
         # A blit of what something is drawn on between.
         frame(
             "resolveTexture: color, loadAction: clear, storeAction: multisampleResolve",
-            commands="    - writeTexture: {texture: color, stage: compute}\n    - copy: {source: color, destination: drawable}",
+            commands="    - writeTexture: {texture: color, stage: compute}\n    - copy: {source: "
+            "color, destination: drawable}",
         ),
     ],
 )
@@ -140,7 +192,9 @@ def test_sound_frames_have_no_finding(text: str) -> None:
 
 
 def test_a_deferred_frame_on_the_tile_has_no_finding() -> None:
-    """Attachments that fragment functions read on the tile are neither stored nor resolved, and not lost for that."""
+    """Attachments that fragment functions read on the tile are neither stored nor resolved, and not
+    lost for that.
+    """
     text = """metal:
   family: apple7
   textures:
@@ -168,14 +222,23 @@ def test_a_deferred_frame_on_the_tile_has_no_finding() -> None:
 @pytest.mark.parametrize("action", ["store", "storeAndMultisampleResolve", "dontCare"])
 def test_fixes_of_a_pass_leave_nothing_to_find(storage: str, action: str) -> None:
     """Rules about one attachment do not undo each other's fixes."""
-    text = frame(f"resolveTexture: drawable, loadAction: clear, storeAction: {action}", storage=storage)
+    text = frame(
+        f"resolveTexture: drawable, loadAction: clear, storeAction: {action}", storage=storage
+    )
     done = fix_findings(text, True)
     assert done.result.findings == []
-    assert re.search(r"storeAction: multisampleResolve}.*storeAction: dontCare}", done.text, re.DOTALL)
+    assert re.search(
+        r"storeAction: multisampleResolve}.*storeAction: dontCare}", done.text, re.DOTALL
+    )
 
 
 def test_a_rule_is_asked_of_the_frames_that_its_page_names() -> None:
-    metal = lint(frame("resolveTexture: drawable, loadAction: clear, storeAction: storeAndMultisampleResolve", storage="private"))
+    metal = lint(
+        frame(
+            "resolveTexture: drawable, loadAction: clear, storeAction: storeAndMultisampleResolve",
+            storage="private",
+        )
+    )
     vulkan = lint("""
 images: {color_ms: {format: R8G8B8A8_UNORM, samples: 16}, color: {format: R8G8B8A8_UNORM, samples: 1}}
 commands:
@@ -189,17 +252,27 @@ commands:
 
 
 PLACEHOLDER = re.compile(r"\{[a-z_.]+\}")
-VULKAN = re.compile(r"\b(storeOp|loadOp|stencil\w+Op|VK_\w+|vkCmd\w+|TRANSIENT_ATTACHMENT|subpass|DONT_CARE|alphaTo\w+)\b")
+VULKAN = re.compile(
+    r"\b(storeOp|loadOp|stencil\w+Op|VK_\w+|vkCmd\w+|TRANSIENT_ATTACHMENT|subpass|DONT_CARE|alphaTo\w+)\b"
+)
 
 
 def test_what_is_said_of_metal_is_in_its_words() -> None:
-    """The rules that are Metal's alone name nothing of Vulkan's, and the others say so in a case of their own where they would."""
+    """The rules that are Metal's alone name nothing of Vulkan's, and the others say so in a case of
+    their own where they would.
+    """
     for rule in RULES.values():
         if "metal" not in rule.apis:
             continue
-        cases = [case for case in rule.cases if "METAL" in case.when] if "vulkan" in rule.apis else rule.cases
+        cases = (
+            [case for case in rule.cases if "METAL" in case.when]
+            if "vulkan" in rule.apis
+            else rule.cases
+        )
         whole = next((case for case in cases if case.when == 'frame.api == "METAL"'), None)
-        texts = [case.message or rule.message for case in cases] + [case.help or rule.help for case in cases]
+        texts = [case.message or rule.message for case in cases] + [
+            case.help or rule.help for case in cases
+        ]
         texts += [case.fix.title for case in cases if case.fix is not None]
         if whole is None:
             texts += [rule.message, rule.help]

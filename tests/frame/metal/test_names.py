@@ -5,7 +5,15 @@ from __future__ import annotations
 import pytest
 
 from msaa_lint.frame.metal.formats import PIXEL_FORMATS
-from msaa_lint.frame.metal.names import ENUMS, nearest_to, objective_c, parse, parse_options, spelled, spellings
+from msaa_lint.frame.metal.names import (
+    ENUMS,
+    nearest_to,
+    objective_c,
+    parse,
+    parse_options,
+    spelled,
+    spellings,
+)
 from msaa_lint.frame.vulkan.formats import format_of
 
 
@@ -56,7 +64,11 @@ def test_components_are_the_same(name: str, bits: list[tuple[str, int]], bytes_:
         ("MTLPixelFormat", "stencil8", "MTLPixelFormatStencil8"),
         ("MTLTextureType", "type2DMultisampleArray", "MTLTextureType2DMultisampleArray"),
         ("MTLTextureType", "typeCube", "MTLTextureTypeCube"),
-        ("MTLStoreAction", "storeAndMultisampleResolve", "MTLStoreActionStoreAndMultisampleResolve"),
+        (
+            "MTLStoreAction",
+            "storeAndMultisampleResolve",
+            "MTLStoreActionStoreAndMultisampleResolve",
+        ),
         ("MTLMultisampleDepthResolveFilter", "sample0", "MTLMultisampleDepthResolveFilterSample0"),
         ("MTLGPUFamily", "apple10", "MTLGPUFamilyApple10"),
     ],
@@ -92,6 +104,8 @@ def test_the_nearest_word(enum: str, word: str, meant: str | None) -> None:
 
 
 def test_options_are_joined() -> None:
-    assert parse_options("MTLTextureUsage", "MTLTextureUsageShaderRead | .renderTarget|shaderRead") == ["shaderRead", "renderTarget"]
+    assert parse_options(
+        "MTLTextureUsage", "MTLTextureUsageShaderRead | .renderTarget|shaderRead"
+    ) == ["shaderRead", "renderTarget"]
     with pytest.raises(ValueError, match=r"^shaderReed$"):
         parse_options("MTLTextureUsage", "shaderReed | renderTarget")

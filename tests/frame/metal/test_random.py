@@ -1,4 +1,6 @@
-"""Random frames in Metal's words, of a few textures that meet often: whatever they state, they are judged and fixed by the laws."""
+"""Random frames in Metal's words, of a few textures that meet often: whatever they state, they are
+judged and fixed by the laws.
+"""
 
 from __future__ import annotations
 
@@ -13,7 +15,12 @@ from msaa_lint.frame.metal.names import ENUMS
 from tests.linter.fixes.linting import fix_findings, kinds, lint
 from tests.strength import examples
 
-FORMATS = {"a": "rgba8Unorm", "b": "rgba8Unorm", "c": "depth32Float_stencil8", "d": "depth32Float_stencil8"}
+FORMATS = {
+    "a": "rgba8Unorm",
+    "b": "rgba8Unorm",
+    "c": "depth32Float_stencil8",
+    "d": "depth32Float_stencil8",
+}
 FILTERS = {
     "depthAttachment": {"depthResolveFilter": ENUMS["MTLMultisampleDepthResolveFilter"]},
     "stencilAttachment": {"stencilResolveFilter": ENUMS["MTLMultisampleStencilResolveFilter"]},
@@ -27,14 +34,20 @@ class Frames:
         self.random = Random(seed)
 
     def some(self, members: dict[str, Any], likely: float = 0.85, **rare: float) -> dict[str, Any]:
-        return {name: value for name, value in members.items() if self.random.random() < rare.get(name, likely)}
+        return {
+            name: value
+            for name, value in members.items()
+            if self.random.random() < rare.get(name, likely)
+        }
 
     def texture(self, name: str) -> dict[str, Any]:
         stated = {
             "pixelFormat": FORMATS[name],
             "sampleCount": self.random.choice([1, 2, 4, 8, 16]),
             "textureType": self.random.choice(["type2D", "type2DMultisample"]),
-            "usage": self.random.sample(["renderTarget", "shaderRead", "shaderWrite", "unknown"], self.random.randint(1, 3)),
+            "usage": self.random.sample(
+                ["renderTarget", "shaderRead", "shaderWrite", "unknown"], self.random.randint(1, 3)
+            ),
             "storageMode": self.random.choice(["private", "memoryless", "shared"]),
             "drawable": True,
         }
@@ -51,17 +64,29 @@ class Frames:
         return self.some(stated, 0.9, resolveTexture=0.5)
 
     def render_pass(self) -> dict[str, Any]:
-        colors = [self.attachment("ab") if self.random.random() < 0.9 else None for _ in range(self.random.randint(0, 2))]
-        return self.some({"colorAttachments": colors, **{slot: self.attachment("cd", slot) for slot in FILTERS}}, 0.7)
+        colors = [
+            self.attachment("ab") if self.random.random() < 0.9 else None
+            for _ in range(self.random.randint(0, 2))
+        ]
+        return self.some(
+            {"colorAttachments": colors, **{slot: self.attachment("cd", slot) for slot in FILTERS}},
+            0.7,
+        )
 
     def command(self, passes: dict[str, Any]) -> dict[str, Any]:
-        kind = self.random.choice([*["renderPass"] * 3, "readTexture", "writeTexture", "copy", "present"])
+        kind = self.random.choice(
+            [*["renderPass"] * 3, "readTexture", "writeTexture", "copy", "present"]
+        )
         one, other = self.random.choices(list(FORMATS), k=2)
         if kind == "renderPass":
             return {kind: self.random.choice(list(passes))}
         if kind == "copy":
             return {kind: {"source": one, "destination": other}}
-        return {kind: one if kind == "present" else {"texture": one, "stage": self.random.choice(["fragment", "compute", "tile"])}}
+        return {
+            kind: one
+            if kind == "present"
+            else {"texture": one, "stage": self.random.choice(["fragment", "compute", "tile"])}
+        }
 
     def frame(self) -> dict[str, Any]:
         passes = {name: self.render_pass() for name in ("p", "q")[: self.random.randint(1, 2)]}
@@ -69,10 +94,15 @@ class Frames:
             "family": self.random.choice(["apple1", "apple7", "mac2"]),
             "textures": {name: self.texture(name) for name in FORMATS},
             "renderPasses": passes,
-            "renderPipelines": {"x": {"renderPass": "p", "rasterSampleCount": self.random.choice([1, 2, 4])}},
+            "renderPipelines": {
+                "x": {"renderPass": "p", "rasterSampleCount": self.random.choice([1, 2, 4])}
+            },
             "commands": [self.command(passes) for _ in range(self.random.randint(0, 6))],
         }
-        wants = {"depth": self.random.choice(["STANDARD", "REVERSED"]), "depthResolveWants": self.random.choice(["NEAREST", "FARTHEST"])}
+        wants = {
+            "depth": self.random.choice(["STANDARD", "REVERSED"]),
+            "depthResolveWants": self.random.choice(["NEAREST", "FARTHEST"]),
+        }
         metal = self.some(metal, 0.8, textures=1, renderPasses=1)
         return {"frame": {"width": 64, "height": 64, "fps": 60}, "scene": wants, "metal": metal}
 

@@ -1,4 +1,6 @@
-"""Makes the SPIR-V of the tests', the rule pages', and an example's shaders: `python -m tests.frame.spirv.generate`."""
+"""Makes the SPIR-V of the tests', the rule pages', and an example's shaders: `python -m
+tests.frame.spirv.generate`.
+"""
 
 from __future__ import annotations
 
@@ -23,7 +25,11 @@ def compiled(source: Path) -> bytes:
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder, "out.spv")
         environment = ENVIRONMENTS.get(source.parent, "vulkan1.1")
-        subprocess.run(["glslangValidator", "--target-env", environment, "-g0", "-o", path, source], check=True, stdout=subprocess.PIPE)
+        subprocess.run(
+            ["glslangValidator", "--target-env", environment, "-g0", "-o", path, source],
+            check=True,
+            stdout=subprocess.PIPE,
+        )
         return path.read_bytes()
 
 

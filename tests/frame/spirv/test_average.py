@@ -1,4 +1,6 @@
-"""That a shader averages is said only where it does: random sums of samples against their weights."""
+"""That a shader averages is said only where it does: random sums of samples against their
+weights.
+"""
 
 from __future__ import annotations
 
@@ -28,7 +30,10 @@ def fetched(sample: int) -> Term:
 
 def added(one: Term, other: Term, sign: int) -> Term:
     samples = {*one.weights, *other.weights}
-    weights = {sample: one.weights.get(sample, Fraction(0)) + sign * other.weights.get(sample, Fraction(0)) for sample in samples}
+    weights = {
+        sample: one.weights.get(sample, Fraction(0)) + sign * other.weights.get(sample, Fraction(0))
+        for sample in samples
+    }
     return Term(f"({one.text} {'+' if sign > 0 else '-'} {other.text})", weights)
 
 
@@ -46,11 +51,17 @@ def whole(count: int, swapped: bool) -> Term:
     return made
 
 
-FACTORS = st.sampled_from([Fraction(1, 8), Fraction(1, 4), Fraction(1, 2), Fraction(2), Fraction(-1)])
+FACTORS = st.sampled_from(
+    [Fraction(1, 8), Fraction(1, 4), Fraction(1, 2), Fraction(2), Fraction(-1)]
+)
 TERMS = st.recursive(
-    st.one_of(st.builds(fetched, st.integers(0, 3)), st.builds(whole, st.sampled_from([2, 4]), st.booleans())),
+    st.one_of(
+        st.builds(fetched, st.integers(0, 3)),
+        st.builds(whole, st.sampled_from([2, 4]), st.booleans()),
+    ),
     lambda inner: st.one_of(
-        st.builds(added, inner, inner, st.sampled_from([1, 1, 1, -1])), st.builds(scaled, inner, FACTORS, st.booleans())
+        st.builds(added, inner, inner, st.sampled_from([1, 1, 1, -1])),
+        st.builds(scaled, inner, FACTORS, st.booleans()),
     ),
     max_leaves=6,
 )
@@ -77,7 +88,13 @@ void main() {{
 @given(TERMS)
 @example(scaled(whole(4, True), Fraction(1, 4), True))
 @example(added(scaled(whole(2, False), Fraction(1, 2), False), fetched(0), 1))
-@example(added(scaled(whole(4, False), Fraction(1, 4), False), scaled(whole(2, False), Fraction(1, 2), False), 1))
+@example(
+    added(
+        scaled(whole(4, False), Fraction(1, 4), False),
+        scaled(whole(2, False), Fraction(1, 2), False),
+        1,
+    )
+)
 def test_an_average_weighs_all_samples_alike(term: Term) -> None:
     resolves, samples = resolved(term)
     assert samples == tuple(sorted(term.weights))
@@ -93,8 +110,13 @@ def test_a_plain_average_is_found(count: int, swapped: bool, divides: bool) -> N
 
 
 @examples(0.25)
-@given(st.permutations(range(4)), st.one_of(st.just([Fraction(1, 4)] * 4), st.lists(FACTORS, min_size=4, max_size=4)))
-def test_weighed_samples_are_an_average_if_the_weights_are(order: list[int], factors: list[Fraction]) -> None:
+@given(
+    st.permutations(range(4)),
+    st.one_of(st.just([Fraction(1, 4)] * 4), st.lists(FACTORS, min_size=4, max_size=4)),
+)
+def test_weighed_samples_are_an_average_if_the_weights_are(
+    order: list[int], factors: list[Fraction]
+) -> None:
     made, *rest = (scaled(fetched(sample), factors[sample], False) for sample in order)
     for term in rest:
         made = added(made, term, 1)

@@ -16,7 +16,9 @@ from msaa_lint.frame.spirv.words import SpirvError, words_of
 from tests.frame.spirv.generate import RULES, SHADERS
 from tests.strength import examples
 
-MODULES = [path.read_bytes() for folder in (SHADERS, RULES) for path in sorted(folder.glob("*.spv"))]
+MODULES = [
+    path.read_bytes() for folder in (SHADERS, RULES) for path in sorted(folder.glob("*.spv"))
+]
 SMALLEST = min(MODULES, key=len)
 HEADER = words_of(SMALLEST)[:5]
 
@@ -28,7 +30,13 @@ def read(code: bytes) -> Reflected | None:
     except SpirvError as error:
         text = str(error)
         assert text.startswith(
-            ("not SPIR-V: ", "it has no entry point", "it has several entry points", "it is larger", "several entry points")
+            (
+                "not SPIR-V: ",
+                "it has no entry point",
+                "it has several entry points",
+                "it is larger",
+                "several entry points",
+            )
         )
         return None
 
@@ -43,12 +51,19 @@ def starts(code: bytes) -> set[int]:
     return found
 
 
-@pytest.mark.parametrize("name", ["average.frag", "early_end.frag", "array_of_images.frag", "sample_inputs.frag"])
+@pytest.mark.parametrize(
+    "name", ["average.frag", "early_end.frag", "array_of_images.frag", "sample_inputs.frag"]
+)
 def test_code_that_is_cut_off_is_refused(name: str) -> None:
-    """At every byte. Between two instructions outside of functions there is an entry point whose function is not there."""
+    """At every byte. Between two instructions outside of functions there is an entry point whose
+    function is not there.
+    """
     code = (SHADERS / f"{name}.spv").read_bytes()
     for length in range(len(code)):
-        with pytest.raises(SpirvError, match="not SPIR-V" if length % 4 or length // 4 not in starts(code) else None):
+        with pytest.raises(
+            SpirvError,
+            match="not SPIR-V" if length % 4 or length // 4 not in starts(code) else None,
+        ):
             reflect(code[:length])
 
 
@@ -56,7 +71,14 @@ def test_code_that_is_cut_off_is_refused(name: str) -> None:
 def test_every_word_may_be_anything(name: str) -> None:
     code = (SHADERS / f"{name}.spv").read_bytes()
     for at in range(1, len(code) // 4):
-        for value in (0, 1, 0xFFFFFFFF, 0x0001FFFF, words_of(code)[at] ^ 1, words_of(code)[at] + 0x10000 & 0xFFFFFFFF):
+        for value in (
+            0,
+            1,
+            0xFFFFFFFF,
+            0x0001FFFF,
+            words_of(code)[at] ^ 1,
+            words_of(code)[at] + 0x10000 & 0xFFFFFFFF,
+        ):
             words = words_of(code)
             words[at] = value
             read(words.tobytes())
@@ -73,12 +95,17 @@ def test_every_bit_may_be_flipped(name: str) -> None:
 
 
 WORDS = st.one_of(
-    st.integers(0, 2**32 - 1), st.integers(0, 120), st.builds(lambda length, op: length << 16 | op, st.integers(0, 9), st.integers(0, 400))
+    st.integers(0, 2**32 - 1),
+    st.integers(0, 120),
+    st.builds(lambda length, op: length << 16 | op, st.integers(0, 9), st.integers(0, 400)),
 )
 
 
 @examples(4)
-@given(st.sampled_from(MODULES), st.lists(st.tuples(st.integers(5, 10**6), WORDS), min_size=1, max_size=8))
+@given(
+    st.sampled_from(MODULES),
+    st.lists(st.tuples(st.integers(5, 10**6), WORDS), min_size=1, max_size=8),
+)
 def test_damaged_code_is_read_or_refused(code: bytes, damage: list[tuple[int, int]]) -> None:
     words = words_of(code)
     for at, value in damage:
@@ -87,8 +114,12 @@ def test_damaged_code_is_read_or_refused(code: bytes, damage: list[tuple[int, in
 
 
 @examples(3)
-@given(st.sampled_from(MODULES), st.integers(5, 10**6), st.integers(5, 10**6), st.sampled_from(MODULES))
-def test_two_modules_in_one_are_read_or_refused(one: bytes, at: int, begin: int, other: bytes) -> None:
+@given(
+    st.sampled_from(MODULES), st.integers(5, 10**6), st.integers(5, 10**6), st.sampled_from(MODULES)
+)
+def test_two_modules_in_one_are_read_or_refused(
+    one: bytes, at: int, begin: int, other: bytes
+) -> None:
     first, second = words_of(one), words_of(other)
     read((first[: 5 + at % (len(first) - 5)] + second[5 + begin % (len(second) - 5) :]).tobytes())
 
@@ -107,7 +138,9 @@ def test_random_bytes_are_refused(data: bytes) -> None:
 
 @examples(1)
 @given(st.sampled_from(MODULES), st.lists(st.tuples(st.integers(5, 10**6), WORDS), max_size=4))
-def test_damaged_code_is_the_same_in_both_orders(code: bytes, damage: list[tuple[int, int]]) -> None:
+def test_damaged_code_is_the_same_in_both_orders(
+    code: bytes, damage: list[tuple[int, int]]
+) -> None:
     words = words_of(code)
     for at, value in damage:
         words[5 + at % (len(words) - 5)] = value
@@ -128,8 +161,18 @@ def assembled(*instructions: tuple[int, ...]) -> bytes:
     return made.tobytes()
 
 
-START = ((15, 4, 1, 0x6E69616D, 0), (19, 2), (33, 3, 2), (20, 4), (21, 5, 32, 0), (41, 4, 6), (43, 5, 7, 0))
-"""An entry point `main` that is function 1, types (2 void, 3 function, 4 boolean, 5 integer), constants (6 true, 7 zero)."""
+START = (
+    (15, 4, 1, 0x6E69616D, 0),
+    (19, 2),
+    (33, 3, 2),
+    (20, 4),
+    (21, 5, 32, 0),
+    (41, 4, 6),
+    (43, 5, 7, 0),
+)
+"""An entry point `main` that is function 1, types (2 void, 3 function, 4 boolean, 5 integer),
+constants (6 true, 7 zero).
+"""
 
 
 def body(*instructions: tuple[int, ...]) -> bytes:
@@ -137,7 +180,18 @@ def body(*instructions: tuple[int, ...]) -> bytes:
 
 
 def test_a_loop_without_end_is_given_up() -> None:
-    found = reflect(body((249, 11), (248, 11), (246, 13, 12, 0), (249, 12), (248, 12), (249, 11), (248, 13), (253,)))
+    found = reflect(
+        body(
+            (249, 11),
+            (248, 11),
+            (246, 13, 12, 0),
+            (249, 12),
+            (248, 12),
+            (249, 11),
+            (248, 13),
+            (253,),
+        )
+    )
     assert found.alpha.declared is False
 
 
@@ -154,7 +208,13 @@ def test_branches_without_a_place_to_meet_are_bounded() -> None:
     """Each doubles the ways."""
     blocks: list[tuple[int, ...]] = [(249, 100)]
     for n in range(100, 160):
-        blocks += [(248, n), (1, 4, n + 200), (250, n + 200, n + 1, n + 1001), (248, n + 1001), (249, n + 1)]
+        blocks += [
+            (248, n),
+            (1, 4, n + 200),
+            (250, n + 200, n + 1, n + 1001),
+            (248, n + 1001),
+            (249, n + 1),
+        ]
     found = reflect(body(*blocks, (248, 160), (253,)))
     assert not found.followed
 
@@ -168,19 +228,43 @@ def test_constants_within_constants_are_bounded() -> None:
         previous, kind = n + 1, n
     store = [(32, 600, 7, kind), (32, 602, 7, kind)]
     code = assembled(
-        *START, *doubling, *store, (46, kind, 601), (54, 2, 1, 0, 3), (248, 10), (59, 600, 603, 7), (62, 603, previous), (253,), (56,)
+        *START,
+        *doubling,
+        *store,
+        (46, kind, 601),
+        (54, 2, 1, 0, 3),
+        (248, 10),
+        (59, 600, 603, 7),
+        (62, 603, previous),
+        (253,),
+        (56,),
     )
     assert reflect(code).followed
 
 
 def test_types_within_types_are_bounded() -> None:
     chain: list[tuple[int, ...]] = [(30, n, n - 1) for n in range(101, 3000)]
-    assert reflect(assembled((30, 100, 5), *START, *chain, (46, 2999, 4000), (54, 2, 1, 0, 3), (248, 10), (253,), (56,))).followed
+    assert reflect(
+        assembled(
+            (30, 100, 5),
+            *START,
+            *chain,
+            (46, 2999, 4000),
+            (54, 2, 1, 0, 3),
+            (248, 10),
+            (253,),
+            (56,),
+        )
+    ).followed
 
 
 def test_decorations_of_groups_are_bounded() -> None:
     """So many decorations for so many targets."""
-    group = [(71, 100, n, 0) for n in range(20_000)] + [(73, 100)] + [(74, 100, *range(200 + n * 1000, 1200 + n * 1000)) for n in range(20)]
+    group = (
+        [(71, 100, n, 0) for n in range(20_000)]
+        + [(73, 100)]
+        + [(74, 100, *range(200 + n * 1000, 1200 + n * 1000)) for n in range(20)]
+    )
     module = Module(assembled(*START, *group, (54, 2, 1, 0, 3), (248, 10), (253,), (56,)))
     assert len(module.decorations) >= 20_000
     assert all(len(each) <= 24 for each in module.decorations.values())
@@ -190,7 +274,12 @@ def test_selections_within_selections_are_given_up_before_the_stack_ends() -> No
     nest: list[tuple[int, ...]] = []
     deep = 3000
     for n in range(deep):
-        nest += [(248, 1000 + n), (1, 4, 20_000 + n), (247, 10_000 + n, 0), (250, 20_000 + n, 1001 + n, 10_000 + n)]
+        nest += [
+            (248, 1000 + n),
+            (1, 4, 20_000 + n),
+            (247, 10_000 + n, 0),
+            (250, 20_000 + n, 1001 + n, 10_000 + n),
+        ]
     nest += [(248, 1000 + deep), (249, 10_000 + deep - 1)]
     for n in reversed(range(deep)):
         nest += [(248, 10_000 + n), (249, 10_000 + n - 1) if n else (253,)]
@@ -205,14 +294,32 @@ def test_a_module_that_is_too_large_is_refused() -> None:
 def test_a_variable_may_hold_a_pointer_to_itself() -> None:
     """What it holds is used: that ends."""
     types = ((32, 600, 7, 5), (32, 601, 7, 600))
-    inner = ((54, 2, 1, 0, 3), (248, 10), (59, 601, 602, 7), (62, 602, 602), (61, 600, 603, 602), (109, 5, 604, 603), (253,), (56,))
+    inner = (
+        (54, 2, 1, 0, 3),
+        (248, 10),
+        (59, 601, 602, 7),
+        (62, 602, 602),
+        (61, 600, 603, 602),
+        (109, 5, 604, 603),
+        (253,),
+        (56,),
+    )
     assert reflect(assembled(*START, *types, *inner)).followed
 
 
 def test_indices_within_indices_are_bounded() -> None:
     """Each pointer is an index of the next."""
     chain = [(65, 600, n, 602, n - 1) for n in range(1001, 20_000)]
-    inner = ((54, 2, 1, 0, 3), (248, 10), (59, 600, 602, 7), (65, 600, 1000, 602, 7), *chain, (61, 5, 20_001, 19_999), (253,), (56,))
+    inner = (
+        (54, 2, 1, 0, 3),
+        (248, 10),
+        (59, 600, 602, 7),
+        (65, 600, 1000, 602, 7),
+        *chain,
+        (61, 5, 20_001, 19_999),
+        (253,),
+        (56,),
+    )
     assert reflect(assembled(*START, (32, 600, 7, 5), *inner)).followed
 
 
@@ -227,4 +334,6 @@ def test_steps_are_counted(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_the_modules_are_small() -> None:
     assert all(len(code) < 8192 for code in MODULES)
-    assert len(MODULES) == len([path for folder in (SHADERS, RULES) for path in Path(folder).glob("*.spv")])
+    assert len(MODULES) == len(
+        [path for folder in (SHADERS, RULES) for path in Path(folder).glob("*.spv")]
+    )

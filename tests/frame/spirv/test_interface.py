@@ -39,35 +39,57 @@ FLOAT_2D = ImageType("2D", "float", False, False, False, 0)
     ("declared", "used", "kind", "image"),
     [
         ("uniform sampler2D t", "texture(t, vec2(0))", "COMBINED_IMAGE_SAMPLER", FLOAT_2D),
-        ("uniform isampler2D t", "vec4(texture(t, vec2(0)))", "COMBINED_IMAGE_SAMPLER", FLOAT_2D._replace(component="int")),
+        ("uniform isampler2D t", "vec4(texture(t, vec2(0)))", "COMBINED_IMAGE_SAMPLER",
+        FLOAT_2D._replace(component="int")),
         ("uniform usampler2DArray t", "vec4(texture(t, vec3(0)))", "COMBINED_IMAGE_SAMPLER",
          ImageType("2D", "uint", False, True, False, 0)),
-        ("uniform sampler1D t", "texture(t, 0)", "COMBINED_IMAGE_SAMPLER", FLOAT_2D._replace(dimension="1D")),
-        ("uniform sampler3D t", "texture(t, vec3(0))", "COMBINED_IMAGE_SAMPLER", FLOAT_2D._replace(dimension="3D")),
-        ("uniform samplerCube t", "texture(t, vec3(1))", "COMBINED_IMAGE_SAMPLER", FLOAT_2D._replace(dimension="CUBE")),
-        ("uniform samplerCubeArray t", "texture(t, vec4(1))", "COMBINED_IMAGE_SAMPLER", ImageType("CUBE", "float", False, True, False, 0)),
-        ("uniform sampler2DShadow t", "vec4(texture(t, vec3(0)))", "COMBINED_IMAGE_SAMPLER", FLOAT_2D._replace(depth=True)),
-        ("uniform sampler2DMS t", "texelFetch(t, ivec2(0), 1)", "COMBINED_IMAGE_SAMPLER", FLOAT_2D._replace(multisampled=True)),
+        ("uniform sampler1D t", "texture(t, 0)", "COMBINED_IMAGE_SAMPLER",
+        FLOAT_2D._replace(dimension="1D")),
+        ("uniform sampler3D t", "texture(t, vec3(0))", "COMBINED_IMAGE_SAMPLER",
+        FLOAT_2D._replace(dimension="3D")),
+        ("uniform samplerCube t", "texture(t, vec3(1))", "COMBINED_IMAGE_SAMPLER",
+        FLOAT_2D._replace(dimension="CUBE")),
+        ("uniform samplerCubeArray t", "texture(t, vec4(1))", "COMBINED_IMAGE_SAMPLER",
+        ImageType("CUBE", "float", False, True, False, 0)),
+        ("uniform sampler2DShadow t", "vec4(texture(t, vec3(0)))", "COMBINED_IMAGE_SAMPLER",
+        FLOAT_2D._replace(depth=True)),
+        ("uniform sampler2DMS t", "texelFetch(t, ivec2(0), 1)", "COMBINED_IMAGE_SAMPLER",
+        FLOAT_2D._replace(multisampled=True)),
         ("uniform sampler2DMSArray t", "texelFetch(t, ivec3(0), 1)", "COMBINED_IMAGE_SAMPLER",
          ImageType("2D", "float", False, True, True, 0)),
         ("uniform texture2D t", "texelFetch(t, ivec2(0), 0)", "SAMPLED_IMAGE", FLOAT_2D),
-        ("uniform samplerBuffer t", "texelFetch(t, 0)", "UNIFORM_TEXEL_BUFFER", FLOAT_2D._replace(dimension="BUFFER")),
-        ("uniform textureBuffer t", "texelFetch(t, 0)", "UNIFORM_TEXEL_BUFFER", FLOAT_2D._replace(dimension="BUFFER")),
-        ("rgba16f) uniform image2D t", "imageLoad(t, ivec2(0))", "STORAGE_IMAGE", FLOAT_2D._replace(format=2)),
-        ("r32ui) uniform uimage3D t", "vec4(imageLoad(t, ivec3(0)))", "STORAGE_IMAGE", ImageType("3D", "uint", False, False, False, 33)),
-        ("rgba8) uniform imageBuffer t", "imageLoad(t, 0)", "STORAGE_TEXEL_BUFFER", ImageType("BUFFER", "float", False, False, False, 4)),
+        ("uniform samplerBuffer t", "texelFetch(t, 0)", "UNIFORM_TEXEL_BUFFER",
+        FLOAT_2D._replace(dimension="BUFFER")),
+        ("uniform textureBuffer t", "texelFetch(t, 0)", "UNIFORM_TEXEL_BUFFER",
+        FLOAT_2D._replace(dimension="BUFFER")),
+        ("rgba16f) uniform image2D t", "imageLoad(t, ivec2(0))", "STORAGE_IMAGE",
+        FLOAT_2D._replace(format=2)),
+        ("r32ui) uniform uimage3D t", "vec4(imageLoad(t, ivec3(0)))", "STORAGE_IMAGE",
+        ImageType("3D", "uint", False, False, False, 33)),
+        ("rgba8) uniform imageBuffer t", "imageLoad(t, 0)", "STORAGE_TEXEL_BUFFER",
+        ImageType("BUFFER", "float", False, False, False, 4)),
         ("input_attachment_index = 2) uniform subpassInput t", "subpassLoad(t)", "INPUT_ATTACHMENT",
          FLOAT_2D._replace(dimension="SUBPASS")),
-        ("input_attachment_index = 2) uniform subpassInputMS t", "subpassLoad(t, 0)", "INPUT_ATTACHMENT",
+        ("input_attachment_index = 2) uniform subpassInputMS t", "subpassLoad(t, 0)",
+        "INPUT_ATTACHMENT",
          ImageType("SUBPASS", "float", False, False, True, 0)),
     ],
 )  # fmt: skip
 def test_images(declared: str, used: str, kind: str, image: ImageType) -> None:
     qualifiers, _, variable = declared.rpartition(") ")
     stated = f", {qualifiers}" if qualifiers else ""
-    text = f"#extension GL_EXT_samplerless_texture_functions : enable\nlayout(set = 1, binding = 3{stated}) {variable};\n{COLOR}"
+    text = (
+        f"#extension GL_EXT_samplerless_texture_functions : enable\nlayout(set = 1, binding = "
+        f"3{stated}) {variable};\n{COLOR}"
+    )
     found = only(text + f"void main() {{ color = {used}; }}")
-    assert (found.set, found.binding, found.kind, found.length, found.image) == (1, 3, kind, 1, image)
+    assert (found.set, found.binding, found.kind, found.length, found.image) == (
+        1,
+        3,
+        kind,
+        1,
+        image,
+    )
     assert found.attachment == (2 if kind == "INPUT_ATTACHMENT" else 0)
     assert found.compares == (image.depth is True) and not found.writes
 
@@ -82,12 +104,20 @@ layout(push_constant) uniform Push { layout(offset = 16) vec4 tint; mat2 turn; }
 
 
 def test_blocks_have_the_sizes_that_their_offsets_give() -> None:
-    use = "color = scene.view[0] + scene.lights[1].position.xyzx + tint + nodes[1].nodes[2].radius + turn[0].xyxy;"
+    use = (
+        "color = scene.view[0] + scene.lights[1].position.xyzx + tint + nodes[1].nodes[2].radius "
+        "+ turn[0].xyxy;"
+    )
     code = spirv(BLOCKS + COLOR + f"void main() {{ {use} }}")
     found = reflected(code)
     scene, nodes = found.descriptors
     # std140: 64 bytes, 2 rows of 16 bytes, 3 lights of 64 bytes, an integer.
-    assert (scene.kind, scene.length, scene.size, scene.stride) == ("UNIFORM_BUFFER", 1, 64 + 32 + 3 * 64 + 4, 0)
+    assert (scene.kind, scene.length, scene.size, scene.stride) == (
+        "UNIFORM_BUFFER",
+        1,
+        64 + 32 + 3 * 64 + 4,
+        0,
+    )
     assert (nodes.kind, nodes.length, nodes.size, nodes.stride) == ("STORAGE_BUFFER", 2, 16, 64)
     assert (nodes.reads, nodes.writes) == (True, False)
     # std430: the columns of a mat2 are 8 bytes apart.
@@ -98,11 +128,21 @@ def test_blocks_have_the_sizes_that_their_offsets_give() -> None:
 
 
 def test_arrays_of_descriptors_have_the_sizes_of_constants() -> None:
-    text = "layout(constant_id = 0) const int N = 4;\nlayout(set = 0, binding = 0) uniform sampler2D t[N][3];\n" + COLOR
+    text = (
+        "layout(constant_id = 0) const int N = 4;\nlayout(set = 0, binding = 0) uniform sampler2D "
+        "t[N][3];\n" + COLOR
+    )
     code = spirv(text + "void main() { color = texture(t[1][2], vec2(0)); }")
     assert [reflected(code, values).descriptors[0].length for values in ({}, {0: 7})] == [12, 21]
-    bindless = "#extension GL_EXT_nonuniform_qualifier : enable\nlayout(set = 0, binding = 0) uniform sampler2D t[];\n" + COLOR
-    found = only(bindless + "layout(location = 0) flat in int n;\nvoid main() { color = texture(t[nonuniformEXT(n)], vec2(0)); }")
+    bindless = (
+        "#extension GL_EXT_nonuniform_qualifier : enable\nlayout(set = 0, binding = 0) uniform "
+        "sampler2D t[];\n" + COLOR
+    )
+    found = only(
+        bindless
+        + "layout(location = 0) flat in int n;\nvoid main() { color = texture(t[nonuniformEXT(n)], "
+        "vec2(0)); }"
+    )
     assert (found.kind, found.length) == ("COMBINED_IMAGE_SAMPLER", 0)
 
 
@@ -111,7 +151,8 @@ def test_only_what_the_entry_point_uses_is_told() -> None:
     text = (
         "layout(binding = 0) uniform sampler2D a, b;\nlayout(binding = 1) uniform U { vec4 v; };\n"
         + COLOR
-        + "vec4 unused() { return texture(b, vec2(0)); }\nvec4 used() { return v; }\nvoid main() { color = used(); }"
+        + "vec4 unused() { return texture(b, vec2(0)); }\nvec4 used() { return v; }\nvoid main() { "
+        "color = used(); }"
     )
     for environment in ("vulkan1.0", "vulkan1.1", "vulkan1.2", "vulkan1.3"):
         assert only(text, environment=environment).kind == "UNIFORM_BUFFER", environment
@@ -153,7 +194,13 @@ void main() {
 }
 """
     found = reflected(spirv(COLOR + text)).descriptors
-    assert [(each.reads, each.writes) for each in found] == [(True, True), (False, True), (False, True), (True, True), (True, False)]
+    assert [(each.reads, each.writes) for each in found] == [
+        (True, True),
+        (False, True),
+        (False, True),
+        (True, True),
+        (True, False),
+    ]
 
 
 def test_inputs_outputs_and_how_they_are_interpolated() -> None:
@@ -175,19 +222,28 @@ void main() {
 }
 """
     found = reflected(spirv(text))
-    assert [(each.location, each.component, each.type, each.interpolation) for each in found.inputs] == [
-        (0, 0, "vec3", set()), (1, 0, "ivec2", {"flat"}), (2, 0, "vec2", {"centroid", "noperspective"}), (3, 0, "mat3x3", {"sample"}),
+    assert [(each.location, each.component, each.type,
+    each.interpolation) for each in found.inputs] == [
+        (0, 0, "vec3", set()), (1, 0, "ivec2", {"flat"}), (2, 0, "vec2", {"centroid",
+        "noperspective"}), (3, 0, "mat3x3", {"sample"}),
         (6, 2, "float", set()), (7, 0, "vec4[2]", set()), (9, 0, "struct", {"flat"}),
     ]  # fmt: skip
     assert found.built_ins == {7: 1, 15: 1}
-    assert [(each.location, each.blend_index, each.type) for each in found.outputs] == [(0, 0, "vec4"), (0, 1, "vec4"), (1, 0, "uvec2")]
+    assert [(each.location, each.blend_index, each.type) for each in found.outputs] == [
+        (0, 0, "vec4"),
+        (0, 1, "vec4"),
+        (1, 0, "uvec2"),
+    ]
 
 
 @pytest.mark.parametrize(
-    ("environment", "version"), [("vulkan1.0", (1, 0)), ("vulkan1.1", (1, 3)), ("vulkan1.2", (1, 5)), ("vulkan1.3", (1, 6))]
+    ("environment", "version"),
+    [("vulkan1.0", (1, 0)), ("vulkan1.1", (1, 3)), ("vulkan1.2", (1, 5)), ("vulkan1.3", (1, 6))],
 )
 def test_versions_and_capabilities(environment: str, version: tuple[int, int]) -> None:
-    found = reflected(spirv(COLOR + "void main() { color = vec4(gl_SampleID); }", environment=environment))
+    found = reflected(
+        spirv(COLOR + "void main() { color = vec4(gl_SampleID); }", environment=environment)
+    )
     assert found.version == version and {1, 35} <= found.capabilities
 
 
@@ -204,12 +260,15 @@ void main() { color = node.v; }
 # Hostile modules
 
 
-def hostile(*types: tuple[int, ...], holds: int, decorations: tuple[tuple[int, ...], ...] = ()) -> bytes:
+def hostile(
+    *types: tuple[int, ...], holds: int, decorations: tuple[tuple[int, ...], ...] = ()
+) -> bytes:
     """A module whose entry point loads a uniform block of a type."""
     start = ((15, 4, 1, 0x6E69616D, 0), (71, 50, 34, 0), (71, 50, 33, 0), *decorations)
     common = ((19, 2), (33, 3, 2), (21, 4, 32, 0), (22, 5, 32))
     return assembled(
-        *start, *common, *types, (32, 40, 2, holds), (59, 40, 50, 2), (54, 2, 1, 0, 3), (248, 10), (61, holds, 60, 50), (253,), (56,)
+        *start, *common, *types, (32, 40, 2, holds), (59, 40, 50, 2), (54, 2, 1, 0, 3), (248, 10),
+        (61, holds, 60, 50), (253,), (56,)
     )  # fmt: skip
 
 
@@ -228,11 +287,18 @@ def test_structures_of_structures_are_counted_once() -> None:
         decorations += [(72, number, 0, 35, 0), (72, number, 1, 35, 4 << number - 100)]
         inner = number
     module = Module(hostile(*types, holds=113, decorations=tuple(decorations)))
-    assert interface(module, module.entry("main"), Constants(module, {})).descriptors[0].size == 4 << 14
+    assert (
+        interface(module, module.entry("main"), Constants(module, {})).descriptors[0].size
+        == 4 << 14
+    )
 
 
 def test_an_image_of_no_numbers_is_refused() -> None:
-    code = spirv("layout(binding = 0) uniform sampler2D t;\n" + COLOR + "void main() { color = texture(t, vec2(0)); }")
+    code = spirv(
+        "layout(binding = 0) uniform sampler2D t;\n"
+        + COLOR
+        + "void main() { color = texture(t, vec2(0)); }"
+    )
     words = list(struct.unpack(f"<{len(code) // 4}I", code))
     # Of OpTypeImage the component type, here OpTypeVoid.
     image = next(at for at, word in enumerate(words) if word == 9 << 16 | 25)
@@ -247,7 +313,9 @@ def test_a_structure_in_itself_is_refused() -> None:
 
 
 @examples(2)
-@given(st.lists(st.tuples(st.integers(5, 10**6), st.integers(0, 2**32 - 1)), min_size=1, max_size=6))
+@given(
+    st.lists(st.tuples(st.integers(5, 10**6), st.integers(0, 2**32 - 1)), min_size=1, max_size=6)
+)
 def test_a_damaged_module_is_read_or_refused(damage: list[tuple[int, int]]) -> None:
     words = list(struct.unpack(f"<{len(DAMAGED) // 4}I", DAMAGED))
     for at, value in damage:
@@ -262,6 +330,9 @@ def test_a_damaged_module_is_read_or_refused(damage: list[tuple[int, int]]) -> N
 
 
 DAMAGED = spirv(
-    BLOCKS + COLOR + "layout(location = 0) in mat3 m[2];\nlayout(binding = 2) uniform sampler2DShadow s;\n"
-    "void main() { color = scene.lights[1].position.xyzx + tint + nodes[1].nodes[2].radius + m[1][0].xyzx + texture(s, m[0][1]); }"
+    BLOCKS
+    + COLOR
+    + "layout(location = 0) in mat3 m[2];\nlayout(binding = 2) uniform sampler2DShadow s;\n"
+    "void main() { color = scene.lights[1].position.xyzx + tint + nodes[1].nodes[2].radius + "
+    "m[1][0].xyzx + texture(s, m[0][1]); }"
 )

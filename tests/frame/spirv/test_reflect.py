@@ -1,4 +1,6 @@
-"""What shaders say of multisampling: modules of glslang, as they are and as spirv-opt rewrites them."""
+"""What shaders say of multisampling: modules of glslang, as they are and as spirv-opt rewrites
+them.
+"""
 
 from __future__ import annotations
 
@@ -24,7 +26,9 @@ def code(name: str) -> bytes:
 
 def several(count: int, resolves: str, where: Where = FIRST) -> Multisampled:
     """An image of which a loop fetches samples 0 to `count` - 1."""
-    return Multisampled(where, tuple(range(count)), tuple(range(count)), count, False, True, resolves)
+    return Multisampled(
+        where, tuple(range(count)), tuple(range(count)), count, False, True, resolves
+    )
 
 
 def maybe(count: int, resolves: str) -> Multisampled:
@@ -52,7 +56,9 @@ EXPECTED = {
     "average_input.frag": Said((several(4, "AVERAGE", Where(0, 3, None, 1)),)),
     "average_branches.frag": Said((maybe(4, "AVERAGE"),)),
     "average_two.frag": Said((several(4, "AVERAGE"), several(4, "AVERAGE", Where(0, 1)))),
-    "array_of_images.frag": Said((several(2, "AVERAGE", Where(0, 4, 0)), several(4, "AVERAGE", Where(0, 4, 2)))),
+    "array_of_images.frag": Said(
+        (several(2, "AVERAGE", Where(0, 4, 0)), several(4, "AVERAGE", Where(0, 4, 2)))
+    ),
     "spec_arithmetic.frag": Said((several(2, "AVERAGE"),)),
     "storage.frag": Said((several(2, "AVERAGE"),)),
     "resolve.comp": Said((several(4, "AVERAGE"),), NO_ALPHA),
@@ -68,9 +74,13 @@ EXPECTED = {
     "unknown_bound.frag": Said((Multisampled(FIRST, None, (), None, False, True, "OTHER"),)),
     "first_sample.frag": Said((Multisampled(FIRST, (0,), (0,), 1, False, False, None),)),
     "per_sample.frag": Said(
-        (Multisampled(FIRST, None, (), None, False, False, "OTHER"),), built_ins=frozenset({"SampleId"}), sample_rate_shading=True
+        (Multisampled(FIRST, None, (), None, False, False, "OTHER"),),
+        built_ins=frozenset({"SampleId"}),
+        sample_rate_shading=True,
     ),
-    "sample_position.frag": Said((), Alpha(True, True, 1.0), frozenset({"SamplePosition"}), sample_rate_shading=True),
+    "sample_position.frag": Said(
+        (), Alpha(True, True, 1.0), frozenset({"SamplePosition"}), sample_rate_shading=True
+    ),
     "sample_mask.frag": Said(built_ins=frozenset({"SampleMask"})),
     "sample_inputs.frag": Said(sample_inputs=(1, 3), sample_rate_shading=True),
     "block_member.frag": Said(sample_rate_shading=True),
@@ -88,8 +98,10 @@ EXPECTED = {
 """By shader; the comments in its source say what it is for."""
 
 UNROLLED = (
-    "--inline-entry-points-exhaustive", "--private-to-local", "--eliminate-local-single-block", "--eliminate-local-single-store",
-    "--ssa-rewrite", "--ccp", "--loop-unroll", "--eliminate-dead-branches", "--eliminate-dead-code-aggressive", "--simplify-instructions",
+    "--inline-entry-points-exhaustive", "--private-to-local", "--eliminate-local-single-block",
+    "--eliminate-local-single-store",
+    "--ssa-rewrite", "--ccp", "--loop-unroll", "--eliminate-dead-branches",
+    "--eliminate-dead-code-aggressive", "--simplify-instructions",
     "--scalar-replacement=100",
 )  # fmt: skip
 WAYS = {"as it is": (), "optimised": ("-O",), "for size": ("-Os",), "unrolled": UNROLLED}
@@ -101,16 +113,31 @@ def unlooped(image: Multisampled) -> Multisampled:
 
 def said(found: Reflected) -> Said:
     own = sorted(found.images, key=str)
-    return Said(tuple(own), found.alpha, found.built_ins, found.sample_inputs, found.sample_rate_shading, found.interlock, found.discards)
+    return Said(
+        tuple(own),
+        found.alpha,
+        found.built_ins,
+        found.sample_inputs,
+        found.sample_rate_shading,
+        found.interlock,
+        found.discards,
+    )
 
 
 @pytest.mark.parametrize("folder", [SHADERS, RULES, EXAMPLE], ids=["tests", "rules", "example"])
 def test_the_code_is_that_of_the_source(folder: Path) -> None:
-    assert sorted(path.name for path in folder.glob("*.spv")) == [f"{path.name}.spv" for path in sources(folder)]
+    assert sorted(path.name for path in folder.glob("*.spv")) == [
+        f"{path.name}.spv" for path in sources(folder)
+    ]
     for source in sources(folder):
-        made, there = words_of(compiled(source)), words_of(source.with_name(f"{source.name}.spv").read_bytes())
+        made, there = (
+            words_of(compiled(source)),
+            words_of(source.with_name(f"{source.name}.spv").read_bytes()),
+        )
         # The generator's version is its own.
-        assert [list(each) for _, each in instructions(made)] == [list(each) for _, each in instructions(there)], source.name
+        assert [list(each) for _, each in instructions(made)] == [
+            list(each) for _, each in instructions(there)
+        ], source.name
 
 
 def test_every_shader_is_expected() -> None:
@@ -127,9 +154,14 @@ def test_what_a_shader_says(name: str, way: str) -> None:
     own = said(found)
     # Unrolling leaves no loop.
     assert own == expected._replace(images=tuple(images)) or way == "unrolled"
-    assert own._replace(images=tuple(map(unlooped, own.images))) == expected._replace(images=tuple(map(unlooped, images)))
+    assert own._replace(images=tuple(map(unlooped, own.images))) == expected._replace(
+        images=tuple(map(unlooped, images))
+    )
     assert found.followed
-    assert (found.stage, found.name) == ("COMPUTE" if name.endswith(".comp") else "FRAGMENT", "main")
+    assert (found.stage, found.name) == (
+        "COMPUTE" if name.endswith(".comp") else "FRAGMENT",
+        "main",
+    )
 
 
 def swapped(given: bytes) -> bytes:
@@ -150,7 +182,10 @@ def test_the_order_of_bytes_does_not_matter(name: str) -> None:
     ("name", "operands"),
     [
         ("average.frag", [("LOOP", (0, 1, 2, 3, 4, 5, 6, 7))]),
-        ("average_unrolled.frag", [("CONSTANT", (0,)), ("CONSTANT", (1,)), ("CONSTANT", (2,)), ("CONSTANT", (3,))]),
+        (
+            "average_unrolled.frag",
+            [("CONSTANT", (0,)), ("CONSTANT", (1,)), ("CONSTANT", (2,)), ("CONSTANT", (3,))],
+        ),
         ("used_twice.frag", [("CONSTANT", (0,)), ("LOOP", (1, 2, 3))]),
         ("first_sample.frag", [("CONSTANT", (0,)), ("CONSTANT", (0,))]),
         ("per_sample.frag", [("CURRENT", ())]),
@@ -177,7 +212,9 @@ def test_a_specialisation_constant_counts(count: int) -> None:
 
 @pytest.mark.parametrize("value", [4, 4.0])
 def test_a_whole_number_is_an_integer_however_it_is_written(value: float) -> None:
-    assert reflect(code("average.frag"), specialization={0: value}).images == (several(4, "AVERAGE", Where(1, 2)),)
+    assert reflect(code("average.frag"), specialization={0: value}).images == (
+        several(4, "AVERAGE", Where(1, 2)),
+    )
 
 
 def test_another_constant_does_not_count() -> None:
@@ -200,8 +237,12 @@ def test_a_constant_that_cannot_be_is_unknown(value: float) -> None:
         ({3: 0, 4: False}, Multisampled(FIRST, (0,), (0,), 1, False, False, None)),
     ],
 )
-def test_constants_made_of_constants(constants: dict[int, float | bool], expected: Multisampled) -> None:
-    """A shift makes the count of one, a boolean decides which way is taken, an unsigned one is where the loop begins."""
+def test_constants_made_of_constants(
+    constants: dict[int, float | bool], expected: Multisampled
+) -> None:
+    """A shift makes the count of one, a boolean decides which way is taken, an unsigned one is
+    where the loop begins.
+    """
     assert reflect(code("spec_arithmetic.frag"), specialization=constants).images == (expected,)
 
 
@@ -210,7 +251,13 @@ def test_specialised_is_as_if_written_so(constants: dict[int, float | bool]) -> 
     """spirv-opt writes the values into the module, and folds all that is made of them."""
     values = " ".join(f"{identity}:{value}" for identity, value in constants.items())
     given = code("spec_arithmetic.frag")
-    written = optimised(given, f"--set-spec-const-default-value={values}", "--freeze-spec-const", "--fold-spec-const-op-composite", "-O")
+    written = optimised(
+        given,
+        f"--set-spec-const-default-value={values}",
+        "--freeze-spec-const",
+        "--fold-spec-const-op-composite",
+        "-O",
+    )
     assert said(reflect(written)) == said(reflect(given, specialization=constants))
 
 

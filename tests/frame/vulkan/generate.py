@@ -1,4 +1,5 @@
-"""Writes `enums.py` and `formats_table.py` from the Vulkan registry, as PyPI's `vulkan-object` (a development dependency) carries it.
+"""Writes `enums.py` and `formats_table.py` from the Vulkan registry, as PyPI's `vulkan-object` (a
+development dependency) carries it.
 
     python -m tests.frame.vulkan.generate [--check]
 
@@ -53,8 +54,13 @@ FLAG_BITS = (
     "VkSubpassDescriptionFlagBits",
 )
 
-MERGED = {"VkAccessFlagBits2": "VkAccessFlagBits", "VkPipelineStageFlagBits2": "VkPipelineStageFlagBits"}
-"""Bits of the second synchronization version, and the first version's: equal names have equal values, so one table serves both."""
+MERGED = {
+    "VkAccessFlagBits2": "VkAccessFlagBits",
+    "VkPipelineStageFlagBits2": "VkPipelineStageFlagBits",
+}
+"""Bits of the second synchronization version, and the first version's: equal names have equal
+values, so one table serves both.
+"""
 
 SHORTER = {"VkSubpassDescriptionFlagBits": {"CUSTOM_RESOLVE": "CUSTOM_RESOLVE_EXT"}}
 """Spellings that the description format has beside the registry's."""
@@ -73,7 +79,9 @@ ARM_FLOAT_BLEND = (
 
 
 def prefix_of(enum: str) -> str:
-    """What the full names of an enum begin with: `VK_IMAGE_LAYOUT_` for VkImageLayout, `VK_ACCESS_2_` for VkAccessFlagBits2."""
+    """What the full names of an enum begin with: `VK_IMAGE_LAYOUT_` for VkImageLayout,
+    `VK_ACCESS_2_` for VkAccessFlagBits2.
+    """
     stem = enum.removeprefix("Vk")
     second = stem.endswith("FlagBits2")
     stem = stem.removesuffix("2").removesuffix("FlagBits")
@@ -82,7 +90,9 @@ def prefix_of(enum: str) -> str:
 
 
 def short_name(enum: str, name: str, bits: bool) -> str:
-    """The name without the type's prefix and `_BIT`: `CUSTOM_RESOLVE_EXT` of VK_SUBPASS_DESCRIPTION_CUSTOM_RESOLVE_BIT_EXT."""
+    """The name without the type's prefix and `_BIT`: `CUSTOM_RESOLVE_EXT` of
+    VK_SUBPASS_DESCRIPTION_CUSTOM_RESOLVE_BIT_EXT.
+    """
     prefix = prefix_of(enum)
     if not name.startswith(prefix):
         raise ValueError(f"{name} does not begin with {prefix}")
@@ -91,7 +101,9 @@ def short_name(enum: str, name: str, bits: bool) -> str:
 
 
 class Table:
-    """One enum: canonical names with their values, other names with the canonical one, and the bits' names that have no `_BIT`."""
+    """One enum: canonical names with their values, other names with the canonical one, and the
+    bits' names that have no `_BIT`.
+    """
 
     def __init__(self) -> None:
         self.values: dict[str, int] = {}
@@ -99,10 +111,16 @@ class Table:
         self.bitless: set[str] = set()
 
     def add(self, enum: str, fields: Iterable[Any], bits: bool) -> None:
-        """Adds the registry's fields. Where a value has a name already, every name of this field is another name of that."""
+        """Adds the registry's fields. Where a value has a name already, every name of this field is
+        another name of that.
+        """
         for field in fields:
             short = [short_name(enum, name, bits) for name in (field.name, *field.aliases)]
-            with_bit = {s for s, name in zip(short, (field.name, *field.aliases), strict=True) if "_BIT" in name}
+            with_bit = {
+                s
+                for s, name in zip(short, (field.name, *field.aliases), strict=True)
+                if "_BIT" in name
+            }
             self.bitless.update(name for name in short if bits and name not in with_bit)
             known = {value: name for name, value in self.values.items()}.get(field.value)
             if known is None:
@@ -122,7 +140,8 @@ def tables(registry: Any) -> dict[str, Table]:
         found[enum].add(enum, registry.bitmasks[enum].flags, bits=True)
     for second, first in MERGED.items():
         found[second] = Table()
-        # The first version's names come first: TRANSFER, which both have, and not ALL_TRANSFER, which one has.
+        # The first version's names come first: TRANSFER, which both have, and not ALL_TRANSFER,
+        # which one has.
         for enum in (first, second):
             found[second].add(enum, registry.bitmasks[enum].flags, bits=True)
     for enum, names in SHORTER.items():
@@ -132,7 +151,10 @@ def tables(registry: Any) -> dict[str, Table]:
 
 def literal(name: str, items: Mapping[str, Any]) -> str:
     """A dict display with as many items on a line as go."""
-    shown = [f'"{key}": "{value}"' if isinstance(value, str) else f'"{key}": {value}' for key, value in items.items()]
+    shown = [
+        f'"{key}": "{value}"' if isinstance(value, str) else f'"{key}": {value}'
+        for key, value in items.items()
+    ]
     return f'    "{name}": {{\n' + packed(shown, "        ") + "    },\n"
 
 
@@ -140,7 +162,7 @@ def packed(items: Iterable[str], indent: str) -> str:
     """The items of a display, as many on a line as go."""
     lines = [""]
     for item in items:
-        if len(indent) + len(lines[-1]) + len(item) + 2 > 140:
+        if len(indent) + len(lines[-1]) + len(item) + 2 > 100:
             lines.append("")
         lines[-1] += f" {item}," if lines[-1] else f"{item},"
     return "".join(f"{indent}{line}\n" for line in lines)
@@ -149,7 +171,8 @@ def packed(items: Iterable[str], indent: str) -> str:
 def header(registry: Any, doc: str) -> str:
     """The head of a generated module."""
     return (
-        f'"""{doc}\n\nGenerated from the Vulkan registry, version {registry.headerVersionComplete}, by `{COMMAND}`: do not edit.\n"""\n\n'
+        f'"""{doc}\n\nGenerated from the Vulkan registry, version '
+        f'{registry.headerVersionComplete}, by `{COMMAND}`: do not edit.\n"""\n\n'
     )
 
 
@@ -158,13 +181,26 @@ def enums_source(registry: Any) -> str:
     found = tables(registry)
     prefixes = {enum: prefix_of(MERGED.get(enum, enum)) for enum in found}
     out = [header(registry, "The enumerants that a description can hold."), "# fmt: off\n"]
-    out.append("PREFIXES: dict[str, str] = {\n" + "".join(f'    "{enum}": "{p}",\n' for enum, p in prefixes.items()) + "}\n")
-    out.append('"""What the full names of an enum begin with; those of the second synchronization version have `2_` after it."""\n\n')
-    out.append("VALUES: dict[str, dict[str, int]] = {\n" + "".join(literal(enum, t.values) for enum, t in found.items()) + "}\n")
+    out.append(
+        "PREFIXES: dict[str, str] = {\n"
+        + "".join(f'    "{enum}": "{p}",\n' for enum, p in prefixes.items())
+        + "}\n"
+    )
+    out.append(
+        '"""What the full names of an enum begin with; those of the second synchronization version '
+        'have `2_` after it."""\n\n'
+    )
+    out.append(
+        "VALUES: dict[str, dict[str, int]] = {\n"
+        + "".join(literal(enum, t.values) for enum, t in found.items())
+        + "}\n"
+    )
     out.append('"""The canonical short names, with their values in the registry\'s order."""\n\n')
     out.append(
         "ALIASES: dict[str, dict[str, str]] = {\n"
-        + "".join(literal(enum, dict(sorted(t.aliases.items()))) for enum, t in found.items() if t.aliases)
+        + "".join(
+            literal(enum, dict(sorted(t.aliases.items()))) for enum, t in found.items() if t.aliases
+        )
         + "}\n"
     )
     out.append('"""Other short names of the same values, with the canonical one."""\n\n')
@@ -175,20 +211,31 @@ def enums_source(registry: Any) -> str:
         out.append(f'    "{enum}": frozenset(({shown},)),\n')
     out.append('}\n"""Names of flag bits that have no `_BIT`: of no bit, or of several."""\n\n')
     out.append("ENUMS: dict[str, dict[str, str]] = {\n")
-    out.append("    enum: {**dict(zip(values, values, strict=True)), **ALIASES.get(enum, {})} for enum, values in VALUES.items()\n}\n")
+    out.append(
+        "    enum: {**dict(zip(values, values, strict=True)), **ALIASES.get(enum, {})} for enum, "
+        "values in VALUES.items()\n}\n"
+    )
     out.append('"""Every short spelling of an enum, with the canonical one."""\n')
     return "".join(out)
 
 
 def row(form: Any) -> str:
-    """A format in one string: bytes, block extent, numeric type, components with their bits, scheme of compression or chroma."""
+    """A format in one string: bytes, block extent, numeric type, components with their bits, scheme
+    of compression or chroma.
+    """
     size, extent = form.blockSize, [int(n) for n in form.blockExtent] or [1, 1, 1]
     if form.planes:
-        # The registry counts one texel of each plane; a block here is the texels that share a chroma sample.
-        extent = [max(p.widthDivisor for p in form.planes), max(p.heightDivisor for p in form.planes), 1]
+        # The registry counts one texel of each plane; a block here is the texels that share a
+        # chroma sample.
+        extent = [
+            max(p.widthDivisor for p in form.planes),
+            max(p.heightDivisor for p in form.planes),
+            1,
+        ]
         plane_bytes = [_plane_bytes(form, plane.index) for plane in form.planes]
         size = sum(
-            b * (extent[0] // p.widthDivisor) * (extent[1] // p.heightDivisor) for b, p in zip(plane_bytes, form.planes, strict=True)
+            b * (extent[0] // p.widthDivisor) * (extent[1] // p.heightDivisor)
+            for b, p in zip(plane_bytes, form.planes, strict=True)
         )
     parts = []
     depth_stencil = any(c.type in "DS" for c in form.components)
@@ -203,7 +250,10 @@ def row(form: Any) -> str:
     if kinds and not depth_stencil:
         raise ValueError(f"{form.name} has several numeric types")
     scheme = form.compressed or (f"YCBCR{form.chroma}" if form.chroma else "-")
-    return f"{size} {'x'.join(map(str, extent))} {numeric} {','.join(parts)} {scheme.replace(' ', '_')}"
+    return (
+        f"{size} {'x'.join(map(str, extent))} {numeric} {','.join(parts)} "
+        f"{scheme.replace(' ', '_')}"
+    )
 
 
 def _plane_bytes(form: Any, plane: int) -> int:
@@ -218,11 +268,21 @@ def formats_source(registry: Any) -> str:
     order = tables(registry)["VkFormat"].values
     rows = {name: rows[name] for name in order if name in rows}
     out = [header(registry, "What the formats hold, a line each."), "# fmt: off\n"]
-    out.append("ROWS: dict[str, str] = {\n" + "".join(f'    "{name}": "{text}",\n' for name, text in rows.items()) + "}\n")
-    out.append('"""Bytes of a block, its extent, numeric type, components with their bits, compression or chroma subsampling."""\n\n')
+    out.append(
+        "ROWS: dict[str, str] = {\n"
+        + "".join(f'    "{name}": "{text}",\n' for name, text in rows.items())
+        + "}\n"
+    )
+    out.append(
+        '"""Bytes of a block, its extent, numeric type, components with their bits, compression or '
+        'chroma subsampling."""\n\n'
+    )
     blends = packed((f'"{name}"' for name in ARM_FLOAT_BLEND), "    ")
     out.append(f"ARM_FLOAT_BLEND: frozenset[str] = frozenset((\n{blends}))\n")
-    out.append('"""Float formats that Mali GPUs do not blend at full rate when multisampled (Khronos best-practices layer, Arm)."""\n')
+    out.append(
+        '"""Float formats that Mali GPUs do not blend at full rate when multisampled (Khronos '
+        'best-practices layer, Arm)."""\n'
+    )
     return "".join(out)
 
 
@@ -241,11 +301,16 @@ def stale(sources: Mapping[str, str]) -> list[str]:
 
 
 def sources() -> dict[str, str]:
-    """The texts of both modules by their paths. ImportError where vulkan-object is not installed."""
+    """The texts of both modules by their paths. ImportError where vulkan-object is not
+    installed.
+    """
     from vulkan_object import get_vulkan_object
 
     registry = get_vulkan_object()
-    makers: dict[str, Callable[[Any], str]] = {"enums.py": enums_source, "formats_table.py": formats_source}
+    makers: dict[str, Callable[[Any], str]] = {
+        "enums.py": enums_source,
+        "formats_table.py": formats_source,
+    }
     return {os.path.join(HERE, name): make(registry) for name, make in makers.items()}
 
 

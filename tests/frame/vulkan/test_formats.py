@@ -25,12 +25,29 @@ from msaa_lint.frame.vulkan.formats_table import ARM_FLOAT_BLEND, ROWS
         ("R64G64B64A64_SFLOAT", 32, "SFLOAT", (("R", 64), ("G", 64), ("B", 64), ("A", 64))),
     ],
 )
-def test_colour(name: str, size: int, numeric: str, components: tuple[tuple[str, int], ...]) -> None:
+def test_colour(
+    name: str, size: int, numeric: str, components: tuple[tuple[str, int], ...]
+) -> None:
     found = format_of(name)
     assert found is not None
-    assert (found.name, found.bytes, found.numeric, found.components) == (name, size, numeric, components)
-    assert (found.aspects, found.block, found.compressed, found.ycbcr) == (("color",), (1, 1, 1), False, False)
-    assert (found.depth_bits, found.depth_type, found.stencil_bits, found.stencil_type) == (0, "", 0, "")
+    assert (found.name, found.bytes, found.numeric, found.components) == (
+        name,
+        size,
+        numeric,
+        components,
+    )
+    assert (found.aspects, found.block, found.compressed, found.ycbcr) == (
+        ("color",),
+        (1, 1, 1),
+        False,
+        False,
+    )
+    assert (found.depth_bits, found.depth_type, found.stencil_bits, found.stencil_type) == (
+        0,
+        "",
+        0,
+        "",
+    )
     assert (found.depth_bytes, found.stencil_bytes) == (0, 0)
 
 
@@ -46,12 +63,20 @@ def test_colour(name: str, size: int, numeric: str, components: tuple[tuple[str,
         ("D32_SFLOAT_S8_UINT", 5, (32, "SFLOAT"), (8, "UINT"), 4),
     ],
 )
-def test_depth_and_stencil(name: str, size: int, depth: tuple[int, str], stencil: tuple[int, str], depth_bytes: int) -> None:
+def test_depth_and_stencil(
+    name: str, size: int, depth: tuple[int, str], stencil: tuple[int, str], depth_bytes: int
+) -> None:
     found = format_of(name)
     assert found is not None
-    assert (found.bytes, (found.depth_bits, found.depth_type), (found.stencil_bits, found.stencil_type)) == (size, depth, stencil)
+    assert (
+        found.bytes,
+        (found.depth_bits, found.depth_type),
+        (found.stencil_bits, found.stencil_type),
+    ) == (size, depth, stencil)
     assert (found.depth_bytes, found.stencil_bytes) == (depth_bytes, stencil[0] // 8)
-    assert found.aspects == tuple(aspect for aspect, bits in (("depth", depth[0]), ("stencil", stencil[0])) if bits)
+    assert found.aspects == tuple(
+        aspect for aspect, bits in (("depth", depth[0]), ("stencil", stencil[0])) if bits
+    )
     assert (found.numeric, found.components) == ("", ())
 
 
@@ -69,10 +94,17 @@ def test_depth_and_stencil(name: str, size: int, depth: tuple[int, str], stencil
         ("G10X6_B10X6R10X6_2PLANE_420_UNORM_3PACK16", 12, (2, 2, 1), False, True),
     ],
 )
-def test_blocks(name: str, size: int, block: tuple[int, int, int], compressed: bool, ycbcr: bool) -> None:
+def test_blocks(
+    name: str, size: int, block: tuple[int, int, int], compressed: bool, ycbcr: bool
+) -> None:
     found = format_of(name)
     assert found is not None
-    assert (found.bytes, found.block, found.compressed, found.ycbcr) == (size, block, compressed, ycbcr)
+    assert (found.bytes, found.block, found.compressed, found.ycbcr) == (
+        size,
+        block,
+        compressed,
+        ycbcr,
+    )
 
 
 def test_every_format_but_undefined_is_known() -> None:
@@ -109,7 +141,9 @@ def test_kinds() -> None:
 
 
 def test_formats_that_mali_does_not_blend_at_full_rate() -> None:
-    blended = {name for name in ROWS if (found := format_of(name)) is not None and found.arm_float_blend}
+    blended = {
+        name for name in ROWS if (found := format_of(name)) is not None and found.arm_float_blend
+    }
     assert blended == ARM_FLOAT_BLEND
     assert len(blended) == 9
     assert "R16G16B16A16_SFLOAT" in blended

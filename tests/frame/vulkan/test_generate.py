@@ -14,16 +14,23 @@ from tests.paths import ROOT
 
 
 def test_tables_are_fresh() -> None:
-    pytest.importorskip("vulkan_object", reason="vulkan-object, which carries the Vulkan registry, is not installed")
+    pytest.importorskip(
+        "vulkan_object", reason="vulkan-object, which carries the Vulkan registry, is not installed"
+    )
     assert generate.stale(generate.sources()) == []
 
 
 def test_stale_and_missing_files_are_told(tmp_path: object) -> None:
-    same, other, missing = (os.path.join(str(tmp_path), name) for name in ("same.py", "other.py", "missing.py"))
+    same, other, missing = (
+        os.path.join(str(tmp_path), name) for name in ("same.py", "other.py", "missing.py")
+    )
     for path, text in ((same, "a = 1\n"), (other, "a = 2\n")):
         with open(path, "w", encoding="utf-8") as file:
             file.write(text)
-    assert generate.stale({same: "a = 1\n", other: "a = 1\n", missing: "a = 1\n"}) == [other, missing]
+    assert generate.stale({same: "a = 1\n", other: "a = 1\n", missing: "a = 1\n"}) == [
+        other,
+        missing,
+    ]
 
 
 def test_check_writes_nothing_and_says_what_is_stale(
@@ -50,7 +57,12 @@ def test_headers_say_where_the_tables_are_from(module: object) -> None:
     ("enum", "name", "bits", "short"),
     [
         ("VkImageLayout", "VK_IMAGE_LAYOUT_PRESENT_SRC_KHR", False, "PRESENT_SRC_KHR"),
-        ("VkSubpassDescriptionFlagBits", "VK_SUBPASS_DESCRIPTION_CUSTOM_RESOLVE_BIT_EXT", True, "CUSTOM_RESOLVE_EXT"),
+        (
+            "VkSubpassDescriptionFlagBits",
+            "VK_SUBPASS_DESCRIPTION_CUSTOM_RESOLVE_BIT_EXT",
+            True,
+            "CUSTOM_RESOLVE_EXT",
+        ),
         ("VkPipelineStageFlagBits2", "VK_PIPELINE_STAGE_2_COPY_BIT", True, "COPY"),
     ],
 )
@@ -61,14 +73,26 @@ def test_short_names(enum: str, name: str, bits: bool, short: str) -> None:
 
 
 def test_the_lint_path_imports_nothing_heavy() -> None:
-    heavy = {"difflib", "dataclasses", "inspect", "pathlib", "logging", "json", "vulkan_object", "msaa_lint.frame.devices.builtin_profiles"}
+    heavy = {
+        "difflib",
+        "dataclasses",
+        "inspect",
+        "pathlib",
+        "logging",
+        "json",
+        "vulkan_object",
+        "msaa_lint.frame.devices.builtin_profiles",
+    }
     code = (
         "import sys; before = set(sys.modules)\n"
-        "import msaa_lint.frame.vulkan.names, msaa_lint.frame.vulkan.formats, msaa_lint.frame.devices, msaa_lint.frame.devices.shares\n"
+        "import msaa_lint.frame.vulkan.names, msaa_lint.frame.vulkan.formats, "
+        "msaa_lint.frame.devices, msaa_lint.frame.devices.shares\n"
         "print(*sorted(set(sys.modules) - before))"
     )
     root = ROOT
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, cwd=root)
+    done = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, check=True, cwd=root
+    )
     loaded = set(done.stdout.split())
     assert "msaa_lint.frame.vulkan.names" in loaded
     assert heavy & loaded == set()

@@ -7,11 +7,20 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from msaa_lint.frame.vulkan.enums import ALIASES, BITLESS, ENUMS, PREFIXES, VALUES
-from msaa_lint.frame.vulkan.names import VENDORS, flag_names, from_value, nearest_name, parse_enum, parse_flags
+from msaa_lint.frame.vulkan.names import (
+    VENDORS,
+    flag_names,
+    from_value,
+    nearest_name,
+    parse_enum,
+    parse_flags,
+)
 from tests.strength import examples
 
 FLAGS = sorted(enum for enum in VALUES if "FlagBits" in enum)
-SPELLINGS = [(enum, short, canonical) for enum, names in ENUMS.items() for short, canonical in names.items()]
+SPELLINGS = [
+    (enum, short, canonical) for enum, names in ENUMS.items() for short, canonical in names.items()
+]
 
 
 def with_bit(name: str) -> str:
@@ -67,10 +76,22 @@ def test_case_is_vulkans_and_nearest_forgives_it(enum: str) -> None:
         ("VkImageType", "2D", "2D"),
         ("VkFormat", "VK_FORMAT_D32_SFLOAT", "D32_SFLOAT"),
         ("VkResolveModeFlagBits", "VK_RESOLVE_MODE_SAMPLE_ZERO_BIT_KHR", "SAMPLE_ZERO"),
-        ("VkResolveModeFlagBits", "VK_RESOLVE_MODE_EXTERNAL_FORMAT_DOWNSAMPLE_ANDROID", "EXTERNAL_FORMAT_DOWNSAMPLE_ANDROID"),
-        ("VkResolveModeFlagBits", "VK_RESOLVE_MODE_EXTERNAL_FORMAT_DOWNSAMPLE_BIT_ANDROID", "EXTERNAL_FORMAT_DOWNSAMPLE_ANDROID"),
+        (
+            "VkResolveModeFlagBits",
+            "VK_RESOLVE_MODE_EXTERNAL_FORMAT_DOWNSAMPLE_ANDROID",
+            "EXTERNAL_FORMAT_DOWNSAMPLE_ANDROID",
+        ),
+        (
+            "VkResolveModeFlagBits",
+            "VK_RESOLVE_MODE_EXTERNAL_FORMAT_DOWNSAMPLE_BIT_ANDROID",
+            "EXTERNAL_FORMAT_DOWNSAMPLE_ANDROID",
+        ),
         ("VkSubpassDescriptionFlagBits", "CUSTOM_RESOLVE", "CUSTOM_RESOLVE_EXT"),
-        ("VkSubpassDescriptionFlagBits", "VK_SUBPASS_DESCRIPTION_SHADER_RESOLVE_BIT_QCOM", "CUSTOM_RESOLVE_EXT"),
+        (
+            "VkSubpassDescriptionFlagBits",
+            "VK_SUBPASS_DESCRIPTION_SHADER_RESOLVE_BIT_QCOM",
+            "CUSTOM_RESOLVE_EXT",
+        ),
         ("VkPipelineStageFlagBits2", "VK_PIPELINE_STAGE_TRANSFER_BIT", "TRANSFER"),
         ("VkPipelineStageFlagBits2", "VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT", "TRANSFER"),
         ("VkPipelineStageFlagBits2", "VK_PIPELINE_STAGE_2_RESOLVE_BIT", "RESOLVE"),
@@ -118,7 +139,15 @@ def test_values_are_the_registrys() -> None:
     assert VALUES["VkPipelineStageFlagBits2"]["COLOR_ATTACHMENT_OUTPUT"] == 0x400
     assert VALUES["VkPipelineStageFlagBits2"]["RESOLVE"] == 1 << 33
     assert VALUES["VkAccessFlagBits2"]["SHADER_SAMPLED_READ"] == 1 << 32
-    assert VALUES["VkSampleCountFlagBits"] == {"1": 1, "2": 2, "4": 4, "8": 8, "16": 16, "32": 32, "64": 64}
+    assert VALUES["VkSampleCountFlagBits"] == {
+        "1": 1,
+        "2": 2,
+        "4": 4,
+        "8": 8,
+        "16": 16,
+        "32": 32,
+        "64": 64,
+    }
     assert from_value("VkImageLayout", 2) == "COLOR_ATTACHMENT_OPTIMAL"
     assert from_value("VkImageLayout", 3_000_000_000) is None
 
@@ -127,7 +156,9 @@ def test_values_are_the_registrys() -> None:
 @given(st.data())
 def test_masks_and_names_go_both_ways(data: st.DataObject) -> None:
     enum = data.draw(st.sampled_from(FLAGS))
-    bits = {name: value for name, value in VALUES[enum].items() if value and value & (value - 1) == 0}
+    bits = {
+        name: value for name, value in VALUES[enum].items() if value and value & (value - 1) == 0
+    }
     chosen = data.draw(st.lists(st.sampled_from(sorted(bits)), unique=True))
     mask = sum(bits[name] for name in chosen)
     names = flag_names(enum, mask)
@@ -138,13 +169,20 @@ def test_masks_and_names_go_both_ways(data: st.DataObject) -> None:
         assert names == sorted(chosen, key=bits.__getitem__)
     if chosen:
         assert parse_flags(enum, " | ".join(chosen)) == chosen
-        assert parse_flags(enum, f"{mask} ({'|'.join(PREFIXES[enum] + name for name in chosen)})") == names
+        assert (
+            parse_flags(enum, f"{mask} ({'|'.join(PREFIXES[enum] + name for name in chosen)})")
+            == names
+        )
 
 
 @pytest.mark.parametrize(
     ("enum", "text", "names"),
     [
-        ("VkImageUsageFlagBits", "COLOR_ATTACHMENT|TRANSIENT_ATTACHMENT", ["COLOR_ATTACHMENT", "TRANSIENT_ATTACHMENT"]),
+        (
+            "VkImageUsageFlagBits",
+            "COLOR_ATTACHMENT|TRANSIENT_ATTACHMENT",
+            ["COLOR_ATTACHMENT", "TRANSIENT_ATTACHMENT"],
+        ),
         ("VkImageUsageFlagBits", "0", []),
         ("VkImageUsageFlagBits", "0x11", ["TRANSFER_SRC", "COLOR_ATTACHMENT"]),
         (
@@ -225,7 +263,9 @@ def test_nearest_enumerant(enum: str, word: str, meant: str | None) -> None:
 
 @examples(1)
 @given(st.sampled_from(SPELLINGS), st.integers(min_value=0), st.characters())
-def test_nearest_is_one_of_the_words_whatever_the_slip(spelling: tuple[str, str, str], place: int, letter: str) -> None:
+def test_nearest_is_one_of_the_words_whatever_the_slip(
+    spelling: tuple[str, str, str], place: int, letter: str
+) -> None:
     enum, short, _ = spelling
     at = place % (len(short) + 1)
     found = nearest_name(short[:at] + letter + short[at + 1 :], VALUES[enum])

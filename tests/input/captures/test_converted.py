@@ -31,7 +31,12 @@ def several() -> Program:
     return program
 
 
-PROGRAMS = {"forward": forward(5), "right": forward(5, store="DONT_CARE"), "history": history(True), "several": several()}
+PROGRAMS = {
+    "forward": forward(5),
+    "right": forward(5, store="DONT_CARE"),
+    "history": history(True),
+    "several": several(),
+}
 
 
 def said(findings: list[Finding]) -> set[tuple[str, str, str, str]]:
@@ -88,18 +93,42 @@ def test_standard_input_is_told_by_its_content(tmp_path: Path) -> None:
     assert made.returncode == 1
     assert {(each["file"], each["code"]) for each in found} >= {("game.jsonl", "MSAA201")}
     stored = next(each for each in found if each["code"] == "MSAA201")
-    assert stored["seen"] == {"by": "vkCreateRenderPass", "call": stored["seen"]["call"], "frames": 5, "of": 5}
-    assert PROGRAMS["forward"].lines()[stored["line"] - 1].startswith(f'{{"index": {stored["seen"]["call"]}, ')
+    assert stored["seen"] == {
+        "by": "vkCreateRenderPass",
+        "call": stored["seen"]["call"],
+        "frames": 5,
+        "of": 5,
+    }
+    assert (
+        PROGRAMS["forward"]
+        .lines()[stored["line"] - 1]
+        .startswith(f'{{"index": {stored["seen"]["call"]}, ')
+    )
     assert stored["fixable"] is False
 
 
 def test_a_person_sees_the_call_and_the_structure(tmp_path: Path) -> None:
     program = PROGRAMS["forward"]
     (tmp_path / "game.jsonl").write_bytes(program.text())
-    made = run(tmp_path, "check", "--isolated", "--fix", "--output", "full", "--select", "MSAA201", "game.jsonl")
-    index = next(number for number, (name, _) in enumerate(program.calls, 1) if name == "vkCreateRenderPass")
+    made = run(
+        tmp_path,
+        "check",
+        "--isolated",
+        "--fix",
+        "--output",
+        "full",
+        "--select",
+        "MSAA201",
+        "game.jsonl",
+    )
+    index = next(
+        number for number, (name, _) in enumerate(program.calls, 1) if name == "vkCreateRenderPass"
+    )
     lines = made.stdout.splitlines()
-    message = "`color 256x128 RGBA8 4x #5 (attachment 0)` stores 4x samples that nothing reads; set storeOp to DONT_CARE"
+    message = (
+        "`color 256x128 RGBA8 4x #5 (attachment 0)` stores 4x samples that nothing reads; "
+        "set storeOp to DONT_CARE"
+    )
     assert lines[0] == f"warning[multisampled-attachment-stored]: {message}"
     assert lines[1].strip() == f"--> game.jsonl:{index + 1}:1"
     assert "        storeOp: STORE" in made.stdout
@@ -115,12 +144,15 @@ def test_a_person_sees_the_call_and_the_structure(tmp_path: Path) -> None:
         (b"GFXR\0\0\0\0" + bytes(64), "gfxrecon-convert --format jsonl"),
         (b"RDOC" + bytes(64), "renderdoccmd convert"),
         (
-            b"Thread 0, Frame 0:\nvkCreateInstance(pCreateInfo, pAllocator, pInstance) returns VkResult VK_SUCCESS (0):\n",
+            b"Thread 0, Frame 0:\nvkCreateInstance(pCreateInfo, pAllocator, pInstance) returns "
+            b"VkResult VK_SUCCESS (0):\n",
             "VK_APIDUMP_OUTPUT_FORMAT",
         ),
     ],
 )
-def test_what_a_tool_wrote_for_itself_is_told_with_what_to_run_if_no_converter_is_installed(head: bytes, said: str, tmp_path: Path) -> None:
+def test_what_a_tool_wrote_for_itself_is_told_with_what_to_run_if_no_converter_is_installed(
+    head: bytes, said: str, tmp_path: Path
+) -> None:
     (tmp_path / "capture").write_bytes(head)
     made = run(tmp_path, "check", "--isolated", "--output", "json", "capture", PATH=str(tmp_path))
     (found,) = json.loads(made.stdout)["findings"]
@@ -139,13 +171,30 @@ def test_a_folder_s_captures_are_found(tmp_path: Path) -> None:
 
 def test_a_profile_stands_in_for_the_device_that_was_captured_on(tmp_path: Path) -> None:
     program = Program()
-    limits = {"framebufferColorSampleCounts": 5, "framebufferDepthSampleCounts": 5, "framebufferStencilSampleCounts": 5}
-    properties = {"vendorID": 0x10DE, "deviceName": "a desktop's", "apiVersion": 4206592, "limits": limits}
+    limits = {
+        "framebufferColorSampleCounts": 5,
+        "framebufferDepthSampleCounts": 5,
+        "framebufferStencilSampleCounts": 5,
+    }
+    properties = {
+        "vendorID": 0x10DE,
+        "deviceName": "a desktop's",
+        "apiVersion": 4206592,
+        "limits": limits,
+    }
     program.call("vkGetPhysicalDeviceProperties", physicalDevice=1, pProperties=properties)
     types = {"memoryTypeCount": 1, "memoryTypes": [{"propertyFlags": 1, "heapIndex": 0}]}
     program.call("vkGetPhysicalDeviceMemoryProperties", physicalDevice=1, pMemoryProperties=types)
     buffer = program.buffer()
-    program.rendering(buffer, [info(program.view(program.image(usage=COLOR)), resolve=program.view(program.image(samples=1)))])
+    program.rendering(
+        buffer,
+        [
+            info(
+                program.view(program.image(usage=COLOR)),
+                resolve=program.view(program.image(samples=1)),
+            )
+        ],
+    )
     program.end(buffer, rendering=True)
     program.submit(buffer)
     severities = {}
@@ -162,10 +211,19 @@ def capture_with_shader() -> bytes:
     """A Fossilize archive with a pipeline whose shader is `SHADER`."""
     program = Program()
     render_pass = program.render_pass([attachment()])
-    shader = {"sType": "VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO", "codeSize": len(SHADER), "pCode": SHADER}
+    shader = {
+        "sType": "VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO",
+        "codeSize": len(SHADER),
+        "pCode": SHADER,
+    }
     program.call("vkCreateShaderModule", device=2, pCreateInfo=shader, pShaderModule=900)
     program.pipeline(render_pass)
-    stage = {"stage": "VK_SHADER_STAGE_FRAGMENT_BIT", "module": 900, "pName": "main", "pSpecializationInfo": None}
+    stage = {
+        "stage": "VK_SHADER_STAGE_FRAGMENT_BIT",
+        "module": 900,
+        "pName": "main",
+        "pSpecializationInfo": None,
+    }
     program.calls[-1][1]["pCreateInfos"][0]["pStages"] = [stage]
     return dialects_binary.fossilize(program.calls)
 

@@ -10,7 +10,17 @@ import pytest
 
 from msaa_lint.input.capture_input import read_capture
 from tests.command import run
-from tests.input.captures.program import COLOR, D32, DEPTH, SOURCE, Program, attachment, codes, info, lint
+from tests.input.captures.program import (
+    COLOR,
+    D32,
+    DEPTH,
+    SOURCE,
+    Program,
+    attachment,
+    codes,
+    info,
+    lint,
+)
 from tests.input.captures.test_frames import read
 from tests.input.captures.test_tracking import tree
 from tests.input.readers.dialects_binary import renderdoc
@@ -19,16 +29,24 @@ Area = tuple[int, int, int, int]
 
 
 class Offscreen(Program):
-    """A program that presents nothing. Each submission begins one pass, in a framebuffer made for it."""
+    """A program that presents nothing. Each submission begins one pass, in a framebuffer made for
+    it.
+    """
 
     def __init__(self) -> None:
         super().__init__()
         self.clears = self.render_pass([attachment(store="STORE")])
         self.loads = self.render_pass([attachment(load="LOAD", store="STORE")])
-        self.resolves = self.render_pass([attachment(), attachment(samples=1, load="DONT_CARE", store="STORE")], resolve=(1,))
+        self.resolves = self.render_pass(
+            [attachment(), attachment(samples=1, load="DONT_CARE", store="STORE")], resolve=(1,)
+        )
 
     def submission(
-        self, views: Sequence[int], render_pass: int = 0, pipeline: int = 0, area: tuple[int, int, int, int] | None = None
+        self,
+        views: Sequence[int],
+        render_pass: int = 0,
+        pipeline: int = 0,
+        area: tuple[int, int, int, int] | None = None,
     ) -> None:
         """A pass that draws to views; `area` in pixels."""
         passes = render_pass or self.clears
@@ -47,11 +65,16 @@ class Offscreen(Program):
     def part(self, image: int, level: int = 0, layer: int = 0) -> int:
         """A view of a mip level and layer."""
         view = self.view(image)
-        self.calls[-1][1]["pCreateInfo"]["subresourceRange"] |= {"baseMipLevel": level, "baseArrayLayer": layer}
+        self.calls[-1][1]["pCreateInfo"]["subresourceRange"] |= {
+            "baseMipLevel": level,
+            "baseArrayLayer": layer,
+        }
         return view
 
     def wait(self) -> None:
-        self.call("vkWaitForFences", device=2, fenceCount=1, pFences=[9], waitAll=1, timeout=2**64 - 1)
+        self.call(
+            "vkWaitForFences", device=2, fenceCount=1, pFences=[9], waitAll=1, timeout=2**64 - 1
+        )
 
 
 def same_images(program: Offscreen, frames: int) -> None:
@@ -131,9 +154,17 @@ def cascades(program: Offscreen, frames: int) -> None:
 def ping_pong(program: Offscreen, frames: int) -> None:
     views = [program.view(program.image(samples=1)) for _ in range(2)]
     main = program.view(program.image())
-    pipelines = [program.pipeline(program.clears, dynamic=[f"VK_DYNAMIC_STATE_{name}"]) for name in ("VIEWPORT", "SCISSOR", "LINE_WIDTH")]
+    pipelines = [
+        program.pipeline(program.clears, dynamic=[f"VK_DYNAMIC_STATE_{name}"])
+        for name in ("VIEWPORT", "SCISSOR", "LINE_WIDTH")
+    ]
     for _ in range(frames):
-        for view, pipeline in ((main, 0), (views[0], pipelines[0]), (views[1], pipelines[1]), (views[0], pipelines[2])):
+        for view, pipeline in (
+            (main, 0),
+            (views[0], pipelines[0]),
+            (views[1], pipelines[1]),
+            (views[0], pipelines[2]),
+        ):
             program.submission([view], pipeline=pipeline)
 
 
@@ -168,7 +199,10 @@ def compute_between(program: Offscreen, frames: int) -> None:
     image = program.image(usage=COLOR | SOURCE)
     view = program.view(image)
     for _ in range(frames):
-        for name, args in (("vkCmdDispatch", {}), ("vkCmdCopyImageToBuffer", {"srcImage": image, "dstBuffer": 7, "pRegions": []})):
+        for name, args in (
+            ("vkCmdDispatch", {}),
+            ("vkCmdCopyImageToBuffer", {"srcImage": image, "dstBuffer": 7, "pRegions": []}),
+        ):
             if name == "vkCmdCopyImageToBuffer":
                 program.submission([view])
             buffer = program.buffer()
@@ -214,7 +248,8 @@ def two_buffers(program: Offscreen, frames: int) -> None:
 @pytest.mark.parametrize(
     "draw",
     [
-        same_images, new_images, images_kept, resolved_to_a_ring, ring_after_waits, shadow_main_post, faces, faces_of_rendering, mip_chain,
+        same_images, new_images, images_kept, resolved_to_a_ring, ring_after_waits,
+        shadow_main_post, faces, faces_of_rendering, mip_chain,
         cascades, ping_pong, overlays, accumulation, atlas, dirty_areas, compute_between,
         other_first_frame, more_passes_each_time, two_buffers,
     ],
@@ -235,10 +270,15 @@ def test_frames_of_a_submission_each_are_counted_and_priced_as_such() -> None:
     for _ in range(5):
         presented.submission([view])
         presented.present()
-    found, expected = ([each for each in lint(made.text()) if each.code == "MSAA201"] for made in (program, presented))
+    found, expected = (
+        [each for each in lint(made.text()) if each.code == "MSAA201"]
+        for made in (program, presented)
+    )
     assert [each.capture_location and each.capture_location[2:] for each in found] == [(5, 5)]
     assert [each.price for each in found] == [each.price for each in expected]
-    assert read(program).source.text.count("vkCreateFramebuffer") == 1, "a framebuffer made anew is described again"
+    assert read(program).source.text.count("vkCreateFramebuffer") == 1, (
+        "a framebuffer made anew is described again"
+    )
 
 
 def test_many_submissions_on_top_of_another_are_frames_in_the_end() -> None:
@@ -255,14 +295,18 @@ def test_many_submissions_on_top_of_another_are_frames_in_the_end() -> None:
 
 def frames(program: Program, end: str) -> int:
     """The number of frames if they end as the user says."""
-    return read_capture(BytesIO(program.text()), "gfxreconstruct", "p.jsonl", None, frame_end=end).frames
+    return read_capture(
+        BytesIO(program.text()), "gfxreconstruct", "p.jsonl", None, frame_end=end
+    ).frames
 
 
 def labeled(program: Offscreen, buffer: int, call: str, text: str = "") -> None:
     """A debug label, in a command buffer or (0) in the queue."""
     place = {"commandBuffer": buffer} if buffer else {"queue": 5}
     program.call(
-        f"vk{'Cmd' if buffer else 'Queue'}{call}DebugUtilsLabelEXT", **place, **({"pLabelInfo": {"pLabelName": text}} if text else {})
+        f"vk{'Cmd' if buffer else 'Queue'}{call}DebugUtilsLabelEXT",
+        **place,
+        **({"pLabelInfo": {"pLabelName": text}} if text else {}),
     )
 
 
@@ -295,7 +339,9 @@ def in_the_queue(program: Offscreen, view: int) -> None:
 
 
 def inserted(program: Offscreen, view: int) -> None:
-    """The label is inserted in a pass, which is not divided, and before the first frame, where nothing ends."""
+    """The label is inserted in a pass, which is not divided, and before the first frame, where
+    nothing ends.
+    """
     labeled(program, 0, "Insert", "Frame")
     for _ in range(3):
         buffer = program.buffer()
@@ -325,7 +371,11 @@ def never_ended(program: Offscreen, view: int) -> None:
         program.submit(buffer)
 
 
-@pytest.mark.parametrize("draw", [in_one_buffer, in_the_queue, inserted, across_buffers, never_ended], ids=lambda draw: draw.__name__)
+@pytest.mark.parametrize(
+    "draw",
+    [in_one_buffer, in_the_queue, inserted, across_buffers, never_ended],
+    ids=lambda draw: draw.__name__,
+)
 @pytest.mark.parametrize("presents", [False, True])
 def test_a_label_ends_frames(draw: Callable[[Offscreen, int], None], presents: bool) -> None:
     program = Offscreen()
@@ -363,7 +413,9 @@ def test_a_submission_after_the_last_present_is_no_frame_but_reads() -> None:
         program.present()
     assert codes(lint(program.text())).count("MSAA201") == 1
     buffer = program.buffer()
-    program.call("vkCmdCopyImageToBuffer", commandBuffer=buffer, srcImage=image, dstBuffer=7, pRegions=[])
+    program.call(
+        "vkCmdCopyImageToBuffer", commandBuffer=buffer, srcImage=image, dstBuffer=7, pRegions=[]
+    )
     a_pass(program, buffer, view)
     program.submit(buffer)
     assert read(program).frames == 3
@@ -373,27 +425,40 @@ def test_a_submission_after_the_last_present_is_no_frame_but_reads() -> None:
 def test_without_a_present_the_capture_is_one_frame_if_only_presents_end_frames() -> None:
     program = Offscreen()
     same_images(program, 3)
-    made = read_capture(BytesIO(program.text()), "gfxreconstruct", "p.jsonl", None, frame_end="present")
+    made = read_capture(
+        BytesIO(program.text()), "gfxreconstruct", "p.jsonl", None, frame_end="present"
+    )
     assert (made.frames, made.notes) == (
-        1, ("p.jsonl: the capture presents nothing, so that it is one frame: `--frame-end submit` ends frames at submissions",)
+        1, ("p.jsonl: the capture presents nothing, so that it is one frame: `--frame-end submit` "
+            "ends frames at submissions",)
     )  # fmt: skip
 
 
 def test_a_frame_of_renderdoc_is_one_frame() -> None:
     program = Offscreen()
     same_images(program, 3)
-    made = read_capture(BytesIO(renderdoc(program.calls).text()), "renderdoc", "p.xml", None, frame_end="submit")
-    assert (made.frames, made.notes) == (1, ("p.xml: `--frame-end` is ignored: the capture is a single frame",))
+    made = read_capture(
+        BytesIO(renderdoc(program.calls).text()), "renderdoc", "p.xml", None, frame_end="submit"
+    )
+    assert (made.frames, made.notes) == (
+        1,
+        ("p.xml: `--frame-end` is ignored: the capture is a single frame",),
+    )
 
 
 @pytest.mark.parametrize("command", ["check", "cost", "facts", "convert", "confirm"])
-def test_a_label_that_the_capture_lacks_is_an_error_of_the_capture(command: str, tmp_path: Path) -> None:
+def test_a_label_that_the_capture_lacks_is_an_error_of_the_capture(
+    command: str, tmp_path: Path
+) -> None:
     program = Offscreen()
     in_the_queue(program, program.view(program.image()))
     (tmp_path / "p.jsonl").write_bytes(program.text())
     result = run(tmp_path, command, "p.jsonl", "--frame-end", "label:Frmae")
     assert result.returncode == 2
-    assert "has no debug label `Frmae`, which `--frame-end` names; did you mean `Frame`?" in result.stdout + result.stderr
+    assert (
+        "has no debug label `Frmae`, which `--frame-end` names; did you mean `Frame`?"
+        in result.stdout + result.stderr
+    )
     if command != "confirm":
         assert run(tmp_path, command, "p.jsonl", "--frame-end=label:Frame").returncode in (0, 1)
 
@@ -408,19 +473,40 @@ def test_an_end_that_is_not_one_of_the_forms_is_refused(tmp_path: Path) -> None:
 
 
 def openxr(mirror: bool, flags: object = "0x00000021") -> Program:
-    """A program that draws to the images of an OpenXR swapchain, as the source of gfxreconstruct's converter writes its calls."""
+    """A program that draws to the images of an OpenXR swapchain, as the source of gfxreconstruct's
+    converter writes its calls.
+    """
     program = Program()
     if mirror:
         program.swap(1)
     info_of_swapchain = {
-        "type": "XR_TYPE_SWAPCHAIN_CREATE_INFO", "createFlags": "0x00000000", "usageFlags": flags, "format": 37, "sampleCount": 1,
+        "type": "XR_TYPE_SWAPCHAIN_CREATE_INFO", "createFlags": "0x00000000", "usageFlags": flags,
+        "format": 37, "sampleCount": 1,
         "width": 256, "height": 128, "faceCount": 1, "arraySize": 2, "mipCount": 1, "next": None,
     }  # fmt: skip
     program.call("xrCreateSwapchain", session=20, createInfo=info_of_swapchain, swapchain=21)
-    images = [{"type": "XR_TYPE_SWAPCHAIN_IMAGE_VULKAN_KHR", "image": handle, "next": None} for handle in (30, 31, 32)]
-    program.call("xrEnumerateSwapchainImages", swapchain=21, imageCapacityInput=0, imageCountOutput=3, images=None)
-    program.call("xrEnumerateSwapchainImages", swapchain=21, imageCapacityInput=3, imageCountOutput=3, images=images)
-    eye, resolved = program.view(program.image(layers=2)), [program.view(handle) for handle in (30, 31, 32)]
+    images = [
+        {"type": "XR_TYPE_SWAPCHAIN_IMAGE_VULKAN_KHR", "image": handle, "next": None}
+        for handle in (30, 31, 32)
+    ]
+    program.call(
+        "xrEnumerateSwapchainImages",
+        swapchain=21,
+        imageCapacityInput=0,
+        imageCountOutput=3,
+        images=None,
+    )
+    program.call(
+        "xrEnumerateSwapchainImages",
+        swapchain=21,
+        imageCapacityInput=3,
+        imageCountOutput=3,
+        images=images,
+    )
+    eye, resolved = (
+        program.view(program.image(layers=2)),
+        [program.view(handle) for handle in (30, 31, 32)],
+    )
     for number in range(6):
         for _ in range(2):
             buffer = program.buffer()
@@ -434,15 +520,23 @@ def openxr(mirror: bool, flags: object = "0x00000021") -> Program:
 
 
 @pytest.mark.parametrize("mirror", [False, True])
-@pytest.mark.parametrize("flags", ["0x00000021", 33, "XR_SWAPCHAIN_USAGE_COLOR_ATTACHMENT_BIT|XR_SWAPCHAIN_USAGE_SAMPLED_BIT"])
-def test_frames_of_an_openxr_program_end_with_its_end_of_a_frame(mirror: bool, flags: object) -> None:
+@pytest.mark.parametrize(
+    "flags",
+    ["0x00000021", 33, "XR_SWAPCHAIN_USAGE_COLOR_ATTACHMENT_BIT|XR_SWAPCHAIN_USAGE_SAMPLED_BIT"],
+)
+def test_frames_of_an_openxr_program_end_with_its_end_of_a_frame(
+    mirror: bool, flags: object
+) -> None:
     program = openxr(mirror, flags)
     made = read(program)
     assert made.frames == 6
     images = tree(program)["images"].values()
-    swapchain_image = next(image for image in images if image["samples"] == 1 and image["arrayLayers"] == 2)
+    swapchain_image = next(
+        image for image in images if image["samples"] == 1 and image["arrayLayers"] == 2
+    )
     assert swapchain_image == {
-        "format": "R8G8B8A8_UNORM", "samples": 1, "usage": ["COLOR_ATTACHMENT", "SAMPLED"], "mipLevels": 1, "arrayLayers": 2,
+        "format": "R8G8B8A8_UNORM", "samples": 1, "usage": ["COLOR_ATTACHMENT", "SAMPLED"],
+        "mipLevels": 1, "arrayLayers": 2,
         "extent": {"width": 256, "height": 128, "depth": 1}, "imageType": "2D", "mayBeRead": True,
     }  # fmt: skip
     assert not [found for found in lint(program.text()) if found.code == "MSAA201"]

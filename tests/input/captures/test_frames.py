@@ -1,4 +1,6 @@
-"""What is found in whole captures: frames followed, lifetimes across them, identical ones counted."""
+"""What is found in whole captures: frames followed, lifetimes across them, identical ones
+counted.
+"""
 
 from __future__ import annotations
 
@@ -8,22 +10,45 @@ import re
 import pytest
 
 from msaa_lint.input.capture_input import CaptureInput, read_capture
-from tests.input.captures.program import COLOR, D32, DEPTH, SAMPLED, SOURCE, Program, attachment, codes, info, lint
+from tests.input.captures.program import (
+    COLOR,
+    D32,
+    DEPTH,
+    SAMPLED,
+    SOURCE,
+    Program,
+    attachment,
+    codes,
+    info,
+    lint,
+)
 
 
 def read(program: Program) -> CaptureInput:
     return read_capture(io.BytesIO(program.text()), "gfxreconstruct", "p.jsonl", None)
 
 
-def forward(frames: int, images: int = 3, store: str = "STORE", two: bool = False, ms_each: bool = False, reuse: bool = False) -> Program:
+def forward(
+    frames: int,
+    images: int = 3,
+    store: str = "STORE",
+    two: bool = False,
+    ms_each: bool = False,
+    reuse: bool = False,
+) -> Program:
     """A multisampled pass that resolves to the swapchain, frame after frame."""
     program = Program(reuse)
     swap = program.swap(images)
-    multisampled = [program.view(program.image(usage=COLOR | 0x40)) for _ in range(images if ms_each else 1)]
+    multisampled = [
+        program.view(program.image(usage=COLOR | 0x40)) for _ in range(images if ms_each else 1)
+    ]
     output = attachment(samples=1, load="DONT_CARE", store="STORE", final="PRESENT_SRC_KHR")
     render_pass = program.render_pass([attachment(store=store), output], resolve=(1,), two=two)
     pipeline = program.pipeline(render_pass)
-    buffers = [program.framebuffer(render_pass, [multisampled[n % len(multisampled)], program.view(each)]) for n, each in enumerate(swap)]
+    buffers = [
+        program.framebuffer(render_pass, [multisampled[n % len(multisampled)], program.view(each)])
+        for n, each in enumerate(swap)
+    ]
     for number in range(frames):
         buffer = program.buffer()
         program.begin(buffer, render_pass, buffers[number % images])
@@ -35,11 +60,17 @@ def forward(frames: int, images: int = 3, store: str = "STORE", two: bool = Fals
 
 
 @pytest.mark.parametrize("two", [False, True])
-def test_a_pass_of_every_frame_is_one_finding_with_its_count_and_the_call_that_made_it(two: bool) -> None:
+def test_a_pass_of_every_frame_is_one_finding_with_its_count_and_the_call_that_made_it(
+    two: bool,
+) -> None:
     program = forward(240, two=two)
     stored = [found for found in lint(program.text()) if found.code == "MSAA201"]
     assert len(stored) == 1
-    made = next(number for number, (name, _) in enumerate(program.calls, 1) if name.startswith("vkCreateRenderPass"))
+    made = next(
+        number
+        for number, (name, _) in enumerate(program.calls, 1)
+        if name.startswith("vkCreateRenderPass")
+    )
     name = "vkCreateRenderPass2KHR" if two else "vkCreateRenderPass"
     assert stored[0].capture_location == (name, made, 240, 240)
 
@@ -61,8 +92,14 @@ def test_a_right_frame_has_no_finding() -> None:
 
 def test_frames_with_each_swapchain_image_are_one_kind_with_alternating_framebuffers() -> None:
     text = read(forward(7)).source.text
-    (begin,) = [line for line in text.splitlines() if "beginRenderPass" in line or "framebuffer: [" in line][-1:]
-    assert re.search(r'framebuffer: \["framebuffer 256x128 #\d+", "framebuffer 256x128 #\d+", "framebuffer 256x128 #\d+"\]', begin)
+    (begin,) = [
+        line for line in text.splitlines() if "beginRenderPass" in line or "framebuffer: [" in line
+    ][-1:]
+    assert re.search(
+        r'framebuffer: \["framebuffer 256x128 #\d+", "framebuffer 256x128 #\d+", "framebuffer '
+        r'256x128 #\d+"\]',
+        begin,
+    )
     assert "---" not in text
 
 
@@ -72,7 +109,9 @@ def test_frames_of_two_kinds_are_two_documents_the_commonest_first() -> None:
     first, second = (program.image() for _ in range(2))
     for number in range(10):
         buffer = program.buffer()
-        program.rendering(buffer, [info(program.view(second if number == 4 else first), store="STORE")])
+        program.rendering(
+            buffer, [info(program.view(second if number == 4 else first), store="STORE")]
+        )
         program.draw(buffer)
         program.end(buffer, rendering=True)
         program.submit(buffer)
@@ -89,7 +128,9 @@ def test_frames_of_two_kinds_are_two_documents_the_commonest_first() -> None:
     assert text.split("---\n")[1].startswith("frame: {share: 0.0909091}  # 1 of 11 frames\n")
 
 
-def test_a_rendering_that_two_kinds_of_frame_record_is_one_finding_with_the_sum_of_their_frames() -> None:
+def test_a_rendering_that_two_kinds_of_frame_record_is_one_finding_with_the_sum_of_their_frames() -> (
+    None
+):
     program = Program()
     program.swap(1)
     image, other = program.view(program.image()), program.view(program.image(D32, usage=DEPTH))
@@ -103,11 +144,16 @@ def test_a_rendering_that_two_kinds_of_frame_record_is_one_finding_with_the_sum_
         program.submit(buffer)
         program.present()
     stored = [found for found in lint(program.text()) if found.code == "MSAA201"]
-    assert [found.capture_location and (found.capture_location.frames, found.capture_location.of) for found in stored] == [(10, 10)]
+    assert [
+        found.capture_location and (found.capture_location.frames, found.capture_location.of)
+        for found in stored
+    ] == [(10, 10)]
 
 
 def history(read_back: bool, every: int = 1) -> Program:
-    """Frames that draw to one of two images in turns and read the other, which the frame before left; or that read neither."""
+    """Frames that draw to one of two images in turns and read the other, which the frame before
+    left; or that read neither.
+    """
     program = Program()
     program.swap(1)
     images = [program.image(usage=COLOR | SAMPLED) for _ in range(2)]
@@ -149,13 +195,23 @@ def test_a_frame_of_another_kind_reads_what_this_one_left() -> None:
         program.present()
         if number == 5:
             buffer = program.buffer()
-            program.call("vkCmdCopyImage", commandBuffer=buffer, srcImage=image, dstImage=target, regionCount=0, pRegions=[])
+            program.call(
+                "vkCmdCopyImage",
+                commandBuffer=buffer,
+                srcImage=image,
+                dstImage=target,
+                regionCount=0,
+                pRegions=[],
+            )
             program.rendering(buffer, [info(view)])
             program.end(buffer, rendering=True)
             program.submit(buffer)
             program.present()
     made = read(program).source.text
-    assert '- readImage: {image: "color 256x128 RGBA8 4x #5", access: MEMORY_READ}  # by a later frame' in made
+    assert (
+        '- readImage: {image: "color 256x128 RGBA8 4x #5", access: MEMORY_READ}  # by a later frame'
+        in made
+    )
     assert "MSAA201" not in codes(lint(program.text()))
 
 
@@ -169,7 +225,14 @@ def test_what_some_frames_read_has_a_reader() -> None:
         program.rendering(buffer, [info(view, store="STORE")])
         program.end(buffer, rendering=True)
         if number % 3 == 0:
-            program.call("vkCmdCopyImage", commandBuffer=buffer, srcImage=image, dstImage=target, regionCount=0, pRegions=[])
+            program.call(
+                "vkCmdCopyImage",
+                commandBuffer=buffer,
+                srcImage=image,
+                dstImage=target,
+                regionCount=0,
+                pRegions=[],
+            )
         program.submit(buffer)
         program.present()
     assert "MSAA201" not in codes(lint(program.text()))
@@ -181,7 +244,11 @@ def test_what_is_shared_with_others_may_be_read_by_them(shared: bool) -> None:
     program.calls.clear()
     program.swap(1)
     image = program.image()
-    chained = {"sType": "VK_STRUCTURE_TYPE_EXTERNAL_MEMORY_IMAGE_CREATE_INFO", "handleTypes": 1, "pNext": None}
+    chained = {
+        "sType": "VK_STRUCTURE_TYPE_EXTERNAL_MEMORY_IMAGE_CREATE_INFO",
+        "handleTypes": 1,
+        "pNext": None,
+    }
     name, args = program.calls[-1]
     assert name == "vkCreateImage"
     args["pCreateInfo"]["pNext"] = chained if shared else None
@@ -197,13 +264,19 @@ def test_what_is_shared_with_others_may_be_read_by_them(shared: bool) -> None:
 
 def test_a_map_of_shading_density_is_read() -> None:
     program = Program()
-    views = [program.view(program.image()), program.view(program.image("VK_FORMAT_R8G8_UNORM", 1, 0x200))]
+    views = [
+        program.view(program.image()),
+        program.view(program.image("VK_FORMAT_R8G8_UNORM", 1, 0x200)),
+    ]
     attachments = [attachment(store="STORE"), attachment("VK_FORMAT_R8G8_UNORM", 1, "LOAD")]
     for mapped in (False, True):
         render_pass = program.render_pass(attachments)
         created = program.calls[-1][1]["pCreateInfo"]
         if mapped:
-            reference = {"attachment": 1, "layout": "VK_IMAGE_LAYOUT_FRAGMENT_DENSITY_MAP_OPTIMAL_EXT"}
+            reference = {
+                "attachment": 1,
+                "layout": "VK_IMAGE_LAYOUT_FRAGMENT_DENSITY_MAP_OPTIMAL_EXT",
+            }
             kind = "VK_STRUCTURE_TYPE_RENDER_PASS_FRAGMENT_DENSITY_MAP_CREATE_INFO_EXT"
             created["pNext"] = {"sType": kind, "fragmentDensityMapAttachment": reference}
         buffer = program.buffer()
@@ -237,7 +310,9 @@ def test_commands_that_were_never_submitted_are_no_frame() -> None:
     program = Program()
     render_pass = program.render_pass([attachment(store="STORE")])
     buffer = program.buffer()
-    program.begin(buffer, render_pass, program.framebuffer(render_pass, [program.view(program.image())]))
+    program.begin(
+        buffer, render_pass, program.framebuffer(render_pass, [program.view(program.image())])
+    )
     assert "commands: []" in read(program).source.text
 
 

@@ -1,4 +1,6 @@
-"""Captures come from strangers: whatever calls hold, they are followed as far as they make sense."""
+"""Captures come from strangers: whatever calls hold, they are followed as far as they make
+sense.
+"""
 
 from __future__ import annotations
 
@@ -20,7 +22,9 @@ from tests.input.captures.program import Program, attachment, info
 from tests.input.captures.test_frames import forward, history
 from tests.strength import examples
 
-NUMBERS = st.sampled_from([0, 1, 2, 3, -1, 4, 5, 100, 101, 103, 2**31 - 1, 2**32 - 1, 2**64, -(2**70), 0.5, 1e308])
+NUMBERS = st.sampled_from(
+    [0, 1, 2, 3, -1, 4, 5, 100, 101, 103, 2**31 - 1, 2**32 - 1, 2**64, -(2**70), 0.5, 1e308]
+)
 WORDS = st.sampled_from(
     [
         "",
@@ -37,7 +41,10 @@ WORDS = st.sampled_from(
 VALUES = st.recursive(
     st.none() | st.booleans() | NUMBERS | WORDS,
     lambda inner: (
-        st.lists(inner, max_size=4) | st.dictionaries(st.sampled_from(["sType", "pNext", "image", "attachment", "x"]), inner, max_size=3)
+        st.lists(inner, max_size=4)
+        | st.dictionaries(
+            st.sampled_from(["sType", "pNext", "image", "attachment", "x"]), inner, max_size=3
+        )
     ),
     max_leaves=6,
 )
@@ -50,7 +57,9 @@ def everything() -> list[tuple[str, dict[str, Any]]]:
     view = program.view(program.image())
     depth = program.view(program.image("VK_FORMAT_D24_UNORM_S8_UINT", usage=0x20))
     render_pass = program.render_pass(
-        [attachment(), attachment("VK_FORMAT_D24_UNORM_S8_UINT", load="LOAD", store="STORE")], depth=1, two=True
+        [attachment(), attachment("VK_FORMAT_D24_UNORM_S8_UINT", load="LOAD", store="STORE")],
+        depth=1,
+        two=True,
     )
     framebuffer = program.framebuffer(render_pass, [view, depth], imageless=True)
     secondary, buffer = program.buffer(secondary=True), program.buffer()
@@ -60,7 +69,10 @@ def everything() -> list[tuple[str, dict[str, Any]]]:
     program.call("vkCmdNextSubpass", commandBuffer=buffer, contents=0)
     clear = {"aspectMask": 3, "colorAttachment": 0}
     program.call(
-        "vkCmdClearAttachments", commandBuffer=buffer, pAttachments=[clear], pRects=[{"rect": {"extent": {"width": 3, "height": 3}}}]
+        "vkCmdClearAttachments",
+        commandBuffer=buffer,
+        pAttachments=[clear],
+        pRects=[{"rect": {"extent": {"width": 3, "height": 3}}}],
     )
     program.end(buffer)
     images = [program.image(samples=count) for count in (4, 1)]
@@ -68,11 +80,29 @@ def everything() -> list[tuple[str, dict[str, Any]]]:
     ends = {"srcImage": images[0], "dstImage": images[1]}
     for name in ("vkCmdResolveImage", "vkCmdCopyImage", "vkCmdBlitImage"):
         program.call(name, commandBuffer=buffer, **ends, pRegions=[region])
-    program.call("vkCmdResolveImage2", commandBuffer=buffer, pResolveImageInfo={**ends, "pRegions": [region]})
-    barrier = {"srcAccessMask": 256, "dstAccessMask": 32, "oldLayout": 2, "newLayout": 5, "image": images[0]}
+    program.call(
+        "vkCmdResolveImage2", commandBuffer=buffer, pResolveImageInfo={**ends, "pRegions": [region]}
+    )
+    barrier = {
+        "srcAccessMask": 256,
+        "dstAccessMask": 32,
+        "oldLayout": 2,
+        "newLayout": 5,
+        "image": images[0],
+    }
     stages = {"srcStageMask": 1024, "dstStageMask": 128}
-    program.call("vkCmdPipelineBarrier", commandBuffer=buffer, **stages, pMemoryBarriers=[barrier], pImageMemoryBarriers=[barrier])
-    program.call("vkCmdPipelineBarrier2", commandBuffer=buffer, pDependencyInfo={"pImageMemoryBarriers": [{**barrier, **stages}]})
+    program.call(
+        "vkCmdPipelineBarrier",
+        commandBuffer=buffer,
+        **stages,
+        pMemoryBarriers=[barrier],
+        pImageMemoryBarriers=[barrier],
+    )
+    program.call(
+        "vkCmdPipelineBarrier2",
+        commandBuffer=buffer,
+        pDependencyInfo={"pImageMemoryBarriers": [{**barrier, **stages}]},
+    )
     program.rendering(buffer, [info(view, resolve=program.view(images[1]))], info(depth), flags=2)
     program.end(buffer, rendering=True)
     program.submit(buffer)
@@ -85,7 +115,13 @@ CALLS = everything()
 
 def places(value: Any, path: tuple[Any, ...] = ()) -> list[tuple[Any, ...]]:
     """The paths of all that a value holds."""
-    inner = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
+    inner = (
+        value.items()
+        if isinstance(value, dict)
+        else enumerate(value)
+        if isinstance(value, list)
+        else ()
+    )
     return [path, *(each for key, item in inner for each in places(item, (*path, key)))]
 
 
@@ -105,8 +141,19 @@ def described(calls: list[tuple[str, dict[str, Any]]]) -> list[Document]:
 def test_the_calls_themselves_make_a_right_description() -> None:
     documents = described(CALLS)
     assert [problem for document in documents for problem in document.problems] == []
-    assert {"beginRenderPass", "beginRendering", "resolveImage", "present", "clearAttachments", "pipelineBarrier", "readImage"} <= {
-        command.kind for document in documents for command in document.description.commands or () if command is not None
+    assert {
+        "beginRenderPass",
+        "beginRendering",
+        "resolveImage",
+        "present",
+        "clearAttachments",
+        "pipelineBarrier",
+        "readImage",
+    } <= {
+        command.kind
+        for document in documents
+        for command in document.description.commands or ()
+        if command is not None
     }
 
 
@@ -159,7 +206,9 @@ def test_hostile_counts_are_followed_in_bounded_time() -> None:
         buffer = program.buffer()
         for view in views:
             program.rendering(buffer, [info(view)])
-            program.call("vkCmdExecuteCommands", commandBuffer=buffer, pCommandBuffers=[buffer] * 50)
+            program.call(
+                "vkCmdExecuteCommands", commandBuffer=buffer, pCommandBuffers=[buffer] * 50
+            )
         program.submit(*[buffer] * 20)
     described(program.calls)
     assert time.process_time() - begin < 60

@@ -1,4 +1,6 @@
-"""Names of passes and images: debug labels and object names, else what an object is and the call that made it."""
+"""Names of passes and images: debug labels and object names, else what an object is and the call
+that made it.
+"""
 
 from __future__ import annotations
 
@@ -19,17 +21,35 @@ class Labeled(Program):
     def label(self, kind: str, buffer: int, text: str = "") -> None:
         """Begins, ends, or inserts a label."""
         if self.markers:
-            self.call(f"vkCmdDebugMarker{kind}EXT", commandBuffer=buffer, **({"pMarkerInfo": {"pMarkerName": text}} if text else {}))
+            self.call(
+                f"vkCmdDebugMarker{kind}EXT",
+                commandBuffer=buffer,
+                **({"pMarkerInfo": {"pMarkerName": text}} if text else {}),
+            )
         else:
-            self.call(f"vkCmd{kind}DebugUtilsLabelEXT", commandBuffer=buffer, **({"pLabelInfo": {"pLabelName": text}} if text else {}))
+            self.call(
+                f"vkCmd{kind}DebugUtilsLabelEXT",
+                commandBuffer=buffer,
+                **({"pLabelInfo": {"pLabelName": text}} if text else {}),
+            )
 
     def queue_label(self, kind: str, text: str = "") -> None:
         """Begins or ends a label of the queue."""
-        self.call(f"vkQueue{kind}DebugUtilsLabelEXT", queue=3, **({"pLabelInfo": {"pLabelName": text}} if text else {}))
+        self.call(
+            f"vkQueue{kind}DebugUtilsLabelEXT",
+            queue=3,
+            **({"pLabelInfo": {"pLabelName": text}} if text else {}),
+        )
 
     def submit_all(self, *buffers: int) -> None:
         """One submission to the queue with labels."""
-        self.call("vkQueueSubmit", queue=3, submitCount=1, pSubmits=[{"pCommandBuffers": list(buffers)}], fence=0)
+        self.call(
+            "vkQueueSubmit",
+            queue=3,
+            submitCount=1,
+            pSubmits=[{"pCommandBuffers": list(buffers)}],
+            fence=0,
+        )
 
 
 def target(program: Program, load: str = "CLEAR") -> tuple[int, int]:
@@ -40,12 +60,20 @@ def target(program: Program, load: str = "CLEAR") -> tuple[int, int]:
 
 def labels(program: Program) -> list[object]:
     """The labels of the passes of a program's only kind of frame; None where there is none."""
-    begins = [next(iter(command.items())) for command in tree(program)["commands"] if isinstance(command, dict)]
-    return [body.get("label") for kind, body in begins if kind in ("beginRenderPass", "beginRendering")]
+    begins = [
+        next(iter(command.items()))
+        for command in tree(program)["commands"]
+        if isinstance(command, dict)
+    ]
+    return [
+        body.get("label") for kind, body in begins if kind in ("beginRenderPass", "beginRendering")
+    ]
 
 
 def run_steps(program: Labeled, steps: str, buffer: int, begun: tuple[int, int]) -> None:
-    """Records `<A` (a label begins), `>` (it ends), `!A` (a label is inserted), `(` and `)` (a pass), and `.` (a draw)."""
+    """Records `<A` (a label begins), `>` (it ends), `!A` (a label is inserted), `(` and `)` (a
+    pass), and `.` (a draw).
+    """
     for step in steps.split():
         match step[0]:
             case "<":
@@ -82,7 +110,9 @@ PLACES = {
 
 @pytest.mark.parametrize("markers", [False, True])
 @pytest.mark.parametrize("steps", PLACES)
-def test_a_pass_has_the_labels_around_it_or_the_one_that_it_begins_with(steps: str, markers: bool) -> None:
+def test_a_pass_has_the_labels_around_it_or_the_one_that_it_begins_with(
+    steps: str, markers: bool
+) -> None:
     program = Labeled()
     program.markers = markers
     begun = target(program)
@@ -121,8 +151,12 @@ def test_renderings_of_a_secondary_command_buffer_are_within_the_labels_that_exe
     assert labels(program) == ["outer / inner"]
 
 
-@pytest.mark.parametrize(("texts", "label"), [(["a"], "a"), (["a", "a"], "a"), (["a", "b"], None), (["", "a"], None)])
-def test_a_pass_has_the_label_that_all_secondary_command_buffers_in_it_begin_with(texts: list[str], label: str | None) -> None:
+@pytest.mark.parametrize(
+    ("texts", "label"), [(["a"], "a"), (["a", "a"], "a"), (["a", "b"], None), (["", "a"], None)]
+)
+def test_a_pass_has_the_label_that_all_secondary_command_buffers_in_it_begin_with(
+    texts: list[str], label: str | None
+) -> None:
     program = Labeled()
     begun = target(program)
     primary = program.buffer()

@@ -1,4 +1,6 @@
-"""Command buffers that are recorded again with the same calls contain the same, whether that is recognized or determined again."""
+"""Command buffers that are recorded again with the same calls contain the same, whether that is
+recognized or determined again.
+"""
 
 from __future__ import annotations
 
@@ -22,7 +24,11 @@ def frames() -> tuple[list[str], list[str]]:
     lines = EXAMPLE.read_text().splitlines()
     first = next(number for number, line in enumerate(lines) if '"vkBeginCommandBuffer"' in line)
     last = max(number for number, line in enumerate(lines) if '"vkQueueSubmit' in line)
-    return lines[:first], [line.partition(",")[2] for line in lines[first : last + 1] if not any(name in line for name in NEW_OBJECTS)]
+    return lines[:first], [
+        line.partition(",")[2]
+        for line in lines[first : last + 1]
+        if not any(name in line for name in NEW_OBJECTS)
+    ]
 
 
 def description(lines: list[str], recognized: bool) -> tuple[str, int, int]:
@@ -38,8 +44,12 @@ def description(lines: list[str], recognized: bool) -> tuple[str, int, int]:
 
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(Recordings, "_restore", counted)
-        for call in gfxreconstruct.calls(BytesIO("\n".join(lines).encode() + b"\n"), tracker.wanted, None):
-            tracker.feed(call if recognized or not isinstance(call, Call) else call._replace(recurring=0))
+        for call in gfxreconstruct.calls(
+            BytesIO("\n".join(lines).encode() + b"\n"), tracker.wanted, None
+        ):
+            tracker.feed(
+                call if recognized or not isinstance(call, Call) else call._replace(recurring=0)
+            )
     tracker.finish()
     return describe_capture(tracker)[0], tracker.frames.total, restored
 

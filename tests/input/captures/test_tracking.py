@@ -1,4 +1,6 @@
-"""What a capture's calls mean: handles, bindings, descriptors, command buffers of both levels, names."""
+"""What a capture's calls mean: handles, bindings, descriptors, command buffers of both levels,
+names.
+"""
 
 from __future__ import annotations
 
@@ -9,7 +11,16 @@ import pytest
 from msaa_lint.core.text.source import Source
 from msaa_lint.core.text.tree import Limits, parse
 from msaa_lint.input.capture_input import CaptureInput, read_capture
-from tests.input.captures.program import COLOR, SAMPLED, Program, attachment, codes, info, lint, written
+from tests.input.captures.program import (
+    COLOR,
+    SAMPLED,
+    Program,
+    attachment,
+    codes,
+    info,
+    lint,
+    written,
+)
 
 
 def read(program: Program) -> CaptureInput:
@@ -52,12 +63,27 @@ def test_memory_flags_are_those_of_the_type_that_the_image_is_bound_to() -> None
     program = Program()
     types = [{"propertyFlags": 1, "heapIndex": 0}, {"propertyFlags": 17, "heapIndex": 0}]
     properties = {"memoryTypeCount": 2, "memoryTypes": types}
-    program.call("vkGetPhysicalDeviceMemoryProperties", physicalDevice=1, pMemoryProperties=properties)
+    program.call(
+        "vkGetPhysicalDeviceMemoryProperties", physicalDevice=1, pMemoryProperties=properties
+    )
     image = program.image(usage=COLOR | 0x40)
-    program.call("vkAllocateMemory", device=2, pAllocateInfo={"allocationSize": 4096, "memoryTypeIndex": 1}, pMemory=77)
-    program.call("vkBindImageMemory2KHR", device=2, bindInfoCount=1, pBindInfos=[{"image": image, "memory": 77, "memoryOffset": 0}])
+    program.call(
+        "vkAllocateMemory",
+        device=2,
+        pAllocateInfo={"allocationSize": 4096, "memoryTypeIndex": 1},
+        pMemory=77,
+    )
+    program.call(
+        "vkBindImageMemory2KHR",
+        device=2,
+        bindInfoCount=1,
+        pBindInfos=[{"image": image, "memory": 77, "memoryOffset": 0}],
+    )
     one_pass(program, program.view(image))
-    assert tree(program)["images"]["color 256x128 RGBA8 4x #3"]["memory"] == ["DEVICE_LOCAL", "LAZILY_ALLOCATED"]
+    assert tree(program)["images"]["color 256x128 RGBA8 4x #3"]["memory"] == [
+        "DEVICE_LOCAL",
+        "LAZILY_ALLOCATED",
+    ]
 
 
 def test_an_imageless_framebuffer_has_the_images_of_its_begin() -> None:
@@ -73,7 +99,10 @@ def test_an_imageless_framebuffer_has_the_images_of_its_begin() -> None:
         program.submit(buffer)
         program.present()
     made = tree(program)
-    assert [each["attachments"] for each in made["framebuffers"].values()] == [["color 256x128 RGBA8 4x #2"], ["color 256x128 RGBA8 4x #4"]]
+    assert [each["attachments"] for each in made["framebuffers"].values()] == [
+        ["color 256x128 RGBA8 4x #2"],
+        ["color 256x128 RGBA8 4x #4"],
+    ]
     assert made["commands"][0]["beginRenderPass"]["framebuffer"] == list(made["framebuffers"])
 
 
@@ -89,14 +118,28 @@ def test_what_a_descriptor_shows_is_read(how: str) -> None:
     program.rendering(buffer, [info(view, store="STORE")])
     program.end(buffer, rendering=True)
     if how == "pushed":
-        pushed = {"pipelineBindPoint": "VK_PIPELINE_BIND_POINT_GRAPHICS", "set": 0, "pDescriptorWrites": [written(0, view)]}
+        pushed = {
+            "pipelineBindPoint": "VK_PIPELINE_BIND_POINT_GRAPHICS",
+            "set": 0,
+            "pDescriptorWrites": [written(0, view)],
+        }
         program.call("vkCmdPushDescriptorSetKHR", commandBuffer=buffer, **pushed)
     elif how == "opaque":
-        program.call("vkUpdateDescriptorSetWithTemplate", device=2, descriptorSet=own, pData="0x7f00")
+        program.call(
+            "vkUpdateDescriptorSetWithTemplate", device=2, descriptorSet=own, pData="0x7f00"
+        )
     if how == "compute":
         point = "VK_PIPELINE_BIND_POINT_COMPUTE"
-        program.call("vkCmdBindDescriptorSets", commandBuffer=buffer, pipelineBindPoint=point, firstSet=0, pDescriptorSets=[own])
-        program.call("vkCmdDispatch", commandBuffer=buffer, groupCountX=1, groupCountY=1, groupCountZ=1)
+        program.call(
+            "vkCmdBindDescriptorSets",
+            commandBuffer=buffer,
+            pipelineBindPoint=point,
+            firstSet=0,
+            pDescriptorSets=[own],
+        )
+        program.call(
+            "vkCmdDispatch", commandBuffer=buffer, groupCountX=1, groupCountY=1, groupCountZ=1
+        )
     elif how != "pushed":
         program.bind(buffer, own)
     program.rendering(buffer, [info(target, store="STORE")])
@@ -106,10 +149,16 @@ def test_what_a_descriptor_shows_is_read(how: str) -> None:
         program.write(own, view)
     program.submit(buffer)
     stage = "COMPUTE" if how == "compute" else "FRAGMENT"
-    reads = [each["readImage"] for each in tree(program)["commands"] if isinstance(each, dict) and "readImage" in each]
+    reads = [
+        each["readImage"]
+        for each in tree(program)["commands"]
+        if isinstance(each, dict) and "readImage" in each
+    ]
     image_name = "color 256x128 RGBA8 4x #2"
     assert reads == ([{"image": image_name, "stage": stage}] if how != "opaque" else [])
-    assert tree(program)["images"][image_name].get("mayBeRead") == (True if how == "opaque" else None)
+    assert tree(program)["images"][image_name].get("mayBeRead") == (
+        True if how == "opaque" else None
+    )
     assert "MSAA201" not in codes(lint(program.text()))
 
 
@@ -138,11 +187,18 @@ def test_secondary_command_buffers_are_where_they_are_executed() -> None:
     program.call("vkEndCommandBuffer", commandBuffer=secondary)
     buffer = program.buffer()
     program.begin(buffer, render_pass, framebuffer)
-    program.call("vkCmdExecuteCommands", commandBuffer=buffer, commandBufferCount=1, pCommandBuffers=[secondary])
+    program.call(
+        "vkCmdExecuteCommands",
+        commandBuffer=buffer,
+        commandBufferCount=1,
+        pCommandBuffers=[secondary],
+    )
     program.end(buffer)
     program.submit(buffer)
     commands = tree(program)["commands"]
-    assert commands[1] == {"draw": {"pipeline": "pipeline 4x #6", "vertexCount": 3, "instanceCount": 1}}
+    assert commands[1] == {
+        "draw": {"pipeline": "pipeline 4x #6", "vertexCount": 3, "instanceCount": 1}
+    }
     assert commands[2] == "endRenderPass"
 
 
@@ -154,10 +210,19 @@ def test_a_command_buffer_that_is_submitted_again_is_recorded_once() -> None:
     program.end(buffer, rendering=True)
     program.call("vkEndCommandBuffer", commandBuffer=buffer)
     for _ in range(30):
-        program.call("vkQueueSubmit2", queue=5, submitCount=1, pSubmits=[{"pCommandBufferInfos": [{"commandBuffer": buffer}]}], fence=0)
+        program.call(
+            "vkQueueSubmit2",
+            queue=5,
+            submitCount=1,
+            pSubmits=[{"pCommandBufferInfos": [{"commandBuffer": buffer}]}],
+            fence=0,
+        )
         program.present()
     found = next(found for found in lint(program.text()) if found.code == "MSAA201")
-    assert found.capture_location is not None and (found.capture_location.frames, found.capture_location.of) == (30, 30)
+    assert found.capture_location is not None and (
+        found.capture_location.frames,
+        found.capture_location.of,
+    ) == (30, 30)
 
 
 def test_a_rendering_that_is_suspended_and_resumed_in_another_command_buffer() -> None:
@@ -170,7 +235,11 @@ def test_a_rendering_that_is_suspended_and_resumed_in_another_command_buffer() -
         program.draw(buffer)
         program.end(buffer, rendering=True)
     program.submit(first, second)
-    begins = [each["beginRendering"]["flags"] for each in tree(program)["commands"] if isinstance(each, dict) and "beginRendering" in each]
+    begins = [
+        each["beginRendering"]["flags"]
+        for each in tree(program)["commands"]
+        if isinstance(each, dict) and "beginRendering" in each
+    ]
     assert begins == [["SUSPENDING"], ["RESUMING"]]
     assert "MSAA207" not in codes(lint(program.text()))
 
@@ -182,7 +251,11 @@ def test_a_count_that_commands_set_is_that_of_the_draws_after_it() -> None:
     buffer = program.buffer()
     program.rendering(buffer, [info(view)])
     for count in (4, 1, 4):
-        program.call("vkCmdSetRasterizationSamplesEXT", commandBuffer=buffer, rasterizationSamples=f"VK_SAMPLE_COUNT_{count}_BIT")
+        program.call(
+            "vkCmdSetRasterizationSamplesEXT",
+            commandBuffer=buffer,
+            rasterizationSamples=f"VK_SAMPLE_COUNT_{count}_BIT",
+        )
         program.draw(buffer, pipeline, vertices=30 + count)
     program.end(buffer, rendering=True)
     program.submit(buffer)
@@ -206,7 +279,25 @@ def test_a_renderings_like_again_is_an_alias() -> None:
 
 SUPPRESSION = "# msaa-lint: ignore[multisampled-attachment-stored]"
 SHOWN = {
-    **{name: name for name in ("a: {b", SUPPRESSION, "null", "3", "ключ", '"', "\\", "<<", "x-color", "a.b[0]", "*a", "&a", "{}", "- x")},
+    **{
+        name: name
+        for name in (
+            "a: {b",
+            SUPPRESSION,
+            "null",
+            "3",
+            "ключ",
+            '"',
+            "\\",
+            "<<",
+            "x-color",
+            "a.b[0]",
+            "*a",
+            "&a",
+            "{}",
+            "- x",
+        )
+    },
     "x\n- y": "x - y",
     "\x1b[31mred": "\ufffd[31mred",
     "\u202ered\u2066": "\ufffdred\ufffd",
@@ -256,12 +347,16 @@ def test_calls_that_failed_made_nothing() -> None:
     program = Program()
     program.image()
     made = b'"args": {"device": 2, "pCreateInfo"'
-    text = program.text().replace(b'"return": "VK_SUCCESS", ' + made, b'"return": "VK_ERROR_OUT_OF_DEVICE_MEMORY", ' + made)
+    text = program.text().replace(
+        b'"return": "VK_SUCCESS", ' + made, b'"return": "VK_ERROR_OUT_OF_DEVICE_MEMORY", ' + made
+    )
     assert "images:" not in read_capture(io.BytesIO(text), "gfxreconstruct", "p", None).source.text
 
 
 def test_draws_of_one_pipeline_are_counted() -> None:
-    """Those that differ but for their counts are one command with the mean of the first pass; full-screen draws stay apart."""
+    """Those that differ but for their counts are one command with the mean of the first pass;
+    full-screen draws stay apart.
+    """
     program = Program()
     view = program.view(program.image())
     first, second = program.pipeline(), program.pipeline(dynamic=["VK_DYNAMIC_STATE_VIEWPORT"])
@@ -270,10 +365,18 @@ def test_draws_of_one_pipeline_are_counted() -> None:
         program.rendering(buffer, [info(view, store="STORE")])
         for vertices in (300, 600, 3, 3, 900):
             program.draw(buffer, first, vertices)
-        program.call("vkCmdDrawIndirect", commandBuffer=buffer, buffer=9, offset=0, drawCount=5, stride=16)
+        program.call(
+            "vkCmdDrawIndirect", commandBuffer=buffer, buffer=9, offset=0, drawCount=5, stride=16
+        )
         infos = [{"firstIndex": 0, "indexCount": count, "vertexOffset": 0} for count in (36, 72)]
         program.draw(buffer, second, 60)
-        program.call("vkCmdDrawMultiIndexedEXT", commandBuffer=buffer, drawCount=2, pIndexInfo=infos, instanceCount=3)
+        program.call(
+            "vkCmdDrawMultiIndexedEXT",
+            commandBuffer=buffer,
+            drawCount=2,
+            pIndexInfo=infos,
+            instanceCount=3,
+        )
         program.end(buffer, rendering=True)
         program.submit(buffer)
         program.present()

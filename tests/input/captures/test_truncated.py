@@ -1,4 +1,6 @@
-"""A capture that is cut anywhere: the frames before the cut are linted, and one error says that it ends."""
+"""A capture that is cut anywhere: the frames before the cut are linted, and one error says that it
+ends.
+"""
 
 from __future__ import annotations
 
@@ -42,7 +44,9 @@ def stored(findings: list[Finding]) -> list[Finding]:
 
 
 def presents(text: bytes, cut: int) -> int:
-    """How many presents stand before the line of a cut; a call is in one line, or ends before the line of the next."""
+    """How many presents stand before the line of a cut; a call is in one line, or ends before the
+    line of the next.
+    """
     return len(re.findall(rb'vkQueuePresentKHR"', text[: text.rfind(b"\n", 0, cut) + 1]))
 
 
@@ -71,7 +75,11 @@ def test_the_frames_before_a_cut_are_linted(dialect: str, part: float) -> None:
         assert found.capture_location is not None and found.capture_location.of >= frames
     if not (lines and at_line_end):
         assert codes.count("MSAA901") == 1
-        assert all(found.message.startswith(("the capture ends here: ", "invalid ")) for found in findings if found.code == "MSAA901")
+        assert all(
+            found.message.startswith(("the capture ends here: ", "invalid "))
+            for found in findings
+            if found.code == "MSAA901"
+        )
 
 
 @settings(max_examples=40, deadline=None)

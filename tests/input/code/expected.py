@@ -1,8 +1,10 @@
 """Compares the findings in the corpus programs with the marks in their comments.
 
-`// expect: MSAA201` requires a finding of that rule, a warning or error, on its line; `// may: MSAA201` allows one. `// expect-later:
-MSAA201` marks a mistake that is not detected yet. Of several lines with `MSAA201#color`, one must have the finding. Any other warning or
-error is false. A folder is a program of several files, which is checked as a whole; its headers without a mistake need no marks.
+`// expect: MSAA201` requires a finding of that rule, a warning or error, on its line; `// may:
+MSAA201` allows one. `// expect-later: MSAA201` marks a mistake that is not detected yet. Of several
+lines with `MSAA201#color`, one must have the finding. Any other warning or error is false. A folder
+is a program of several files, which is checked as a whole; its headers without a mistake need no
+marks.
 """
 
 from __future__ import annotations
@@ -19,14 +21,20 @@ from msaa_lint.cli.arguments import parse
 from msaa_lint.cli.check import check
 
 CORPUS = Path(__file__).parent / "corpus"
-PROGRAMS = sorted(path for path in CORPUS.iterdir() if path.suffix in (".c", ".cpp", ".rs") or path.is_dir())
+PROGRAMS = sorted(
+    path for path in CORPUS.iterdir() if path.suffix in (".c", ".cpp", ".rs") or path.is_dir()
+)
 
-_MARK = re.compile(r"\b(?P<kind>expect-later|expect|may): (?P<codes>MSAA\d{3}(?:#\w+)?(?:, MSAA\d{3}(?:#\w+)?)*)")
+_MARK = re.compile(
+    r"\b(?P<kind>expect-later|expect|may): (?P<codes>MSAA\d{3}(?:#\w+)?(?:, MSAA\d{3}(?:#\w+)?)*)"
+)
 
 
 @dataclass(frozen=True, order=True)
 class Found:
-    """A warning or an error: its line, the code of its rule, its message, and its file in a program of several."""
+    """A warning or an error: its line, the code of its rule, its message, and its file in a program
+    of several.
+    """
 
     line: int
     code: str
@@ -36,7 +44,9 @@ class Found:
 
 @dataclass(frozen=True)
 class Outcome:
-    """The comparison of a program with its marks. Expected findings are named by code and line, or code and group."""
+    """The comparison of a program with its marks. Expected findings are named by code and line, or
+    code and group.
+    """
 
     expected: tuple[str, ...]
     missed: tuple[str, ...]
@@ -51,16 +61,27 @@ def marks(text: str) -> list[tuple[int, str, str, str]]:
     for number, line in enumerate(text.split("\n"), 1):
         for match in _MARK.finditer(line):
             codes = match["codes"].split(", ")
-            found += [(number, match["kind"], code[:7], code if "#" in code else f"{code}:{number}") for code in codes]
+            found += [
+                (number, match["kind"], code[:7], code if "#" in code else f"{code}:{number}")
+                for code in codes
+            ]
     return found
 
 
 def program_marks(program: Path) -> list[tuple[str, int, str, str, str]]:
-    """Returns the marks of all files of a program: file (empty if there is only one), line, kind, code, and the name of the finding."""
+    """Returns the marks of all files of a program: file (empty if there is only one), line, kind,
+    code, and the name of the finding.
+    """
     if program.is_file():
         return [("", *mark) for mark in marks(program.read_text(encoding="utf-8"))]
     return [
-        (str(path.relative_to(program)), line, kind, code, name if "#" in name else f"{code}:{path.name}:{line}")
+        (
+            str(path.relative_to(program)),
+            line,
+            kind,
+            code,
+            name if "#" in name else f"{code}:{path.name}:{line}",
+        )
         for path in sorted(program.rglob("*"))
         if path.is_file()
         for line, kind, code, name in marks(path.read_text(encoding="utf-8"))
@@ -75,11 +96,21 @@ def findings(program: Path) -> list[Found]:
     with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
         code = check(given)
     assert code in (0, 1), f"{program.name}: exit code {code}: {err.getvalue()}"
-    found = [finding for finding in json.loads(out.getvalue())["findings"] if finding["severity"] != "note"]
+    found = [
+        finding
+        for finding in json.loads(out.getvalue())["findings"]
+        if finding["severity"] != "note"
+    ]
     assert all(finding["confidence"] in ("low", "medium") for finding in found), program.name
     whole = program.is_dir()
     return sorted(
-        Found(entry["line"], entry["code"], entry["message"], os.path.relpath(entry["file"], program) if whole else "") for entry in found
+        Found(
+            entry["line"],
+            entry["code"],
+            entry["message"],
+            os.path.relpath(entry["file"], program) if whole else "",
+        )
+        for entry in found
     )
 
 

@@ -1,4 +1,6 @@
-"""Generates C++ of any length for measurements: the modules of an application, half of which use Vulkan."""
+"""Generates C++ of any length for measurements: the modules of an application, half of which use
+Vulkan.
+"""
 
 from __future__ import annotations
 
@@ -155,8 +157,9 @@ HEAD = """\
 
 
 def program(lines: int, wrong: int = 3) -> tuple[str, list[int]]:
-    """Returns C++ of at least a number of lines, and the lines of the multisampled attachments that are stored but unused, in every
-    third module."""
+    """Returns C++ of at least a number of lines, and the lines of the multisampled attachments that
+    are stored but unused, in every third module.
+    """
     parts, places = [HEAD], []
     count = HEAD.count("\n")
     while count < lines:
@@ -164,7 +167,9 @@ def program(lines: int, wrong: int = 3) -> tuple[str, list[int]]:
         store = "DONT_CARE" if number % wrong else "STORE"
         text = MODULE.format(n=number, width=1280 + number, height=720 + number, store=store)
         if store == "STORE":
-            places.append(count + text[: text.index("storeOp = VK_ATTACHMENT_STORE_OP_STORE")].count("\n") + 1)
+            places.append(
+                count + text[: text.index("storeOp = VK_ATTACHMENT_STORE_OP_STORE")].count("\n") + 1
+            )
         parts.append(text)
         count += text.count("\n")
     return "".join(parts), places

@@ -64,7 +64,11 @@ def test_a_member_that_cannot_be_is_unknown(old: str, new: str, path: str) -> No
 
 
 def test_what_is_wrong_around_it_is_left_out_too() -> None:
-    made = described(PASS + "pipelines: {a: {renderPass: none, multisampleState: {rasterizationSamples: 4}}, b: 3}\ncommands: [nonsense]\n")
+    made = described(
+        PASS
+        + "pipelines: {a: {renderPass: none, multisampleState: {rasterizationSamples: 4}}, b: 3}\n"
+        "commands: [nonsense]\n"
+    )
     assert made.pipelines["a"].renderPass is None
     assert made.pipelines["a"].multisampleState.rasterizationSamples == 4
     assert "b" not in made.pipelines
@@ -96,7 +100,17 @@ def test_metal_is_read_so_too(old: str, new: str) -> None:
         assert list(made.renderPasses) == ["main"]
 
 
-@pytest.mark.parametrize("text", ["[]", "3", "{}", "images: 3", "renderPasses: {a: {attachments: {b: [1, 2]}}}", "nonsense: {a: 1}"])
+@pytest.mark.parametrize(
+    "text",
+    [
+        "[]",
+        "3",
+        "{}",
+        "images: 3",
+        "renderPasses: {a: {attachments: {b: [1, 2]}}}",
+        "nonsense: {a: 1}",
+    ],
+)
 def test_any_tree_is_a_document(text: str) -> None:
     described(text)
 
@@ -106,7 +120,10 @@ def test_nesting_is_no_matter() -> None:
     for _ in range(5000):
         node = Node("sequence", 0, 1, [node], {})
     key = Node("scalar", 0, 1, "images", {}, "images")
-    assert bound(SOURCE, Node("mapping", 0, 1, {"images": node}, {"images": key})).description.images == {}
+    assert (
+        bound(SOURCE, Node("mapping", 0, 1, {"images": node}, {"images": key})).description.images
+        == {}
+    )
 
 
 def test_places_are_the_codes_own() -> None:
@@ -130,7 +147,11 @@ def test_places_are_the_codes_own() -> None:
         ("layout(input_attachment_index = 0) uniform subpassInputMS a;", True),
         ("VkImageCreateInfo info; info.samples = VK_SAMPLE_COUNT_1_BIT;", False),
         ("vk::ImageCreateInfo info; info.samples = vk::SampleCountFlagBits::e1;", False),
-        ("VkPipelineMultisampleStateCreateInfo state{VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO};", False),
+        (
+            "VkPipelineMultisampleStateCreateInfo "
+            "state{VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO};",
+            False,
+        ),
         ("int msaa = 4; audio.sampleCount = 2;", False),
         ("uniform sampler2D image;", False),
         ("", False),

@@ -67,17 +67,32 @@ SAMPLES = [
     ("info.samples = static_cast<VkSampleCountFlagBits>(1 << 1);", 2),
     ("info.samples = msaa ? VK_SAMPLE_COUNT_4_BIT : VK_SAMPLE_COUNT_1_BIT;", 4),
     ("info.samples = VK_SAMPLE_COUNT_1_BIT; if (msaa) info.samples = VK_SAMPLE_COUNT_4_BIT;", 4),
-    ("if (!msaa) info.samples = VK_SAMPLE_COUNT_1_BIT; else info.samples = VK_SAMPLE_COUNT_8_BIT;", 8),
+    (
+        "if (!msaa) info.samples = VK_SAMPLE_COUNT_1_BIT; else info.samples = "
+        "VK_SAMPLE_COUNT_8_BIT;",
+        8,
+    ),
     ("info.samples = VK_SAMPLE_COUNT_8_BIT; info.samples = VK_SAMPLE_COUNT_4_BIT;", 4),
-    ("switch (level) { case 1: info.samples = VK_SAMPLE_COUNT_2_BIT; break; case 2: info.samples = VK_SAMPLE_COUNT_4_BIT; break; }", 4),
+    (
+        "switch (level) { case 1: info.samples = VK_SAMPLE_COUNT_2_BIT; break; case 2: "
+        "info.samples = VK_SAMPLE_COUNT_4_BIT; break; }",
+        4,
+    ),
     ("auto pick = [&] { return VK_SAMPLE_COUNT_4_BIT; }; info.samples = pick();", 4),
     ("VkImageCreateInfo* p = &info; p->samples = VK_SAMPLE_COUNT_4_BIT;", 4),
     ("VkImageCreateInfo& r = info; r.samples = VK_SAMPLE_COUNT_4_BIT;", 4),
-    ("VkImageView out = VK_NULL_HANDLE; info.samples = out ? VK_SAMPLE_COUNT_1_BIT : VK_SAMPLE_COUNT_4_BIT;", 4),
+    (
+        "VkImageView out = VK_NULL_HANDLE; info.samples = out ? VK_SAMPLE_COUNT_1_BIT : "
+        "VK_SAMPLE_COUNT_4_BIT;",
+        4,
+    ),
     ("info.samples = VK_SAMPLE_COUNT_1_BIT;", 1),
     ("info.samples = unknown();", None),
     ("change(&info);", None),
-    ("for (int i = 0; i < level; i++) info.samples = (VkSampleCountFlagBits)(info.samples * 2);", None),
+    (
+        "for (int i = 0; i < level; i++) info.samples = (VkSampleCountFlagBits)(info.samples * 2);",
+        None,
+    ),
 ]
 
 
@@ -89,29 +104,50 @@ def test_a_count(body: str, count: int | None) -> None:
 
 
 LONG = f"static const uint32_t shader[] = {{2, 4, {'0x08, ' * 200}}};\n"
-"""A list that is too long to say something of a frame, such as the code of a shader. It is not parsed."""
+"""A list that is too long to say something of a frame, such as the code of a shader. It is not
+parsed.
+"""
 
 
-@pytest.mark.parametrize(("body", "count"), [("info.samples = (VkSampleCountFlagBits)shader[1];", None), SAMPLES[0]])
+@pytest.mark.parametrize(
+    ("body", "count"), [("info.samples = (VkSampleCountFlagBits)shader[1];", None), SAMPLES[0]]
+)
 def test_a_long_list_of_numbers_is_unknown(body: str, count: int | None) -> None:
     images = read(image(body, LONG)).get("images")
     assert isinstance(images, dict)
     assert images["image"].get("samples") == count
-    assert node(image(SAMPLES[0][0], LONG), "images", "image", "samples").start == image(SAMPLES[0][0], LONG).index("VK_SAMPLE_COUNT_4_BIT")
+    assert node(image(SAMPLES[0][0], LONG), "images", "image", "samples").start == image(
+        SAMPLES[0][0], LONG
+    ).index("VK_SAMPLE_COUNT_4_BIT")
 
 
 def test_what_hangs_on_the_same_condition_goes_the_same_way() -> None:
     """The multisampled configuration is described, whatever the condition is called."""
-    for condition in ("msaa", "level > 1", "level != 1", "settings.samples > VK_SAMPLE_COUNT_1_BIT", "isOn()"):
+    for condition in (
+        "msaa",
+        "level > 1",
+        "level != 1",
+        "settings.samples > VK_SAMPLE_COUNT_1_BIT",
+        "isOn()",
+    ):
         body = f"""
             info.samples = {condition} ? VK_SAMPLE_COUNT_4_BIT : VK_SAMPLE_COUNT_1_BIT;
             if ({condition}) info.usage |= VK_IMAGE_USAGE_TRANSIENT_ATTACHMENT_BIT; else info.usage = 0;"""
         images = read(image(body))["images"]
-        assert images == {"image": {**images["image"], "samples": 4, "usage": ["COLOR_ATTACHMENT", "TRANSIENT_ATTACHMENT"]}}
+        assert images == {
+            "image": {
+                **images["image"],
+                "samples": 4,
+                "usage": ["COLOR_ATTACHMENT", "TRANSIENT_ATTACHMENT"],
+            }
+        }
 
 
 def test_what_hangs_on_another_condition_is_not_known() -> None:
-    body = "info.samples = msaa ? VK_SAMPLE_COUNT_4_BIT : VK_SAMPLE_COUNT_1_BIT; if (level) info.usage = VK_IMAGE_USAGE_SAMPLED_BIT;"
+    body = (
+        "info.samples = msaa ? VK_SAMPLE_COUNT_4_BIT : VK_SAMPLE_COUNT_1_BIT; if (level) "
+        "info.usage = VK_IMAGE_USAGE_SAMPLED_BIT;"
+    )
     images = read(image(body))["images"]
     assert "usage" not in images["image"]
 
@@ -119,9 +155,16 @@ def test_what_hangs_on_another_condition_is_not_known() -> None:
 @pytest.mark.parametrize("count", [1, 10, 11, 12, 13, 30])
 def test_conditional_writes_leave_the_value_before_them_possible(count: int) -> None:
     """Whatever their number: with too many alternatives, the value is unknown."""
-    conditional = "".join(f"if (device_{n}) info.tiling = VK_IMAGE_TILING_LINEAR;\n" for n in range(count))
-    body = f"info.samples = VK_SAMPLE_COUNT_4_BIT; info.tiling = VK_IMAGE_TILING_OPTIMAL; {conditional}"
-    images = read(image(body).replace("info{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO}", "info"))["images"]
+    conditional = "".join(
+        f"if (device_{n}) info.tiling = VK_IMAGE_TILING_LINEAR;\n" for n in range(count)
+    )
+    body = (
+        f"info.samples = VK_SAMPLE_COUNT_4_BIT; info.tiling = VK_IMAGE_TILING_OPTIMAL; "
+        f"{conditional}"
+    )
+    images = read(image(body).replace("info{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO}", "info"))[
+        "images"
+    ]
     assert "tiling" not in images["image"]
     images = read(image(f"{body} info.tiling = VK_IMAGE_TILING_OPTIMAL;"))["images"]
     assert images["image"]["tiling"] == "OPTIMAL", "an unconditional write replaces all before it"
@@ -129,8 +172,15 @@ def test_conditional_writes_leave_the_value_before_them_possible(count: int) -> 
 
 @pytest.mark.parametrize("count", [1, 10])
 def test_an_unconditional_write_is_kept_below_conditional_ones(count: int) -> None:
-    conditional = "".join(f"if (device_{n}) info.tiling = VK_IMAGE_TILING_OPTIMAL;\n" for n in range(count))
-    images = read(image(f"info.samples = VK_SAMPLE_COUNT_4_BIT; info.tiling = VK_IMAGE_TILING_OPTIMAL; {conditional}"))["images"]
+    conditional = "".join(
+        f"if (device_{n}) info.tiling = VK_IMAGE_TILING_OPTIMAL;\n" for n in range(count)
+    )
+    images = read(
+        image(
+            f"info.samples = VK_SAMPLE_COUNT_4_BIT; info.tiling = VK_IMAGE_TILING_OPTIMAL; "
+            f"{conditional}"
+        )
+    )["images"]
     assert images["image"]["tiling"] == "OPTIMAL"
 
 
@@ -138,8 +188,13 @@ def test_an_unconditional_write_is_kept_below_conditional_ones(count: int) -> No
 def test_a_member_with_too_many_writers_is_unknown(count: int) -> None:
     """The last function may write a value that the others do not."""
     last = "void last() { tiling = VK_IMAGE_TILING_LINEAR; }"
-    before = "".join(f"void set{n}() {{ tiling = VK_IMAGE_TILING_OPTIMAL; }}\n" for n in range(count))
-    text = image("info.samples = VK_SAMPLE_COUNT_4_BIT; info.tiling = tiling;", f"VkImageTiling tiling;\n{before}{last}")
+    before = "".join(
+        f"void set{n}() {{ tiling = VK_IMAGE_TILING_OPTIMAL; }}\n" for n in range(count)
+    )
+    text = image(
+        "info.samples = VK_SAMPLE_COUNT_4_BIT; info.tiling = tiling;",
+        f"VkImageTiling tiling;\n{before}{last}",
+    )
     images = read(text)["images"]
     assert "tiling" not in images["image"]
 
@@ -159,7 +214,10 @@ void all(VkDevice device) {{
     create(device, VK_IMAGE_USAGE_SAMPLED_BIT, &other);
 }}
 """
-    for name, flag in (("depth", "VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT"), ("other", "VK_IMAGE_USAGE_SAMPLED_BIT")):
+    for name, flag in (
+        ("depth", "VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT"),
+        ("other", "VK_IMAGE_USAGE_SAMPLED_BIT"),
+    ):
         found = node(text, "images", name, "usage", 0)
         assert text[found.start : found.end] == flag
 
@@ -201,10 +259,15 @@ class Scene {{
 }};
 """
     images = read(text)["images"]
-    assert {name: each["samples"] for name, each in images.items()} == {"color.image": 4, "id.image": 8}
+    assert {name: each["samples"] for name, each in images.items()} == {
+        "color.image": 4,
+        "id.image": 8,
+    }
 
 
-@pytest.mark.parametrize("path", [path for path in PROGRAMS if path.suffix in (".c", ".cpp")], ids=lambda path: path.name)
+@pytest.mark.parametrize(
+    "path", [path for path in PROGRAMS if path.suffix in (".c", ".cpp")], ids=lambda path: path.name
+)
 def test_what_is_read_is_a_description_without_mistakes(path: Path) -> None:
     text = path.read_bytes().decode()
     for found in trees(Code(ascii_only(text), "c" if path.suffix == ".c" else "cpp")):
@@ -217,13 +280,23 @@ MUCH = {
     "blocks": "void f_samples() {" + "{" * 20000 + "}" * 20000 + "}",
     "setters": "void f_samples() { x" + ".setSamples(1)" * 5000 + "; }",
     "flags": "void f_samples() { int x = " + " | ".join(["VK_SAMPLE_COUNT_4_BIT"] * 5000) + "; }",
-    "else": "void f_samples() { if (a) { x.samples = 1; } " + "else if (b) { x.samples = 2; } " * 5000 + "}",
+    "else": "void f_samples() { if (a) { x.samples = 1; } "
+    + "else if (b) { x.samples = 2; } " * 5000
+    + "}",
     "namespaces": "namespace a {" * 5000 + "void f_samples() {}" + "}" * 5000,
-    "calls": "".join(f"void f{n}_samples() {{ f{n + 1}_samples(); f{n + 1}_samples(); f{n + 1}_samples(); }}\n" for n in range(1000)),
-    "itself": "void f_samples() { f_samples(); g_samples(); } void g_samples() { f_samples(); g_samples(); }",
-    "writes": "void f_samples() { VkAttachmentDescription a{}; " + "a.samples = VK_SAMPLE_COUNT_4_BIT; " * 5000 + "}",
+    "calls": "".join(
+        f"void f{n}_samples() {{ f{n + 1}_samples(); f{n + 1}_samples(); f{n + 1}_samples(); }}\n"
+        for n in range(1000)
+    ),
+    "itself": "void f_samples() { f_samples(); g_samples(); } void g_samples() { f_samples(); "
+    "g_samples(); }",
+    "writes": "void f_samples() { VkAttachmentDescription a{}; "
+    + "a.samples = VK_SAMPLE_COUNT_4_BIT; " * 5000
+    + "}",
     "lambdas": "void f_samples() { auto x = " + "[]{ return " * 1000 + "1" + ";}" * 1000 + "; }",
-    "list": "void f_samples() { std::vector<VkAttachmentDescription> v; " + "v.push_back(v[0]); " * 2000 + "}",
+    "list": "void f_samples() { std::vector<VkAttachmentDescription> v; "
+    + "v.push_back(v[0]); " * 2000
+    + "}",
     "conditions": "void f_samples() { " + "if (a) " * 5000 + "x.samples = 1; }",
     "nothing": "",
     "no code": "\x00\x01 attachment sample \ufeff {{{ ((( <<< >>> ;;; '\"",
@@ -238,10 +311,25 @@ def test_what_is_too_much_is_passed_over(name: str) -> None:
 
 
 LISTED = [
-    ("\n#ifdef MSAA\n.samples = VK_SAMPLE_COUNT_4_BIT,\n#else\n.samples = VK_SAMPLE_COUNT_1_BIT,\n#endif\n", 4),
-    ("\n#if defined(MSAA)\n.samples = VK_SAMPLE_COUNT_4_BIT,\n#else\n.samples = VK_SAMPLE_COUNT_1_BIT,\n#endif\n", 4),
-    ("\n#ifndef MSAA\n.samples = VK_SAMPLE_COUNT_1_BIT,\n#else\n.samples = VK_SAMPLE_COUNT_4_BIT,\n#endif\n", 4),
-    (".samples = (VkSampleCountFlagBits)(VK_SAMPLE_COUNT_4_BIT\n#ifdef MORE\n* 2\n#endif\n),", None),
+    (
+        "\n#ifdef MSAA\n.samples = VK_SAMPLE_COUNT_4_BIT,\n#else\n.samples = "
+        "VK_SAMPLE_COUNT_1_BIT,\n#endif\n",
+        4,
+    ),
+    (
+        "\n#if defined(MSAA)\n.samples = VK_SAMPLE_COUNT_4_BIT,\n#else\n.samples = "
+        "VK_SAMPLE_COUNT_1_BIT,\n#endif\n",
+        4,
+    ),
+    (
+        "\n#ifndef MSAA\n.samples = VK_SAMPLE_COUNT_1_BIT,\n#else\n.samples = "
+        "VK_SAMPLE_COUNT_4_BIT,\n#endif\n",
+        4,
+    ),
+    (
+        ".samples = (VkSampleCountFlagBits)(VK_SAMPLE_COUNT_4_BIT\n#ifdef MORE\n* 2\n#endif\n),",
+        None,
+    ),
 ]
 
 
@@ -259,7 +347,9 @@ void create(VkDevice device, VkImage* image) {{
 """
     found = read(text).get("images", {})
     assert isinstance(found, dict)
-    assert [image.get("samples") for image in found.values()] == ([count] if count is not None else [])
+    assert [image.get("samples") for image in found.values()] == (
+        [count] if count is not None else []
+    )
 
 
 def test_which_member_is_which_is_not_known_behind_a_directive() -> None:

@@ -98,7 +98,9 @@ def test_lines_that_hold_nothing_else(text: str, alone: set[int]) -> None:
 
 
 @pytest.mark.parametrize("language", ["cpp", "swift"])
-@pytest.mark.parametrize("piece", ["/*", "/* */ ", '"', 'R"(', 'R"a(', "'", '#"', '"""', '#"""', '\\"', "//", "\n/*\n"])
+@pytest.mark.parametrize(
+    "piece", ["/*", "/* */ ", '"', 'R"(', 'R"a(', "'", '#"', '"""', '#"""', '\\"', "//", "\n/*\n"]
+)
 def test_hostile_code_takes_no_time(piece: str, language: str) -> None:
     begun = time.process_time()
     comments([Code(piece * 100_000, language)])

@@ -1,4 +1,6 @@
-"""The confidence of findings in source code: medium where the code states every value that a finding rests on, low where one is assumed."""
+"""The confidence of findings in source code: medium where the code states every value that a
+finding rests on, low where one is assumed.
+"""
 
 from __future__ import annotations
 
@@ -68,7 +70,10 @@ def finding(folder: Path, changes: dict[str, str], name: str = "pass.cpp") -> di
         {"before": "#define COUNT VK_SAMPLE_COUNT_8_BIT", "samples": "COUNT"},
         {"before": "constexpr auto kCount = VK_SAMPLE_COUNT_4_BIT;", "samples": "kCount"},
         {"before": "enum Samples { Few = 2, Many = 8 };", "samples": "(VkSampleCountFlagBits)Many"},
-        {"before": "static VkSampleCountFlagBits count() { return VK_SAMPLE_COUNT_4_BIT; }", "samples": "count()"},
+        {
+            "before": "static VkSampleCountFlagBits count() { return VK_SAMPLE_COUNT_4_BIT; }",
+            "samples": "count()",
+        },
         {"samples": f"msaa ? {CONDITIONAL}"},
         {"samples": f"msaa ? {CONDITIONAL}", "resolve": "msaa ? &resolve : nullptr"},
     ],
@@ -80,7 +85,10 @@ def test_what_is_stated_has_medium_confidence(tmp_path: Path, changes: dict[str,
 @pytest.mark.parametrize(
     ("changes", "note"),
     [
-        ({"samples": "chooseSampleCount(device)"}, "chooseSampleCount (line 6) is unknown; assumed to be 4"),
+        (
+            {"samples": "chooseSampleCount(device)"},
+            "chooseSampleCount (line 6) is unknown; assumed to be 4",
+        ),
         (
             {"samples": f"msaa ? {CONDITIONAL}", "resolve": "keep ? &resolve : nullptr"},
             "assumption: `keep` and `msaa` hold at the same time",
@@ -95,7 +103,9 @@ def test_what_is_stated_has_medium_confidence(tmp_path: Path, changes: dict[str,
         ),
     ],
 )
-def test_what_is_assumed_has_low_confidence(tmp_path: Path, changes: dict[str, str], note: str) -> None:
+def test_what_is_assumed_has_low_confidence(
+    tmp_path: Path, changes: dict[str, str], note: str
+) -> None:
     found = finding(tmp_path, changes)
     assert found["confidence"] == "low"
     assert found["notes"] == [note]
@@ -103,9 +113,16 @@ def test_what_is_assumed_has_low_confidence(tmp_path: Path, changes: dict[str, s
 
 def test_an_assumption_lowers_the_findings_that_rest_on_it_alone(tmp_path: Path) -> None:
     literal = PROGRAM.substitute(LITERAL)
-    other = PROGRAM.substitute(LITERAL | {"samples": "chooseSampleCount(device)"}).replace("create(", "createOther(")
+    other = PROGRAM.substitute(LITERAL | {"samples": "chooseSampleCount(device)"}).replace(
+        "create(", "createOther("
+    )
     (tmp_path / "two.cpp").write_text(literal + other, encoding="utf-8")
-    done = run(tmp_path, "check", "--isolated", "--select", "MSAA201", "--output", "json", "two.cpp")
+    done = run(
+        tmp_path, "check", "--isolated", "--select", "MSAA201", "--output", "json", "two.cpp"
+    )
     found = json.loads(done.stdout)["findings"]
-    assert [(each["line"], each["confidence"]) for each in found] == [(8, "medium"), (8 + literal.count("\n"), "low")]
+    assert [(each["line"], each["confidence"]) for each in found] == [
+        (8, "medium"),
+        (8 + literal.count("\n"), "low"),
+    ]
     assert (found[0]["notes"], len(found[1]["notes"])) == ([], 1)

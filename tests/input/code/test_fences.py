@@ -14,7 +14,9 @@ from tests.strength import examples
 
 
 def code(text: str) -> list[tuple[str, list[str]]]:
-    return [(block.language, [text[start:end] for start, end in block.lines]) for block in blocks(text)]
+    return [
+        (block.language, [text[start:end] for start, end in block.lines]) for block in blocks(text)
+    ]
 
 
 @pytest.mark.parametrize(
@@ -38,7 +40,10 @@ def code(text: str) -> list[tuple[str, list[str]]]:
         ("- ```cpp\n  a\nb\n", [("cpp", ["a"])]),
         ("10. x\n\n    ```cpp\n    a\n    ```\n", [("cpp", ["a"])]),
         ("10. x\n\n        ```cpp\n        a\n        ```\n", []),
-        ("- a\n  - b\n\n    ~~~cpp\n    c\n    ~~~\n  ~~~cpp\n  d\n  ~~~\n", [("cpp", ["c"]), ("cpp", ["d"])]),
+        (
+            "- a\n  - b\n\n    ~~~cpp\n    c\n    ~~~\n  ~~~cpp\n  d\n  ~~~\n",
+            [("cpp", ["c"]), ("cpp", ["d"])],
+        ),
         ("> ```cpp\n> a\n>b\n> ```\n", [("cpp", ["a", "b"])]),
         ("> ```cpp\n> a\nb\n", [("cpp", ["a"])]),
         ("> - x\n>\n>   ```cpp\n>   a\n>   ```\n", [("cpp", ["a"])]),
@@ -54,8 +59,10 @@ def test_blocks(text: str, found: list[tuple[str, list[str]]]) -> None:
 @pytest.mark.parametrize(
     ("info", "language"),
     [
-        ("cpp", "cpp"), ("C++", "cpp"), ("c++", "cpp"), ("cc", "cpp"), ("CPP", "cpp"), ("c", "c"), ("Swift", "swift"), ("glsl", "glsl"),
-        ("cpp title=\"a\"", "cpp"), (" cpp ", "cpp"), ("cpp{1,3}", "cpp"), ("cpp,ignore", "cpp"), ("{.cpp .numberLines}", "cpp"),
+        ("cpp", "cpp"), ("C++", "cpp"), ("c++", "cpp"), ("cc", "cpp"), ("CPP", "cpp"), ("c", "c"),
+        ("Swift", "swift"), ("glsl", "glsl"),
+        ("cpp title=\"a\"", "cpp"), (" cpp ", "cpp"), ("cpp{1,3}", "cpp"), ("cpp,ignore", "cpp"),
+        ("{.cpp .numberLines}", "cpp"),
         ("{ .cpp }", "cpp"), ("cpp:a.cpp", "cpp"),
         ("hlsl", None), ("", None), ("c#", None), ("objc", "objc"), ("objective-c++", "objcpp"),
         ("text cpp", None), ("yaml", None), ("python", None),
@@ -66,7 +73,10 @@ def test_info_strings(info: str, language: str | None) -> None:
 
 
 def test_blocks_of_a_language_are_one_code_at_their_offsets() -> None:
-    text = "# µ\n\n```cpp\nint a; // µ\n...\n```\n\n```glsl\nvoid main()\n```\n> ```c++\n> b();\n> // ...\n>   …\n> ```\n"
+    text = (
+        "# µ\n\n```cpp\nint a; // µ\n...\n```\n\n```glsl\nvoid main()\n```\n> ```c++\n> b();\n> "
+        "// ...\n>   …\n> ```\n"
+    )
     cpp, glsl = codes(text)
     assert (cpp.language, glsl.language) == ("cpp", "glsl")
     assert cpp.fragments
@@ -74,7 +84,9 @@ def test_blocks_of_a_language_are_one_code_at_their_offsets() -> None:
     for each in (cpp, glsl):
         assert len(each.text) == len(text)
         assert each.text.isascii()
-        assert [n for n, char in enumerate(each.text) if char == "\n"] == [n for n, char in enumerate(text) if char == "\n"]
+        assert [n for n, char in enumerate(each.text) if char == "\n"] == [
+            n for n, char in enumerate(text) if char == "\n"
+        ]
     assert cpp.text.split() == ["int", "a;", "//", "_", "b();"]
     assert cpp.text.index("b();") == text.index("b();")
     assert glsl.text.split() == ["void", "main()"]
@@ -101,7 +113,10 @@ PIECES = (
 )
 
 
-@given(st.lists(st.sampled_from(PIECES), max_size=60).map("".join), st.sampled_from(["markdown", *BLOCKS]))
+@given(
+    st.lists(st.sampled_from(PIECES), max_size=60).map("".join),
+    st.sampled_from(["markdown", *BLOCKS]),
+)
 @examples(2)
 def test_any_text_keeps_its_length_and_its_lines(text: str, page: str) -> None:
     for each in codes(text, page):
@@ -142,18 +157,33 @@ def test_every_name_is_of_a_language() -> None:
     [
         ("[source,cpp]\n----\na\n\nb\n----\nc\n", [("cpp", ["a", "", "b"])]),
         ("[source,c++,linenums]\n.A title\n----\na\n----\n", [("cpp", ["a"])]),
-        ("[source%linenums,cpp,indent=0]\n[[anchor]]\n------\na\n----\n------\n", [("cpp", ["a", "----"])]),
-        ('[,c]\n--\na\n--\n[source,language="glsl"]\n....\nb\n....\n', [("c", ["a"]), ("glsl", ["b"])]),
+        (
+            "[source%linenums,cpp,indent=0]\n[[anchor]]\n------\na\n----\n------\n",
+            [("cpp", ["a", "----"])],
+        ),
+        (
+            '[,c]\n--\na\n--\n[source,language="glsl"]\n....\nb\n....\n',
+            [("c", ["a"]), ("glsl", ["b"])],
+        ),
         ("[source,swift]\na\nb\n\nc\n", [("swift", ["a", "b"])]),
-        ("[source,cpp]\n----\na; // <1>\nb; <2> <3>\nc > d\n----\n", [("cpp", ["a; //", "b;", "c > d"])]),
+        (
+            "[source,cpp]\n----\na; // <1>\nb; <2> <3>\nc > d\n----\n",
+            [("cpp", ["a; //", "b;", "c > d"])],
+        ),
         ("```cpp\na\n```\n", [("cpp", ["a"])]),
         ("[source,cpp]\n----\na", [("cpp", ["a", ""])]),
-        ("[source,python]\n----\na\n----\n----\nb\n----\n[source,c]\n----\nc\n----\n", [("c", ["c"])]),
+        (
+            "[source,python]\n----\na\n----\n----\nb\n----\n[source,c]\n----\nc\n----\n",
+            [("c", ["c"])],
+        ),
         ("[quote]\n----\na\n----\n", []),
     ],
 )
 def test_blocks_of_asciidoc(text: str, found: list[tuple[str, list[str]]]) -> None:
-    assert [(block.language, [text[start:end] for start, end in block.lines]) for block in asciidoc(text)] == found
+    assert [
+        (block.language, [text[start:end] for start, end in block.lines])
+        for block in asciidoc(text)
+    ] == found
 
 
 @pytest.mark.parametrize(
@@ -167,4 +197,9 @@ def test_blocks_of_asciidoc(text: str, found: list[tuple[str, list[str]]]) -> No
     ],
 )
 def test_blocks_of_restructured_text(text: str, found: list[str]) -> None:
-    assert [text[start:end].strip() for block in restructured(text) for start, end in block.lines if text[start:end].strip()] == found
+    assert [
+        text[start:end].strip()
+        for block in restructured(text)
+        for start, end in block.lines
+        if text[start:end].strip()
+    ] == found

@@ -1,4 +1,6 @@
-"""GLSL: the same results as for glslang's modules, findings at their locations, and no findings for unsupported shaders."""
+"""GLSL: the same results as for glslang's modules, findings at their locations, and no findings for
+unsupported shaders.
+"""
 
 from __future__ import annotations
 
@@ -28,7 +30,9 @@ from tests.input.code.glsl_shaders import SHADERS as STYLES
 from tests.strength import examples
 from tests.test_rules import ENGINE, as_written
 
-needs_glslang = pytest.mark.skipif(shutil.which("glslangValidator") is None, reason="glslangValidator is not installed")
+needs_glslang = pytest.mark.skipif(
+    shutil.which("glslangValidator") is None, reason="glslangValidator is not installed"
+)
 
 AVERAGES = """#version 450
 layout(binding = 0) uniform sampler2DMS scene;
@@ -45,13 +49,22 @@ FETCH = "texelFetch(scene, ivec2(gl_FragCoord.xy), i)"
 
 
 def said(found: Reflected) -> dict[str, Any]:
-    """The part of a result that matters: without duration and without the order of findings that have no location."""
-    return {**found._asdict(), "steps": 0, "capabilities": 0, "fetches": sorted(map(repr, found.fetches))}
+    """The part of a result that matters: without duration and without the order of findings that
+    have no location.
+    """
+    return {
+        **found._asdict(),
+        "steps": 0,
+        "capabilities": 0,
+        "fetches": sorted(map(repr, found.fetches)),
+    }
 
 
 @pytest.mark.parametrize("source", [*sources(SHADERS), *sources(RULES)], ids=lambda path: path.name)
 def test_the_shaders_of_the_tests(source: Path) -> None:
-    assert said(reflect(shader(source.read_text()).code)) == said(reflect(source.with_name(f"{source.name}.spv").read_bytes()))
+    assert said(reflect(shader(source.read_text()).code)) == said(
+        reflect(source.with_name(f"{source.name}.spv").read_bytes())
+    )
 
 
 @needs_glslang
@@ -84,7 +97,11 @@ def test_specialization() -> None:
 
 
 def linted(text: str, language: str = "glsl") -> FileResult:
-    return ENGINE.lint(read_source_file(text.encode(), f"shader.{language}", language), f"shader.{language}", LintOptions(as_written))
+    return ENGINE.lint(
+        read_source_file(text.encode(), f"shader.{language}", language),
+        f"shader.{language}",
+        LintOptions(as_written),
+    )
 
 
 def findings(text: str, language: str = "glsl") -> list[tuple[str, str, str, int, str]]:
@@ -94,7 +111,15 @@ def findings(text: str, language: str = "glsl") -> list[tuple[str, str, str, int
     for each in result.findings:
         assert each.span is not None
         at = result.source.position(each.span.start)
-        found.append((each.code, each.severity, each.confidence, at.line, text[each.span.start : each.span.end]))
+        found.append(
+            (
+                each.code,
+                each.severity,
+                each.confidence,
+                at.line,
+                text[each.span.start : each.span.end],
+            )
+        )
     return found
 
 
@@ -102,7 +127,9 @@ def test_a_shader_that_averages() -> None:
     assert findings(AVERAGES) == [("MSAA313", "note", "low", 8, FETCH)]
     (found,) = linted(AVERAGES).findings
     assert (
-        found.message == "a shader averages all samples of `scene` from memory; use a resolve attachment, which averages them on the tile"
+        found.message
+        == "a shader averages all samples of `scene` from memory; use a resolve attachment, which "
+        "averages them on the tile"
     )
     assert found.fix is None
 
@@ -113,17 +140,25 @@ def test_a_compute_shader_that_averages() -> None:
 
 
 def test_a_shader_of_opengl() -> None:
-    text = AVERAGES.replace("#version 450", "#version 330 core").replace("layout(binding = 0) ", "").replace("layout(location = 0) ", "")
+    text = (
+        AVERAGES.replace("#version 450", "#version 330 core")
+        .replace("layout(binding = 0) ", "")
+        .replace("layout(location = 0) ", "")
+    )
     assert findings(text) == [("MSAA313", "note", "low", 8, FETCH)]
 
 
 def test_two_images_that_are_averaged() -> None:
     text = (SHADERS / "average_two.frag").read_text()
-    assert [found[3:] for found in findings(text)] == [(10, FETCH), (11, FETCH.replace("scene", "other"))]
+    assert [found[3:] for found in findings(text)] == [
+        (10, FETCH),
+        (11, FETCH.replace("scene", "other")),
+    ]
 
 
 AVERAGING = {
-    "average.frag", "average_queried.frag", "average_two.frag", "average_unrolled.frag", "average_weights.frag", "resolve.comp",
+    "average.frag", "average_queried.frag", "average_two.frag", "average_unrolled.frag",
+    "average_weights.frag", "resolve.comp",
     "resolve.frag", "resolve_any.frag", "spec_arithmetic.frag", "storage.frag",
 }  # fmt: skip
 
@@ -135,9 +170,12 @@ def test_only_averages_are_found(source: Path) -> None:
 
 
 CLEAN = [
-    "mapped", "exposed", "powers", "squared", "edge", "least", "greatest", "compared", "one", "its own", "some", "weights of their own",
-    "of a buffer", "switched by a buffer", "in one way", "offsets", "two texels", "difference", "last sample", "position", "mask",
-    "integers", "overloads", "unused", "push constants", "sample inputs", "another texture", "early and",
+    "mapped", "exposed", "powers", "squared", "edge", "least", "greatest", "compared", "one",
+    "its own", "some", "weights of their own",
+    "of a buffer", "switched by a buffer", "in one way", "offsets", "two texels", "difference",
+    "last sample", "position", "mask",
+    "integers", "overloads", "unused", "push constants", "sample inputs", "another texture",
+    "early and",
 ]  # fmt: skip
 
 
@@ -146,7 +184,9 @@ def test_what_is_more_than_an_average(name: str) -> None:
     assert findings(STYLES[name]) == []
 
 
-@pytest.mark.parametrize("name", ["sceneDepth", "normals_ms", "g_Position", "velocityBuffer", "object_id"])
+@pytest.mark.parametrize(
+    "name", ["sceneDepth", "normals_ms", "g_Position", "velocityBuffer", "object_id"]
+)
 def test_names_of_images_without_color(name: str) -> None:
     assert findings(AVERAGES.replace("scene", name)) == []
 
@@ -170,7 +210,9 @@ def test_what_is_not_understood_is_not_judged(change: tuple[str, str]) -> None:
 
 def test_places_under_macros() -> None:
     text = AVERAGES.replace("ivec2(gl_FragCoord.xy), i", "AT, i")
-    text = text.replace("const int COUNT = 8;", "#define COUNT 8\n#define AT ivec2(gl_FragCoord.xy)")
+    text = text.replace(
+        "const int COUNT = 8;", "#define COUNT 8\n#define AT ivec2(gl_FragCoord.xy)"
+    )
     assert findings(text) == [("MSAA313", "note", "low", 9, "texelFetch(scene, AT, i)")]
     longer = "#define FETCH(i) \\\n  texelFetch(scene, ivec2(gl_FragCoord.xy), (i))\n"
     text = AVERAGES.replace("const int", longer + "const int").replace(FETCH, "FETCH(i)")
@@ -208,13 +250,24 @@ vkCreateImage(device, &info, nullptr, &color);
 
 
 def page(*blocks: tuple[str, str]) -> str:
-    return "# A page\n\n" + "\nText.\n\n".join(f"```{language}\n{text}```\n" for language, text in blocks)
+    return "# A page\n\n" + "\nText.\n\n".join(
+        f"```{language}\n{text}```\n" for language, text in blocks
+    )
 
 
 def test_a_part_of_a_shader() -> None:
-    assert findings(page(("glsl", PART)), "markdown") == [("MSAA313", "note", "low", 11, "texelFetch(tex, uv, i)")]
-    assert findings(page(("glsl", "...\n" + PART + "...\n")), "markdown") == [("MSAA313", "note", "low", 12, "texelFetch(tex, uv, i)")]
-    assert findings(page(("glsl", PART.replace("result += val", "result += val / (val + 1.0)"))), "markdown") == []
+    assert findings(page(("glsl", PART)), "markdown") == [
+        ("MSAA313", "note", "low", 11, "texelFetch(tex, uv, i)")
+    ]
+    assert findings(page(("glsl", "...\n" + PART + "...\n")), "markdown") == [
+        ("MSAA313", "note", "low", 12, "texelFetch(tex, uv, i)")
+    ]
+    assert (
+        findings(
+            page(("glsl", PART.replace("result += val", "result += val / (val + 1.0)"))), "markdown"
+        )
+        == []
+    )
 
 
 def test_several_shaders_of_a_page() -> None:
@@ -225,7 +278,9 @@ def test_several_shaders_of_a_page() -> None:
 
 def test_the_count_of_the_image_beside_it() -> None:
     both = findings(page(("cpp", MADE), ("glsl", PART)), "markdown")
-    assert [(code, severity, at) for code, severity, _, _, at in both if code == "MSAA314"] == [("MSAA314", "error", "8")]
+    assert [(code, severity, at) for code, severity, _, _, at in both if code == "MSAA314"] == [
+        ("MSAA314", "error", "8")
+    ]
     same = page(("cpp", MADE), ("glsl", PART.replace("= 8", "= 4")))
     assert [found[0] for found in findings(same, "markdown")] == ["MSAA313"]
     fewer = page(("cpp", MADE.replace("COUNT_4", "COUNT_8")), ("glsl", PART.replace("= 8", "= 4")))
@@ -234,8 +289,14 @@ def test_the_count_of_the_image_beside_it() -> None:
 
 def test_the_count_of_an_image_that_is_not_known() -> None:
     second = MADE.replace("COUNT_4", "COUNT_8").replace("color", "other").replace("info", "second")
-    for code in (MADE + second, MADE.replace("VK_SAMPLE_COUNT_4_BIT", "samples"), MADE + "VkSpecializationInfo spec{};\n"):
-        assert "MSAA314" not in [found[0] for found in findings(page(("cpp", code), ("glsl", PART)), "markdown")]
+    for code in (
+        MADE + second,
+        MADE.replace("VK_SAMPLE_COUNT_4_BIT", "samples"),
+        MADE + "VkSpecializationInfo spec{};\n",
+    ):
+        assert "MSAA314" not in [
+            found[0] for found in findings(page(("cpp", code), ("glsl", PART)), "markdown")
+        ]
 
 
 # Modules of a description
@@ -263,7 +324,9 @@ def of_frame(folder: Path, module: str) -> list[tuple[str, str, str]]:
     text = FRAME.replace("MODULE", module)
     path.write_text(text, encoding="utf-8")
     result = ENGINE.lint(text.encode(), str(path), LintOptions(as_written))
-    told = [each for each in result.findings if each.code.startswith(("MSAA313", "MSAA314", "MSAA9"))]
+    told = [
+        each for each in result.findings if each.code.startswith(("MSAA313", "MSAA314", "MSAA9"))
+    ]
     return [(each.code, each.severity, each.message) for each in told]
 
 
@@ -296,7 +359,10 @@ def test_a_text_that_cannot_be_followed(tmp_path: Path) -> None:
     assert (code, severity) == ("MSAA903", "warning")
     assert message == "`resolve.frag` cannot be analyzed: `nothing()` is not defined"
     assert of_frame(tmp_path, "gone.frag")[0][0] == "MSAA904"
-    assert of_frame(tmp_path, "../../outside.frag")[0][2] == "`../../outside.frag` is outside the project"
+    assert (
+        of_frame(tmp_path, "../../outside.frag")[0][2]
+        == "`../../outside.frag` is outside the project"
+    )
 
 
 def test_spirv_under_the_name_of_a_text(tmp_path: Path) -> None:
@@ -318,8 +384,10 @@ def test_without_the_extra(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> N
 HOSTILE = {
     "parentheses": AVERAGES.replace("sum / float(COUNT)", "(" * 3000 + "sum" + ")" * 3000),
     "additions": AVERAGES.replace("sum / float(COUNT)", "sum + " * 3000 + "sum"),
-    "blocks": AVERAGES.replace("color = sum", "{" * 2000 + "color = sum" + ";" + "}" * 2000 + "color = sum"),
-    "ifs": AVERAGES.replace("color = sum", "if (sum.x > 0.5) color = sum; else " * 2000 + "color = sum"),
+    "blocks": AVERAGES.replace("color = sum",
+    "{" * 2000 + "color = sum" + ";" + "}" * 2000 + "color = sum"),
+    "ifs": AVERAGES.replace("color = sum", "if (sum.x > 0.5) color = sum; else " * 2000 + "color = "
+        "sum"),
     "macros within macros": "#define A0 x x x x x x x x\n"
     + "".join(f"#define A{n} A{n - 1} A{n - 1} A{n - 1} A{n - 1}\n" for n in range(1, 16))
     + AVERAGES.replace("COUNT = 8", "COUNT = A15"),
@@ -327,16 +395,19 @@ HOSTILE = {
     "many macros": "".join(f"#define N{n} {n}\n" for n in range(20000)) + AVERAGES,
     "conditions": "#if " + "(" * 200 + "1" + ")" * 200 + "\n#endif\n" * 5000 + AVERAGES,
     "loops": AVERAGES.replace("COUNT = 8", "COUNT = 2000000000"),
-    "loops in loops": AVERAGES.replace("for (", "for (int a = 0; a < 100; a++) for (int b = 0; b < 100; b++) for (", 1),
+    "loops in loops": AVERAGES.replace("for (", "for (int a = 0; a < 100; a++) for (int b = 0; b < "
+        "100; b++) for (", 1),
     "itself": AVERAGES.replace("void main() {", "void main() { main();"),
     "arrays": AVERAGES.replace("vec4 sum =", "float big[65536][65536]; vec4 sum ="),
-    "an array of arrays": AVERAGES.replace("vec4 sum =", "float big" + "[2]" * 200 + "; vec4 sum ="),
+    "an array of arrays": AVERAGES.replace("vec4 sum =",
+    "float big" + "[2]" * 200 + "; vec4 sum ="),
     "structures": "struct S0 { float a, b; };\n"
     + "".join(f"struct S{n} {{ S{n - 1} a, b; }};\n" for n in range(1, 60))
     + AVERAGES.replace("vec4 sum =", "S59 s; vec4 sum ="),
     "half a shader": AVERAGES[: len(AVERAGES) // 2],
     "nothing": "sampler2DMS \x00 ` @ \\",
-    "numbers": AVERAGES.replace("COUNT = 8", "COUNT = " + "9" * 5000).replace("vec4(0.0)", "vec4(1e999)"),
+    "numbers": AVERAGES.replace("COUNT = 8", "COUNT = " + "9" * 5000).replace("vec4(0.0)",
+    "vec4(1e999)"),
     "calls": "float f0() { return 1.0; }\n"
     + "".join(f"float f{n}() {{ return f{n - 1}() + f{n - 1}(); }}\n" for n in range(1, 40))
     + AVERAGES.replace("vec4(0.0)", "vec4(f39())"),
@@ -357,7 +428,22 @@ def test_what_stands_where() -> None:
     """Each parsed character maps to the original one."""
     text = "#define N 4\n#define ADD(a, b) (a + b)\nint x = N; int y = ADD(N, 2) * N;\nint z;\n"
     made = preprocess(text)
-    assert made.text.split() == ["int", "x", "=", "4;", "int", "y", "=", "(4", "+", "2)", "*", "4;", "int", "z;"]
+    assert made.text.split() == [
+        "int",
+        "x",
+        "=",
+        "4;",
+        "int",
+        "y",
+        "=",
+        "(4",
+        "+",
+        "2)",
+        "*",
+        "4;",
+        "int",
+        "z;",
+    ]
     for word in ("int x", "int y", "int z", "* "):
         assert text.startswith(word, made.place(made.text.index(word)))
     assert text.startswith("ADD(N, 2)", made.place(made.text.index("(4 + 2)")))
@@ -369,11 +455,14 @@ def test_by_the_real_command(tmp_path: Path) -> None:
     (tmp_path / "resolve.frag").write_text(AVERAGES, encoding="utf-8")
     done = run(tmp_path, "check", "--isolated", "--output", "concise", "resolve.frag")
     assert done.returncode == 0
-    assert done.stdout.startswith("resolve.frag:8:16: note[shader-resolve-off-tile] a shader averages all samples of `scene` from memory")
+    assert done.stdout.startswith(
+        "resolve.frag:8:16: note[shader-resolve-off-tile] a shader averages all samples of `scene` "
+        "from memory"
+    )
     (tmp_path / "page.md").write_text(page(("cpp", MADE), ("glsl", PART)), encoding="utf-8")
     done = run(tmp_path, "check", "--isolated", "--output", "concise", "page.md")
     assert done.returncode == 0
     assert (
-        "page.md:16:50: error[shader-resolve-sample-count] the shader of `resolve` fetches sample 7 of `tex`, which has only 4"
-        in done.stdout
+        "page.md:16:50: error[shader-resolve-sample-count] the shader of `resolve` fetches sample "
+        "7 of `tex`, which has only 4" in done.stdout
     )

@@ -104,20 +104,31 @@ def test_two_attachments_with_a_value_each_are_two_findings(tmp_path: Path) -> N
 
 
 def test_a_value_that_several_attachments_take_is_one_finding(tmp_path: Path) -> None:
-    changed = PASS.replace("ATTACHMENTS", f"{STORED}\n{STORED}", 1).replace("storeOp = store;", "storeOp = VK_ATTACHMENT_STORE_OP_STORE;")
+    changed = PASS.replace("ATTACHMENTS", f"{STORED}\n{STORED}", 1).replace(
+        "storeOp = store;", "storeOp = VK_ATTACHMENT_STORE_OP_STORE;"
+    )
     (found,) = findings(tmp_path, changed, "--select", "MSAA201")
     assert (found["line"], found["notes"]) == (7, ["the same applies to `description (1)`"])
 
 
 def test_several_calls_are_one_finding(tmp_path: Path) -> None:
-    text = PASS.replace("ATTACHMENTS", f"{STORED}\n{STORED.replace('STORE_OP_STORE', 'STORE_OP_DONT_CARE')}", 1)
+    text = PASS.replace(
+        "ATTACHMENTS", f"{STORED}\n{STORED.replace('STORE_OP_STORE', 'STORE_OP_DONT_CARE')}", 1
+    )
     calls = "void both(VkDevice device) { create(device); create(device); }\n"
-    assert [each["line"] for each in findings(tmp_path, text + calls, "--select", "MSAA201")] == [13]
+    assert [each["line"] for each in findings(tmp_path, text + calls, "--select", "MSAA201")] == [
+        13
+    ]
 
 
 def test_a_member_that_a_function_does_not_set_is_one_finding(tmp_path: Path) -> None:
     text = PASS.replace("description.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;", "")
-    (found,) = findings(tmp_path, text.replace("ATTACHMENTS", f"{STORED}\n{STORED}", 1), "--select", "MSAA205,MSAA210")
+    (found,) = findings(
+        tmp_path,
+        text.replace("ATTACHMENTS", f"{STORED}\n{STORED}", 1),
+        "--select",
+        "MSAA205,MSAA210",
+    )
     assert (found["code"], found["line"]) == ("MSAA210", 3)
 
 
@@ -126,14 +137,29 @@ def test_a_member_that_two_elements_lack_are_two_findings(tmp_path: Path) -> Non
     text = PASS[: PASS.index(helper)] + helper + "};\n"
     for number in range(4):
         text += f"    attachments[{number}].format = VK_FORMAT_R8G8B8A8_UNORM;\n"
-        text += f"    attachments[{number}].samples = VK_SAMPLE_COUNT_{1 if number > 1 else 4}_BIT;\n"
+        text += (
+            f"    attachments[{number}].samples = VK_SAMPLE_COUNT_{1 if number > 1 else 4}_BIT;\n"
+        )
     text += PASS[PASS.index("    VkAttachmentReference colors") :]
     found = findings(tmp_path, text, "--select", "MSAA205,MSAA210")
-    assert [(each["code"], each["line"], each["subject"][-2]) for each in found] == [("MSAA210", 12, n) for n in "0123"]
+    assert [(each["code"], each["line"], each["subject"][-2]) for each in found] == [
+        ("MSAA210", 12, n) for n in "0123"
+    ]
 
 
 def test_a_description_has_every_finding(tmp_path: Path) -> None:
     (tmp_path / "a.cpp").write_text(RENDERING, encoding="utf-8")
-    (tmp_path / "a.msaa.yaml").write_text(run(tmp_path, "convert", "a.cpp").stdout, encoding="utf-8")
-    done = run(tmp_path, "check", "--isolated", "--output", "json", "--select", "MSAA201,MSAA403", "a.msaa.yaml")
+    (tmp_path / "a.msaa.yaml").write_text(
+        run(tmp_path, "convert", "a.cpp").stdout, encoding="utf-8"
+    )
+    done = run(
+        tmp_path,
+        "check",
+        "--isolated",
+        "--output",
+        "json",
+        "--select",
+        "MSAA201,MSAA403",
+        "a.msaa.yaml",
+    )
     assert [each["code"] for each in json.loads(done.stdout)["findings"]] == ["MSAA201", "MSAA403"]

@@ -26,8 +26,13 @@ d.sampleCount = 4;
 d.usage = MTLTextureUsageRenderTarget;
 id<MTLTexture> color = [device newTextureWithDescriptor:d];
 """
-PASS = "MTLRenderPassDescriptor *pass = [MTLRenderPassDescriptor renderPassDescriptor];\npass.colorAttachments[0].texture = color;\n"
-ENCODED = "id<MTLRenderCommandEncoder> encoder = [buffer renderCommandEncoderWithDescriptor:pass];\n"
+PASS = (
+    "MTLRenderPassDescriptor *pass = [MTLRenderPassDescriptor renderPassDescriptor];\n"
+    "pass.colorAttachments[0].texture = color;\n"
+)
+ENCODED = (
+    "id<MTLRenderCommandEncoder> encoder = [buffer renderCommandEncoderWithDescriptor:pass];\n"
+)
 
 
 def plain(node: Node) -> Any:
@@ -36,7 +41,11 @@ def plain(node: Node) -> Any:
     return [plain(item) for item in node.value] if node.kind == "sequence" else node.value
 
 
-def metal(body: str, language: str = "objc", around: str = "void f(id<MTLDevice> device, id<MTLCommandBuffer> buffer) {\n%s}\n") -> Any:
+def metal(
+    body: str,
+    language: str = "objc",
+    around: str = "void f(id<MTLDevice> device, id<MTLCommandBuffer> buffer) {\n%s}\n",
+) -> Any:
     (only,) = trees(Code(around % body, language))
     return plain(only.tree)["metal"]
 
@@ -89,11 +98,16 @@ def test_messages_become_calls_of_the_same_length(written: str, read_as: str) ->
 
 
 def test_methods_become_functions() -> None:
-    text = "@implementation A\n- (void)draw:(nonnull MTKView *)view at:(int)n {\n}\n+ (id)new { return nil; }\n@end\n"
+    text = (
+        "@implementation A\n- (void)draw:(nonnull MTKView *)view at:(int)n {\n}\n+ (id)new { "
+        "return nil; }\n@end\n"
+    )
     rewritten = rewrite(text)
     assert len(rewritten.text) == len(text)
     assert "void draw(MTKView * view, int n)" in rewritten.text
-    assert [(name, message.name, message.labels) for name, message in rewritten.methods.values()] == [
+    assert [
+        (name, message.name, message.labels) for name, message in rewritten.methods.values()
+    ] == [
         ("A", "draw", ("at",)),
         ("A", "new", None),
     ]
@@ -107,15 +121,25 @@ def test_methods_become_functions() -> None:
     [
         MADE,
         MADE.replace("[[MTLTextureDescriptor alloc] init]", "[MTLTextureDescriptor new]"),
-        MADE.replace("[[MTLTextureDescriptor alloc] init]", "[[[MTLTextureDescriptor alloc] init] autorelease]"),
+        MADE.replace(
+            "[[MTLTextureDescriptor alloc] init]",
+            "[[[MTLTextureDescriptor alloc] init] autorelease]",
+        ),
         MADE.replace("d.sampleCount = 4;", "[d setSampleCount:4];"),
         MADE.replace("d.sampleCount = 4;", "d.sampleCount = (NSUInteger)4;"),
         MADE.replace("d.sampleCount = 4;", "d.sampleCount = MAX(1, 4);"),
-        MADE.replace("d.sampleCount = 4;", "if (samples > 1) {\nd.sampleCount = 4;\n} else {\nd.sampleCount = 1;\n}"),
+        MADE.replace(
+            "d.sampleCount = 4;",
+            "if (samples > 1) {\nd.sampleCount = 4;\n} else {\nd.sampleCount = 1;\n}",
+        ),
     ],
 )
 def test_ways_to_a_texture(made: str) -> None:
-    assert metal(made)["textures"]["color"] == {"textureType": "type2DMultisample", "sampleCount": 4, "usage": ["renderTarget"]}
+    assert metal(made)["textures"]["color"] == {
+        "textureType": "type2DMultisample",
+        "sampleCount": 4,
+        "usage": ["renderTarget"],
+    }
 
 
 @pytest.mark.parametrize(
@@ -123,22 +147,37 @@ def test_ways_to_a_texture(made: str) -> None:
     [
         "pass.colorAttachments[0].storeAction = MTLStoreActionMultisampleResolve;",
         "[pass.colorAttachments[0] setStoreAction:MTLStoreActionMultisampleResolve];",
-        "[[pass.colorAttachments objectAtIndexedSubscript:0] setStoreAction:MTLStoreActionMultisampleResolve];",
-        "MTLRenderPassColorAttachmentDescriptor *a = pass.colorAttachments[0];\na.storeAction = MTLStoreActionMultisampleResolve;",
-        "__auto_type a = pass.colorAttachments[0];\na.storeAction = MTLStoreActionMultisampleResolve;",
-        "pass.colorAttachments[0].storeAction = samples > 1 ? MTLStoreActionMultisampleResolve : MTLStoreActionStore;",
+        "[[pass.colorAttachments objectAtIndexedSubscript:0] "
+        "setStoreAction:MTLStoreActionMultisampleResolve];",
+        "MTLRenderPassColorAttachmentDescriptor *a = pass.colorAttachments[0];\na.storeAction = "
+        "MTLStoreActionMultisampleResolve;",
+        "__auto_type a = pass.colorAttachments[0];\na.storeAction = "
+        "MTLStoreActionMultisampleResolve;",
+        "pass.colorAttachments[0].storeAction = samples > 1 ? MTLStoreActionMultisampleResolve : "
+        "MTLStoreActionStore;",
         "finish(pass, MTLStoreActionMultisampleResolve);",
-        "@autoreleasepool {\npass.colorAttachments[0].storeAction = MTLStoreActionMultisampleResolve;\n}",
-        "dispatch_sync(queue, ^{ pass.colorAttachments[0].storeAction = MTLStoreActionMultisampleResolve; });",
+        "@autoreleasepool {\npass.colorAttachments[0].storeAction = "
+        "MTLStoreActionMultisampleResolve;\n}",
+        "dispatch_sync(queue, ^{ pass.colorAttachments[0].storeAction = "
+        "MTLStoreActionMultisampleResolve; });",
     ],
 )
 @pytest.mark.parametrize("language", ["objc", "objcpp"])
 def test_ways_to_an_attachment(way: str, language: str) -> None:
     around = (
-        "static void finish(MTLRenderPassDescriptor *p, MTLStoreAction s) { p.colorAttachments[0].storeAction = s; }\n"
-        "void f(id<MTLDevice> device, id<MTLCommandBuffer> buffer, id<CAMetalDrawable> drawable) {\n%s}\n"
+        "static void finish(MTLRenderPassDescriptor *p, MTLStoreAction s) { "
+        "p.colorAttachments[0].storeAction = s; }\n"
+        "void f(id<MTLDevice> device, id<MTLCommandBuffer> buffer, id<CAMetalDrawable> drawable) "
+        "{\n%s}\n"
     )
-    body = MADE + PASS + "pass.colorAttachments[0].resolveTexture = drawable.texture;\n" + way + "\n" + ENCODED
+    body = (
+        MADE
+        + PASS
+        + "pass.colorAttachments[0].resolveTexture = drawable.texture;\n"
+        + way
+        + "\n"
+        + ENCODED
+    )
     (only,) = metal(body, language, around)["renderPasses"].values()
     assert only["colorAttachments"]["0"] == {
         "texture": "color",
@@ -151,13 +190,21 @@ def test_ways_to_an_attachment(way: str, language: str) -> None:
 def test_a_store_action_that_the_encoder_sets() -> None:
     text = MADE + PASS + "pass.colorAttachments[0].storeAction = MTLStoreActionUnknown;\n" + ENCODED
     assert color(text)["storeAction"] == "unknown"
-    assert color(text + "[encoder setColorStoreAction:MTLStoreActionStore atIndex:0];\n")["storeAction"] == "store"
-    assert "storeAction" not in color(text + "[encoder setColorStoreAction:chosen(self) atIndex:0];\n")
+    assert (
+        color(text + "[encoder setColorStoreAction:MTLStoreActionStore atIndex:0];\n")[
+            "storeAction"
+        ]
+        == "store"
+    )
+    assert "storeAction" not in color(
+        text + "[encoder setColorStoreAction:chosen(self) atIndex:0];\n"
+    )
 
 
 def test_properties_and_their_variables_are_one() -> None:
     text = (
-        "@interface A : NSObject\n@property (nonatomic, strong, nullable) id<MTLTexture> color;\n@end\n"
+        "@interface A : NSObject\n@property (nonatomic, strong, nullable) id<MTLTexture> color;\n"
+        "@end\n"
         "@implementation A {\n    NSUInteger _samples;\n}\n"
         "- (void)make:(id<MTLDevice>)device {\n"
         + MADE.replace("id<MTLTexture> color", "_color").replace("= 4", "= self->_samples")
@@ -168,14 +215,18 @@ def test_properties_and_their_variables_are_one() -> None:
     )
     (only,) = trees(Code(text, "objc"))
     tree = plain(only.tree)["metal"]
-    assert tree["textures"] == {"color": {"textureType": "type2DMultisample", "sampleCount": 4, "usage": ["renderTarget"]}}
+    assert tree["textures"] == {
+        "color": {"textureType": "type2DMultisample", "sampleCount": 4, "usage": ["renderTarget"]}
+    }
     assert [what for what, _, _ in only.assumed] == ["`samples`"]
 
 
 def test_classes_of_cpp_in_a_file_of_objective_cpp() -> None:
     text = (
-        "#import <Metal/Metal.h>\nnamespace gpu {\ntemplate <typename T> class Pool { std::vector<T> items; };\n"
-        "class Target {\npublic:\n    void make(id<MTLDevice> device);\n    void draw(id<MTLCommandBuffer> buffer);\nprivate:\n"
+        "#import <Metal/Metal.h>\nnamespace gpu {\ntemplate <typename T> class Pool { "
+        "std::vector<T> items; };\n"
+        "class Target {\npublic:\n    void make(id<MTLDevice> device);\n    void "
+        "draw(id<MTLCommandBuffer> buffer);\nprivate:\n"
         "    id<MTLTexture> color = nil;\n};\nvoid Target::make(id<MTLDevice> device) {\n"
         + MADE.replace("id<MTLTexture> color", "color")
         + "}\nvoid Target::draw(id<MTLCommandBuffer> buffer) {\n"
@@ -191,9 +242,11 @@ def test_classes_of_cpp_in_a_file_of_objective_cpp() -> None:
 
 def test_vulkan_in_objective_cpp() -> None:
     text = (
-        "void f(VkDevice device) {\n@autoreleasepool {\nVkImageCreateInfo info = {VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};\n"
+        "void f(VkDevice device) {\n@autoreleasepool {\nVkImageCreateInfo info = "
+        "{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};\n"
         "info.format = VK_FORMAT_R8G8B8A8_UNORM;\ninfo.samples = VK_SAMPLE_COUNT_4_BIT;\n"
-        "info.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;\nVkImage image;\nvkCreateImage(device, &info, nullptr, &image);\n"
+        "info.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;\nVkImage image;\nvkCreateImage(device, "
+        "&info, nullptr, &image);\n"
         '[[NSBundle mainBundle] pathForResource:@"a" ofType:nil];\n}\n}\n'
     )
     (only,) = trees(Code(text, "objcpp"))
@@ -227,6 +280,9 @@ def test_hostile_text(text: str) -> None:
 
 
 def test_an_object_of_a_class_without_members() -> None:
-    text = "Pool::Pool(int n) { }\nvoid f(id<MTLDevice> device, id<MTLCommandBuffer> buffer) {\nauto pool = Pool(1, 2);\n" + MADE + "}\n"
+    text = (
+        "Pool::Pool(int n) { }\nvoid f(id<MTLDevice> device, id<MTLCommandBuffer> buffer) {\nauto "
+        "pool = Pool(1, 2);\n" + MADE + "}\n"
+    )
     (only,) = trees(Code(text, "objcpp"))
     assert plain(only.tree)["metal"]["textures"]["color"]["sampleCount"] == 4

@@ -1,4 +1,6 @@
-"""Source code as an input of the command: detected by name and content, with a confidence, suppressed by its comments."""
+"""Source code as an input of the command: detected by name and content, with a confidence,
+suppressed by its comments.
+"""
 
 from __future__ import annotations
 
@@ -79,7 +81,9 @@ def write(folder: Path, name: str, text: str | bytes = CODE) -> str:
     return name
 
 
-def without_extra(folder: Path, *arguments: str, stdin: bytes = b"") -> subprocess.CompletedProcess[str]:
+def without_extra(
+    folder: Path, *arguments: str, stdin: bytes = b""
+) -> subprocess.CompletedProcess[str]:
     """Runs an installation without the extra."""
     blocked = folder / "blocked"
     write(blocked, "sitecustomize.py", "import sys\nsys.modules['tree_sitter'] = None\n")
@@ -94,7 +98,11 @@ def findings(folder: Path, *arguments: str) -> list[dict[str, Any]]:
 
 
 def places(folder: Path, *arguments: str) -> list[tuple[int, int, int]]:
-    return [(each["line"], each["column"], each["end_column"]) for each in findings(folder, *ONLY, *arguments) if each["rule"] == RULE]
+    return [
+        (each["line"], each["column"], each["end_column"])
+        for each in findings(folder, *ONLY, *arguments)
+        if each["rule"] == RULE
+    ]
 
 
 WHOLE = [(LINE, COLUMN, COLUMN + len("VK_ATTACHMENT_STORE_OP_DONT_CARE"))]
@@ -104,7 +112,23 @@ WHOLE = [(LINE, COLUMN, COLUMN + len("VK_ATTACHMENT_STORE_OP_DONT_CARE"))]
 
 
 @pytest.mark.parametrize(
-    "name", ["a.cpp", "a.cc", "A.CXX", "a.hpp", "a.h", "a.c", "a.inl", "a.h++", "a.tpp", "a.ixx", "a.cppm", "a.cu", "a.m", "a.mm"]
+    "name",
+    [
+        "a.cpp",
+        "a.cc",
+        "A.CXX",
+        "a.hpp",
+        "a.h",
+        "a.c",
+        "a.inl",
+        "a.h++",
+        "a.tpp",
+        "a.ixx",
+        "a.cppm",
+        "a.cu",
+        "a.m",
+        "a.mm",
+    ],
 )
 def test_a_source_file_is_judged_at_its_lines(tmp_path: Path, name: str) -> None:
     write(tmp_path, name)
@@ -119,7 +143,9 @@ def test_what_is_right_is_found_right(tmp_path: Path) -> None:
 
 
 def test_standard_input_goes_by_its_name_or_its_format(tmp_path: Path) -> None:
-    done = run(tmp_path, "check", *ONLY, "-", "--stdin-filename", "src/pass.cpp", stdin=CODE.encode())
+    done = run(
+        tmp_path, "check", *ONLY, "-", "--stdin-filename", "src/pass.cpp", stdin=CODE.encode()
+    )
     assert f"src/pass.cpp:{PLACE}: {FOUND}" in done.stdout
     done = run(tmp_path, "check", *ONLY, "-", "--input-format", "cpp", stdin=CODE.encode())
     assert f"<stdin>:{PLACE}: {FOUND}" in done.stdout
@@ -131,8 +157,13 @@ def test_the_format_that_is_named_goes_before_the_name(tmp_path: Path) -> None:
     write(tmp_path, "a.txt")
     assert places(tmp_path, "a.txt", "--input-format", "c") == WHOLE
     write(tmp_path, "a.cpp", DESCRIPTION)
-    assert run(tmp_path, "check", "--isolated", "a.cpp", "--input-format", "description").returncode == 0
-    assert run(tmp_path, "check", "--isolated", "a.cpp", "--input-format", "vulkan-sc").returncode == 2
+    assert (
+        run(tmp_path, "check", "--isolated", "a.cpp", "--input-format", "description").returncode
+        == 0
+    )
+    assert (
+        run(tmp_path, "check", "--isolated", "a.cpp", "--input-format", "vulkan-sc").returncode == 2
+    )
 
 
 @pytest.mark.parametrize(
@@ -170,7 +201,10 @@ def test_languages_by_ending_and_fences(name: str, head: str, language: str | No
 
 def test_the_hook_takes_the_endings_of_source_code() -> None:
     hooks = (ROOT / ".pre-commit-hooks.yaml").read_text(encoding="utf-8")
-    assert f"files: \\.({'|'.join(ending[1:].replace('+', chr(92) + '+') for ending in SOURCES)})$" in hooks
+    assert (
+        f"files: \\.({'|'.join(ending[1:].replace('+', chr(92) + '+') for ending in SOURCES)})$"
+        in hooks
+    )
 
 
 # Findings.
@@ -184,28 +218,45 @@ def test_findings_that_rest_on_an_assumption_fail_nothing_unless_asked_to(tmp_pa
     write(tmp_path, "a.md", f"```cpp\n{CODE}```\n")
     done = run(tmp_path, "check", *ONLY, "a.md")
     assert done.returncode == 0
-    assert "Found 1 finding (1 warning) in 1 file (1 Markdown page: 1 pass); 1 of low confidence, below --fail-confidence\n" in done.stdout
+    assert (
+        "Found 1 finding (1 warning) in 1 file (1 Markdown page: 1 pass); 1 of low confidence, "
+        "below --fail-confidence\n" in done.stdout
+    )
     done = run(tmp_path, "check", *ONLY, "a.md", "--fail-confidence", "low")
     assert done.returncode == 1
     assert "confidence" not in done.stdout
     write(tmp_path, "msaa-lint.toml", 'fail-confidence = "low"\n')
     assert run(tmp_path, "check", "--select", RULE, "a.md").returncode == 1
-    assert run(tmp_path, "check", "--select", RULE, "a.md", "--fail-confidence", "medium").returncode == 0
-    assert run(tmp_path, "check", "--select", RULE, "a.cpp", "--fail-confidence", "high").returncode == 0
+    assert (
+        run(tmp_path, "check", "--select", RULE, "a.md", "--fail-confidence", "medium").returncode
+        == 0
+    )
+    assert (
+        run(tmp_path, "check", "--select", RULE, "a.cpp", "--fail-confidence", "high").returncode
+        == 0
+    )
     write(tmp_path, "msaa-lint.toml", 'fail-confidence = "lowest"\n')
     done = run(tmp_path, "check", "--select", RULE, "a.cpp")
     assert done.returncode == 2
     assert "msaa-lint.toml:1:19: error[configuration] unknown value `lowest`" in done.stdout
 
 
-def test_every_finding_of_code_is_of_medium_confidence_at_most_and_without_edits(tmp_path: Path) -> None:
+def test_every_finding_of_code_is_of_medium_confidence_at_most_and_without_edits(
+    tmp_path: Path,
+) -> None:
     write(tmp_path, "a.cpp")
     found = findings(tmp_path, "--isolated", "a.cpp")
     assert RULE in {each["rule"] for each in found}
     assert {each["confidence"] for each in found} == {"medium"}
     assert not any(each["fixable"] for each in found)
     (own,) = (each for each in found if each["rule"] == RULE)
-    assert own["fix"] == {"title": "set storeOp to STORE", "safe": False, "shown": True, "choice": False, "refusal": None}
+    assert own["fix"] == {
+        "title": "set storeOp to STORE",
+        "safe": False,
+        "shown": True,
+        "choice": False,
+        "refusal": None,
+    }
 
 
 def test_undecided_rules_are_not_told(tmp_path: Path) -> None:
@@ -223,7 +274,9 @@ def test_code_is_not_fixed(tmp_path: Path) -> None:
         assert "a.cpp is source code and is not fixed" in done.stderr
     assert (tmp_path / "a.cpp").read_text() == CODE
     for text in (CODE, "// µ\r\nint samples;\r\n"):
-        done = run(tmp_path, "check", *ONLY, "--fix", "-", "--stdin-filename", "a.cpp", stdin=text.encode())
+        done = run(
+            tmp_path, "check", *ONLY, "--fix", "-", "--stdin-filename", "a.cpp", stdin=text.encode()
+        )
         assert (done.returncode, done.stdout) == (int(text == CODE), text)
 
 
@@ -231,7 +284,10 @@ def test_the_same_bytes_every_time(tmp_path: Path) -> None:
     write(tmp_path, "b/a.cpp")
     write(tmp_path, "a.c")
     write(tmp_path, "a.msaa.yaml", DESCRIPTION)
-    runs = {run(tmp_path, "check", "--isolated", "--output", "json", *order).stdout for order in ((".",), ("b", "a.msaa.yaml", "a.c"))}
+    runs = {
+        run(tmp_path, "check", "--isolated", "--output", "json", *order).stdout
+        for order in ((".",), ("b", "a.msaa.yaml", "a.c"))
+    }
     assert len(runs) == 1
     files = [each["file"] for each in json.loads(runs.pop())["findings"]]
     assert files == sorted(files)
@@ -254,10 +310,23 @@ def test_the_same_bytes_every_time(tmp_path: Path) -> None:
         b"resolve /* " * 1000,
         CODE.encode("utf-16"),
     ],
-    ids=["empty", "comment", "broken UTF-16", "Latin-1", "binary", "parentheses", "braces", "ifs", "open comment", "UTF-16"],
+    ids=[
+        "empty",
+        "comment",
+        "broken UTF-16",
+        "Latin-1",
+        "binary",
+        "parentheses",
+        "braces",
+        "ifs",
+        "open comment",
+        "UTF-16",
+    ],
 )
 @pytest.mark.parametrize("name", ["a.c", "a.cpp", "a.swift", "a.frag", "a.md"])
-def test_no_text_is_an_error_but_one_that_takes_too_long_to_parse(tmp_path: Path, name: str, text: bytes) -> None:
+def test_no_text_is_an_error_but_one_that_takes_too_long_to_parse(
+    tmp_path: Path, name: str, text: bytes
+) -> None:
     write(tmp_path, name, text)
     begun = time.process_time()
     done = run(tmp_path, "check", *ONLY, name)
@@ -267,21 +336,28 @@ def test_no_text_is_an_error_but_one_that_takes_too_long_to_parse(tmp_path: Path
         assert "the code is too long or too complex to parse (MSAA906)" in done.stdout
     else:
         assert (done.returncode, done.stderr) == (int(FOUND in done.stdout), ""), done.stdout
-    assert (FOUND in done.stdout) == (b"R8G8B8A8" in text.replace(b"\0", b"") and name in ("a.c", "a.cpp"))
+    assert (FOUND in done.stdout) == (
+        b"R8G8B8A8" in text.replace(b"\0", b"") and name in ("a.c", "a.cpp")
+    )
 
 
 def test_the_limit_on_bytes_holds(tmp_path: Path) -> None:
     write(tmp_path, "a.cpp")
     done = run(tmp_path, "check", *ONLY, "a.cpp", "--max-bytes", "100")
     assert done.returncode == 2
-    assert "a.cpp: error[limit-exceeded] cannot read the input: the input is larger than the limit of 100 bytes" in done.stdout
+    assert (
+        "a.cpp: error[limit-exceeded] cannot read the input: the input is larger than the limit of "
+        "100 bytes" in done.stdout
+    )
 
 
 def test_places_count_characters(tmp_path: Path) -> None:
     text = CODE.replace("    " + MISTAKE, f"    /* Größe 😀 */ {MISTAKE}").replace("\n", "\r\n")
     write(tmp_path, "a.cpp", text)
     shift = len("/* Größe 😀 */ ")
-    assert places(tmp_path, "a.cpp") == [(line, column + shift, end + shift) for line, column, end in WHOLE]
+    assert places(tmp_path, "a.cpp") == [
+        (line, column + shift, end + shift) for line, column, end in WHOLE
+    ]
 
 
 # Without the extra.
@@ -294,7 +370,11 @@ def test_without_the_extra_a_named_file_says_what_to_install(tmp_path: Path, nam
     write(tmp_path, name, f"```cpp\n{CODE}```\n" if name == "a.md" else CODE)
     done = without_extra(tmp_path, "check", "--isolated", name)
     assert (done.returncode, done.stderr) == (2, "")
-    assert done.stdout == f"{name}: error[configuration] {MISSING} (MSAA921)\nFound 1 finding (1 error) in 1 file\n"
+    assert (
+        done.stdout
+        == f"{name}: error[configuration] {MISSING} (MSAA921)\nFound 1 finding (1 error) in 1 "
+        f"file\n"
+    )
 
 
 @pytest.mark.parametrize("command", ["cost", "facts", "convert", "confirm", "study"])
@@ -339,14 +419,26 @@ def checked(folder: Path, *arguments: str) -> int:
 
 def test_of_a_folder_what_speaks_of_multisampling_is_linted(tmp_path: Path) -> None:
     write(tmp_path, "yes/a.cpp")
-    write(tmp_path, "yes/late.h", "// " + "x" * 500_000 + "\nvoid f(VkImageCreateInfo* info, int numSamples);\n")
+    write(
+        tmp_path,
+        "yes/late.h",
+        "// " + "x" * 500_000 + "\nvoid f(VkImageCreateInfo* info, int numSamples);\n",
+    )
     write(tmp_path, "yes/a.frag", "uniform sampler2DMS image;\n")
     write(tmp_path, "yes/a.swift", "let d = MTLTextureDescriptor()\nd.sampleCount = 4\n")
     write(tmp_path, "yes/a.mm")
-    write(tmp_path, "yes/a.m", "#import <Metal/Metal.h>\nvoid f(MTLTextureDescriptor *d) { d.sampleCount = 4; }\n")
+    write(
+        tmp_path,
+        "yes/a.m",
+        "#import <Metal/Metal.h>\nvoid f(MTLTextureDescriptor *d) { d.sampleCount = 4; }\n",
+    )
     assert checked(tmp_path, "yes") == 6
     write(tmp_path, "no/words/main.cpp", "int main() { return 0; } // MSAA, some day\n")
-    write(tmp_path, "no/single.cpp", "VkImageCreateInfo info{};\ninfo.samples = VK_SAMPLE_COUNT_1_BIT;\n")
+    write(
+        tmp_path,
+        "no/single.cpp",
+        "VkImageCreateInfo info{};\ninfo.samples = VK_SAMPLE_COUNT_1_BIT;\n",
+    )
     write(tmp_path, "no/far.cpp", "// " + "x" * (1 << 20) + "\nVkImageCreateInfo msaa;\n")
     write(tmp_path, "no/page.md", f"```cpp\n{CODE}```\n")
     write(tmp_path, "no/text.txt", f"```cpp\n{CODE}```\n")
@@ -377,7 +469,11 @@ def test_exclude_and_per_file_ignores_hold_for_code(tmp_path: Path) -> None:
     done = run(tmp_path, "check", ".")
     assert f"src/a.cpp:{PLACE}" in done.stdout
     assert "third_party" not in done.stdout
-    write(tmp_path, "msaa-lint.toml", f'select = ["{RULE}"]\n[per-file-ignores]\n"src/**" = ["{RULE}"]\n')
+    write(
+        tmp_path,
+        "msaa-lint.toml",
+        f'select = ["{RULE}"]\n[per-file-ignores]\n"src/**" = ["{RULE}"]\n',
+    )
     done = run(tmp_path, "check", ".")
     assert "src/a.cpp" not in done.stdout
     assert f"third_party/a.cpp:{PLACE}" in done.stdout
@@ -426,18 +522,27 @@ def test_the_blocks_of_a_page_are_one_program(tmp_path: Path, name: str) -> None
 def test_a_page_without_code_has_no_findings(tmp_path: Path) -> None:
     write(tmp_path, "page.md", "# MSAA\n\n```yaml\nimages: {}\n```\n")
     done = run(tmp_path, "check", *ONLY, "page.md")
-    assert (done.returncode, done.stdout) == (0, "No findings in 1 file (1 Markdown page: nothing read)\n")
+    assert (done.returncode, done.stdout) == (
+        0,
+        "No findings in 1 file (1 Markdown page: nothing read)\n",
+    )
 
 
 # Suppressions.
 
 
-def silenced(folder: Path, text: str, *arguments: str, name: str = "a.cpp") -> tuple[int, list[tuple[str, int, int]]]:
-    """Returns the number of findings that comments suppress, and the others by rule, line, and column."""
+def silenced(
+    folder: Path, text: str, *arguments: str, name: str = "a.cpp"
+) -> tuple[int, list[tuple[str, int, int]]]:
+    """Returns the number of findings that comments suppress, and the others by rule, line, and
+    column.
+    """
     write(folder, name, text)
     done = run(folder, "check", "--output", "json", *ONLY, *arguments, name)
     result = json.loads(done.stdout)
-    return len(result["suppressed"]), [(each["rule"], each["line"], each["column"]) for each in result["findings"]]
+    return len(result["suppressed"]), [
+        (each["rule"], each["line"], each["column"]) for each in result["findings"]
+    ]
 
 
 @pytest.mark.parametrize(
@@ -466,20 +571,33 @@ def test_a_comment_alone_above_the_line_silences(tmp_path: Path, comment: str) -
 
 
 def test_what_is_silenced_keeps_its_reason(tmp_path: Path) -> None:
-    write(tmp_path, "a.cpp", CODE.replace(MISTAKE, f"{MISTAKE} /* msaa-lint: ignore[{RULE}] shown elsewhere */"))
+    write(
+        tmp_path,
+        "a.cpp",
+        CODE.replace(MISTAKE, f"{MISTAKE} /* msaa-lint: ignore[{RULE}] shown elsewhere */"),
+    )
     done = run(tmp_path, "check", "--output", "json", *ONLY, "a.cpp")
     (entry,) = json.loads(done.stdout)["suppressed"]
-    assert (entry["how"], entry["reason"], entry["finding"]["confidence"]) == ("inline", "shown elsewhere", "medium")
+    assert (entry["how"], entry["reason"], entry["finding"]["confidence"]) == (
+        "inline",
+        "shown elsewhere",
+        "medium",
+    )
 
 
 def test_what_is_no_comment_silences_nothing(tmp_path: Path) -> None:
-    for text in (f'; const char* s = "// msaa-lint: ignore[{RULE}]";', f'; auto s = R"(// msaa-lint: ignore[{RULE}])";'):
+    for text in (
+        f'; const char* s = "// msaa-lint: ignore[{RULE}]";',
+        f'; auto s = R"(// msaa-lint: ignore[{RULE}])";',
+    ):
         silent, left = silenced(tmp_path, CODE.replace(MISTAKE, MISTAKE + text))
         assert (silent, left) == (0, [(RULE, LINE, COLUMN)])
 
 
 def test_no_ignores_disregards_them(tmp_path: Path) -> None:
-    silent, left = silenced(tmp_path, CODE.replace(MISTAKE, f"{MISTAKE} // msaa-lint: ignore[{RULE}]"), "--no-ignores")
+    silent, left = silenced(
+        tmp_path, CODE.replace(MISTAKE, f"{MISTAKE} // msaa-lint: ignore[{RULE}]"), "--no-ignores"
+    )
     assert (silent, left) == (0, [(RULE, LINE, COLUMN)])
 
 
@@ -492,7 +610,11 @@ def test_the_first_comments_silence_for_the_file(tmp_path: Path) -> None:
 
 def test_an_unused_comment_is_reported(tmp_path: Path) -> None:
     silent, left = silenced(
-        tmp_path, GOOD.replace("VkSubpassDescription subpass", f"/* msaa-lint: ignore[{RULE}] */ VkSubpassDescription subpass")
+        tmp_path,
+        GOOD.replace(
+            "VkSubpassDescription subpass",
+            f"/* msaa-lint: ignore[{RULE}] */ VkSubpassDescription subpass",
+        ),
     )
     assert (silent, left) == (0, [("unused-suppression", 17, 26)])
     done = run(tmp_path, "check", *ONLY, "a.cpp")
@@ -531,10 +653,23 @@ def test_convert_writes_what_was_read(tmp_path: Path) -> None:
 
 def test_cost_reckons_what_the_code_states(tmp_path: Path) -> None:
     write(tmp_path, "a.cpp", GOOD)
-    done = run(tmp_path, "cost", "a.cpp", "--isolated", "--size", "1920x1080", "--fps", "60", "--output", "json")
+    done = run(
+        tmp_path,
+        "cost",
+        "a.cpp",
+        "--isolated",
+        "--size",
+        "1920x1080",
+        "--fps",
+        "60",
+        "--output",
+        "json",
+    )
     assert done.returncode == 0
     # One sample per pixel with four bytes, stored sixty times a second.
-    assert json.loads(done.stdout)["total"]["write_mb_per_s"] == pytest.approx(1920 * 1080 * 4 * 60 / 1e6)
+    assert json.loads(done.stdout)["total"]["write_mb_per_s"] == pytest.approx(
+        1920 * 1080 * 4 * 60 / 1e6
+    )
 
 
 def test_facts_shows_what_is_known(tmp_path: Path) -> None:
@@ -542,7 +677,9 @@ def test_facts_shows_what_is_known(tmp_path: Path) -> None:
     done = run(tmp_path, "facts", "a.cpp", "--output", "json")
     assert done.returncode == 0
     facts = [row["facts"] for row in json.loads(done.stdout) if row["subject"] == "attachment"]
-    samples = [(each["attachment.samples"]["value"], each["attachment.samples"]["line"]) for each in facts]
+    samples = [
+        (each["attachment.samples"]["value"], each["attachment.samples"]["line"]) for each in facts
+    ]
     assert samples == [(4, 6), (1, 11)]
 
 
@@ -551,7 +688,10 @@ def test_code_is_not_drawn(tmp_path: Path, command: str) -> None:
     write(tmp_path, "a.cpp")
     done = run(tmp_path, command, "a.cpp")
     assert done.returncode == 2
-    assert "a.cpp: source code does not describe a complete frame: complete the description that `msaa-lint convert` writes" in done.stderr
+    assert (
+        "a.cpp: source code does not describe a complete frame: complete the description that "
+        "`msaa-lint convert` writes" in done.stderr
+    )
 
 
 # Assumptions.
@@ -566,7 +706,9 @@ def test_what_is_assumed_is_a_note(monkeypatch: pytest.MonkeyPatch) -> None:
 
     def trees(code: parsing.Code) -> list[parsing.Read]:
         at = Span(0, 1)
-        assumed = tuple((f"the sample count `m_{n}`", Span(code.text.index("m_"), 3), str(n)) for n in range(4))
+        assumed = tuple(
+            (f"the sample count `m_{n}`", Span(code.text.index("m_"), 3), str(n)) for n in range(4)
+        )
         return [parsing.Read(mapping([], at), assumed[:1]), parsing.Read(mapping([], at), assumed)]
 
     stand_in = ModuleType("msaa_lint.input.code.stand_in")
@@ -582,38 +724,68 @@ def test_what_is_assumed_is_a_note(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.mark.parametrize(
     ("name", "code", "language"),
-    [("a.m", "function y = f(x)\nend\n", "MATLAB"), ("a.m", "(* x *)\n", "Mathematica"), ("a.m", ":- module x.\n", "Mercury")],
+    [
+        ("a.m", "function y = f(x)\nend\n", "MATLAB"),
+        ("a.m", "(* x *)\n", "Mathematica"),
+        ("a.m", ":- module x.\n", "Mercury"),
+    ],
 )
-def test_other_languages_with_the_ending_of_objective_c_are_named(tmp_path: Path, name: str, code: str, language: str) -> None:
+def test_other_languages_with_the_ending_of_objective_c_are_named(
+    tmp_path: Path, name: str, code: str, language: str
+) -> None:
     (tmp_path / name).write_text(code, encoding="utf-8")
     done = run(tmp_path, "check", "--isolated", name)
     assert done.returncode == 2
-    assert f"this is {language}, which is not read; --input-format can be c, cpp, objc," in done.stdout
+    assert (
+        f"this is {language}, which is not read; --input-format can be c, cpp, objc," in done.stdout
+    )
 
 
-@pytest.mark.parametrize(("page", "text"), [("a.adoc", "[source,cpp]\n----\n{}----\n"), ("a.rst", ".. code-block:: cpp\n\n{}")])
+@pytest.mark.parametrize(
+    ("page", "text"),
+    [("a.adoc", "[source,cpp]\n----\n{}----\n"), ("a.rst", ".. code-block:: cpp\n\n{}")],
+)
 def test_code_of_pages_is_checked_at_its_lines(tmp_path: Path, page: str, text: str) -> None:
-    code = CODE if page == "a.adoc" else "".join(f"   {line}\n" if line else "\n" for line in CODE.splitlines())
+    code = (
+        CODE
+        if page == "a.adoc"
+        else "".join(f"   {line}\n" if line else "\n" for line in CODE.splitlines())
+    )
     write(tmp_path, page, text.format(code))
     ((line, column, _),) = places(tmp_path, page)
     assert (line, column) == (LINE + 2, COLUMN + 3 * (page == "a.rst"))
 
 
-@pytest.mark.parametrize(("name", "language"), [("shader.HLSL", "HLSL"), ("main.go", "Go"), ("App.java", "Java")])
-def test_a_language_that_is_not_read_is_said_to_be(tmp_path: Path, name: str, language: str) -> None:
+@pytest.mark.parametrize(
+    ("name", "language"), [("shader.HLSL", "HLSL"), ("main.go", "Go"), ("App.java", "Java")]
+)
+def test_a_language_that_is_not_read_is_said_to_be(
+    tmp_path: Path, name: str, language: str
+) -> None:
     path = tmp_path / name
     path.write_text(CODE, encoding="utf-8")
     done = run(tmp_path, "check", "--isolated", name)
     assert done.returncode == 2
     assert f"this is {language}, which is not read; --input-format can be c, cpp," in done.stdout
-    assert run(tmp_path, "check", *ONLY, "--input-format", "cpp", name).stdout.startswith(f"{name}:{PLACE}: {FOUND}")
+    assert run(tmp_path, "check", *ONLY, "--input-format", "cpp", name).stdout.startswith(
+        f"{name}:{PLACE}: {FOUND}"
+    )
 
 
 def test_folders_are_checked_without_the_headers_of_vulkan(tmp_path: Path) -> None:
     (tmp_path / "libs").mkdir()
-    (tmp_path / "libs/vulkan_hash.hpp").write_text("struct VkImageCreateInfo { VkSampleCountFlagBits samples; };\n")
-    (tmp_path / "libs/targets.h").write_text("#define LEVELS VK_SAMPLE_COUNT_4_BIT\nstruct Targets { VkImageCreateInfo color; };\n")
-    text = '#include "targets.h"\nvoid f(VkImageCreateInfo& info) { info.samples = LEVELS; int msaaSampleCount; }\n'
+    (tmp_path / "libs/vulkan_hash.hpp").write_text(
+        "struct VkImageCreateInfo { VkSampleCountFlagBits samples; };\n"
+    )
+    (tmp_path / "libs/targets.h").write_text(
+        "#define LEVELS VK_SAMPLE_COUNT_4_BIT\nstruct Targets { VkImageCreateInfo color; };\n"
+    )
+    text = (
+        '#include "targets.h"\nvoid f(VkImageCreateInfo& info) { info.samples = LEVELS; int '
+        "msaaSampleCount; }\n"
+    )
     (tmp_path / "libs/targets.cpp").write_text(text)
-    report = json.loads(run(tmp_path, "check", "--isolated", "--no-cache", "--output", "json", ".").stdout)
+    report = json.loads(
+        run(tmp_path, "check", "--isolated", "--no-cache", "--output", "json", ".").stdout
+    )
     assert [entry["file"] for entry in report["inputs"]] == ["libs/targets.cpp", "libs/targets.h"]

@@ -1,4 +1,6 @@
-"""The page on Impeller is true: its examples are what it says. Of its table see tests/test_texts.py."""
+"""The page on Impeller is true: its examples are what it says. Of its table see
+tests/test_texts.py.
+"""
 
 from __future__ import annotations
 

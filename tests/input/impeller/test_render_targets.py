@@ -1,4 +1,6 @@
-"""Impeller's render targets: what the engine builds of them, where the findings stand, and what it cannot be asked for."""
+"""Impeller's render targets: what the engine builds of them, where the findings stand, and what it
+cannot be asked for.
+"""
 
 from __future__ import annotations
 
@@ -33,7 +35,10 @@ def read(text: str) -> Document:
 
 def vulkan(target: str, device: str = LAZY) -> Document:
     """The document of one target on Vulkan, of a size."""
-    made = read(f"device: {device}\nrenderTargets:\n  main: {{api: vulkan, width: 64, height: 32, {target}}}\n")
+    made = read(
+        f"device: {device}\nrenderTargets:\n  main: {{api: vulkan, width: 64, height: 32, "
+        f"{target}}}\n"
+    )
     assert made.problems == ()
     assert made.tree is not None
     return made
@@ -50,15 +55,27 @@ def test_defaults_of_an_onscreen_target_are_the_engines() -> None:
     frame = made.description
     assert list(frame.images) == ["main_color_ms", "main_color", "main_depth_stencil"]
     color, shown, depth = frame.images.values()
-    assert (color.format, color.samples, color.memory) == ("R8G8B8A8_UNORM", 4, ("DEVICE_LOCAL", "LAZILY_ALLOCATED"))
+    assert (color.format, color.samples, color.memory) == (
+        "R8G8B8A8_UNORM",
+        4,
+        ("DEVICE_LOCAL", "LAZILY_ALLOCATED"),
+    )
     assert color.usage == ("COLOR_ATTACHMENT", "INPUT_ATTACHMENT", "TRANSIENT_ATTACHMENT")
-    assert (shown.samples, shown.presentable, shown.memory, shown.usage) == (1, True, None, ("COLOR_ATTACHMENT", "INPUT_ATTACHMENT"))
+    assert (shown.samples, shown.presentable, shown.memory, shown.usage) == (
+        1,
+        True,
+        None,
+        ("COLOR_ATTACHMENT", "INPUT_ATTACHMENT"),
+    )
     assert (depth.format, depth.samples) == ("D24_UNORM_S8_UINT", 4)
     assert depth.usage == ("DEPTH_STENCIL_ATTACHMENT", "TRANSIENT_ATTACHMENT")
     assert color.extent is not None
     assert (color.extent.width, color.extent.height, color.extent.depth) == (64, 32, 1)
     built = frame.renderPasses["main"]
-    ops = {each.key: (each.image, each.loadOp, each.storeOp, each.stencilLoadOp, each.stencilStoreOp) for each in built.attachments}
+    ops = {
+        each.key: (each.image, each.loadOp, each.storeOp, each.stencilLoadOp, each.stencilStoreOp)
+        for each in built.attachments
+    }
     assert ops == {
         "color_ms": ("main_color_ms", "CLEAR", "DONT_CARE", None, None),
         "color": ("main_color", "CLEAR", "STORE", None, None),
@@ -69,14 +86,26 @@ def test_defaults_of_an_onscreen_target_are_the_engines() -> None:
     assert [slot.attachment for slot in subpass.resolveAttachments] == ["color"]
     assert subpass.depthStencilAttachment is not None
     assert subpass.depthStencilAttachment.attachment == "depth_stencil"
-    assert frame.framebuffers["main"].attachments == ("main_color_ms", "main_color", "main_depth_stencil")
+    assert frame.framebuffers["main"].attachments == (
+        "main_color_ms",
+        "main_color",
+        "main_depth_stencil",
+    )
     assert rasterized(made) == 4
-    assert [command.kind for command in frame.commands or ()] == ["beginRenderPass", "draw", "endRenderPass", "pipelineBarrier", "present"]
+    assert [command.kind for command in frame.commands or ()] == [
+        "beginRenderPass",
+        "draw",
+        "endRenderPass",
+        "pipelineBarrier",
+        "present",
+    ]
 
 
 def test_memory_that_is_not_lazily_allocated_makes_nothing_transient() -> None:
     color = vulkan("sampleCount: 4", EAGER).description.images["main_color_ms"]
-    assert color.usage == ("COLOR_ATTACHMENT", "INPUT_ATTACHMENT"), "and no transfers: the mode is transient all the same"
+    assert color.usage == ("COLOR_ATTACHMENT", "INPUT_ATTACHMENT"), (
+        "and no transfers: the mode is transient all the same"
+    )
     assert color.memory == ("DEVICE_LOCAL",)
 
 
@@ -97,7 +126,8 @@ def test_a_device_that_is_not_known_leaves_usage_and_memory_unknown(device: str)
 )
 def test_storage_modes(mode: str, usage: tuple[str, ...], memory: tuple[str, ...] | None) -> None:
     made = vulkan(
-        f"sampleCount: 4, colorAttachmentConfig: {{storageMode: {mode}, resolveStorageMode: {mode}}},"
+        f"sampleCount: 4, colorAttachmentConfig: {{storageMode: {mode}, resolveStorageMode: "
+        f"{mode}}},"
         f" stencilAttachmentConfig: {{storageMode: {mode}}}"
     )
     color, resolved, depth = made.description.images.values()
@@ -117,30 +147,53 @@ def test_storage_modes(mode: str, usage: tuple[str, ...], memory: tuple[str, ...
     ],
 )
 def test_store_actions(action: str, stored: str, resolved: bool) -> None:
-    made = vulkan(f"sampleCount: 4, enableStencil: false, colorAttachmentConfig: {{storeAction: {action}}}")
+    made = vulkan(
+        f"sampleCount: 4, enableStencil: false, colorAttachmentConfig: {{storeAction: {action}}}"
+    )
     built = made.description.renderPasses["main"]
-    assert [each.storeOp for each in built.attachments] == ([stored, "STORE"] if resolved else [stored])
+    assert [each.storeOp for each in built.attachments] == (
+        [stored, "STORE"] if resolved else [stored]
+    )
     assert bool(built.subpasses[0].resolveAttachments) == resolved
     assert len(made.description.framebuffers["main"].attachments) == len(built.attachments)
 
 
 @pytest.mark.parametrize(
     ("action", "operation", "layout"),
-    [("kLoad", "LOAD", "GENERAL"), ("kClear", "CLEAR", "UNDEFINED"), ("kDontCare", "DONT_CARE", "UNDEFINED")],
+    [
+        ("kLoad", "LOAD", "GENERAL"),
+        ("kClear", "CLEAR", "UNDEFINED"),
+        ("kDontCare", "DONT_CARE", "UNDEFINED"),
+    ],
 )
 def test_load_actions(action: str, operation: str, layout: str) -> None:
     config = f"{{storageMode: kDevicePrivate, loadAction: {action}}}"
-    made = vulkan(f"sampleCount: 4, depthFormat: kD32FloatS8UInt, colorAttachmentConfig: {config}, stencilAttachmentConfig: {config}")
+    made = vulkan(
+        f"sampleCount: 4, depthFormat: kD32FloatS8UInt, colorAttachmentConfig: {config}, "
+        f"stencilAttachmentConfig: {config}"
+    )
     color, resolve, depth = made.description.renderPasses["main"].attachments
     assert (color.loadOp, color.initialLayout) == (operation, layout)
     assert (resolve.loadOp, resolve.initialLayout) == (operation, layout)
-    assert (depth.loadOp, depth.stencilLoadOp, depth.initialLayout) == (operation, operation, "UNDEFINED")
+    assert (depth.loadOp, depth.stencilLoadOp, depth.initialLayout) == (
+        operation,
+        operation,
+        "UNDEFINED",
+    )
 
 
 def test_stencil_alone_has_no_operations_of_depth() -> None:
-    made = vulkan("sampleCount: 4, depthFormat: kS8UInt, stencilAttachmentConfig: {loadAction: kClear, storeAction: kDontCare}")
+    made = vulkan(
+        "sampleCount: 4, depthFormat: kS8UInt, stencilAttachmentConfig: {loadAction: kClear, "
+        "storeAction: kDontCare}"
+    )
     depth = made.description.renderPasses["main"].attachments[-1]
-    assert (depth.loadOp, depth.storeOp, depth.stencilLoadOp, depth.stencilStoreOp) == ("DONT_CARE", "DONT_CARE", "CLEAR", "DONT_CARE")
+    assert (depth.loadOp, depth.storeOp, depth.stencilLoadOp, depth.stencilStoreOp) == (
+        "DONT_CARE",
+        "DONT_CARE",
+        "CLEAR",
+        "DONT_CARE",
+    )
 
 
 def test_one_sample_is_drawn_where_it_is_shown() -> None:
@@ -170,7 +223,17 @@ def test_the_size_is_the_frames_where_the_target_has_none() -> None:
 
 
 @pytest.mark.parametrize(
-    ("word", "count"), [(1, 1), ("kCount1", 1), ("kCount4", 4), (4, 4), ("k2", 2), ("k8", 8), ("kCount16", 16), ("k16", 16)]
+    ("word", "count"),
+    [
+        (1, 1),
+        ("kCount1", 1),
+        ("kCount4", 4),
+        (4, 4),
+        ("k2", 2),
+        ("k8", 8),
+        ("kCount16", 16),
+        ("k16", 16),
+    ],
 )
 def test_sample_counts(word: int | str, count: int) -> None:
     assert sample_count(word) == count
@@ -178,7 +241,11 @@ def test_sample_counts(word: int | str, count: int) -> None:
 
 
 MISTAKES = [
-    ("renderTargets: {a: {api: ⟦vulcan⟧}}", "`api` must be vulkan or metal, found `vulcan`; did you mean `vulkan`?", ""),
+    (
+        "renderTargets: {a: {api: ⟦vulcan⟧}}",
+        "`api` must be vulkan or metal, found `vulcan`; did you mean `vulkan`?",
+        "",
+    ),
     ("renderTargets: {⟦a⟧: {sampleCount: 4}}", "`a` must have an `api`: vulkan or metal", ""),
     (
         "renderTargets: {a: {api: vulkan, ⟦colourFormat⟧: kR8UNormInt}}",
@@ -187,21 +254,29 @@ MISTAKES = [
     ),
     (
         "renderTargets: {a: {api: vulkan, colorAttachmentConfig: {⟦storageMod⟧: kDevicePrivate}}}",
-        "unknown key `storageMod` in renderTargets.a.colorAttachmentConfig: did you mean `storageMode`?",
+        "unknown key `storageMod` in renderTargets.a.colorAttachmentConfig: did you mean "
+        "`storageMode`?",
         "",
     ),
     (
-        "renderTargets: {a: {api: vulkan, colorAttachmentConfig: {storeAction: ⟦kMultiSampleResolve⟧}}}",
-        "`storeAction` must be one of kDontCare, kStore, kMultisampleResolve, kStoreAndMultisampleResolve, found `kMultiSampleResolve`; "
+        "renderTargets: {a: {api: vulkan, colorAttachmentConfig: {storeAction: "
+        "⟦kMultiSampleResolve⟧}}}",
+        "`storeAction` must be one of kDontCare, kStore, kMultisampleResolve, "
+        "kStoreAndMultisampleResolve, found `kMultiSampleResolve`; "
         "did you mean `kMultisampleResolve`?",
         "",
     ),
     (
         "renderTargets: {a: {api: vulkan, depthFormat: ⟦kD32Float⟧}}",
-        "`depthFormat` must be one of kS8UInt, kD24UnormS8Uint, kD32FloatS8UInt, found `kD32Float`; did you mean `kD32FloatS8UInt`?",
+        "`depthFormat` must be one of kS8UInt, kD24UnormS8Uint, kD32FloatS8UInt, found "
+        "`kD32Float`; did you mean `kD32FloatS8UInt`?",
         "",
     ),
-    ("renderTargets: {a: {api: vulkan, enableStencil: ⟦1⟧}}", "`enableStencil` must be true or false, found `1`; write `true`", ""),
+    (
+        "renderTargets: {a: {api: vulkan, enableStencil: ⟦1⟧}}",
+        "`enableStencil` must be true or false, found `1`; write `true`",
+        "",
+    ),
     (
         "renderTargets: {a: {api: vulkan, depthFormat: kS8UInt, enableStencil: ⟦false⟧}}",
         "`kS8UInt` has only stencil, but `enableStencil` is false",
@@ -212,7 +287,11 @@ MISTAKES = [
         "`kB10G10R10XR` requires Metal: the engine has no extended-range formats on Vulkan",
         "",
     ),
-    ("renderTargets: {a: {api: vulkan}, b: {api: ⟦metal⟧}}", "all render targets must have the same `api`, but `a` has vulkan", ""),
+    (
+        "renderTargets: {a: {api: vulkan}, b: {api: ⟦metal⟧}}",
+        "all render targets must have the same `api`, but `a` has vulkan",
+        "",
+    ),
     (
         "renderTargets: {a: {api: vulkan}}\n⟦images⟧: {b: {samples: 4}}",
         "`images` is not allowed beside `renderTargets`, which define the whole frame",
@@ -288,17 +367,24 @@ def test_the_expansion_costs_the_same(tmp_path: Path) -> None:
         done = run(tmp_path, "cost", "--output", "json", name)
         costs.append(json.loads(re.sub(r'"(file|line|column)": [^,}\n]+', r'"\1": 0', done.stdout)))
     assert costs[0] == costs[1]
-    # Colour and depth with stencil, 4 samples each of 4 bytes, and the picture: 1080 * 2400 * 60 Hz * 36 B.
+    # Colour and depth with stencil, 4 samples each of 4 bytes, and the picture: 1080 * 2400 * 60 Hz
+    # * 36 B.
     assert costs[0]["total"]["write_mb_per_s"] == pytest.approx(1080 * 2400 * 60 * 36 / 1e6)
 
 
 def test_a_folders_file_is_told_by_the_section(tmp_path: Path) -> None:
-    (tmp_path / "targets.yaml").write_text("renderTargets: {a: {api: vulkan, sampleCount: 8}}\n", encoding="utf-8")
-    assert "sample-count-above-four" in {each.rule for each in lint(str(tmp_path), isolated=True).findings}
+    (tmp_path / "targets.yaml").write_text(
+        "renderTargets: {a: {api: vulkan, sampleCount: 8}}\n", encoding="utf-8"
+    )
+    assert "sample-count-above-four" in {
+        each.rule for each in lint(str(tmp_path), isolated=True).findings
+    }
 
 
 def told(path: Path) -> list[tuple[str, str, str]]:
-    return sorted((each.rule, each.severity, each.message) for each in lint(str(path), isolated=True).findings)
+    return sorted(
+        (each.rule, each.severity, each.message) for each in lint(str(path), isolated=True).findings
+    )
 
 
 def fixed(tmp_path: Path, text: str, *arguments: str) -> tuple[str, list[dict[str, Any]]]:
@@ -312,10 +398,14 @@ def fixed(tmp_path: Path, text: str, *arguments: str) -> tuple[str, list[dict[st
 
 def test_fixes_are_in_the_words_of_the_shorthand(tmp_path: Path) -> None:
     text, _ = unmarked(MARKED)
-    safe = text.replace("kStoreAndMultisampleResolve", "kMultisampleResolve").replace("kStore}", "kDontCare}")
+    safe = text.replace("kStoreAndMultisampleResolve", "kMultisampleResolve").replace(
+        "kStore}", "kDontCare}"
+    )
     made, left = fixed(tmp_path, text)
     assert made == safe
-    assert [(each["rule"], each["fixable"], each["fix"]["title"], each["fix"]["shown"]) for each in left] == [
+    assert [
+        (each["rule"], each["fixable"], each["fix"]["title"], each["fix"]["shown"]) for each in left
+    ] == [
         ("resolve-target-loaded", False, "set loadOp to DONT_CARE", True),
         ("multisampled-image-not-transient", True, "storageMode: kDeviceTransient", False),
     ]
@@ -325,8 +415,12 @@ def test_fixes_are_in_the_words_of_the_shorthand(tmp_path: Path) -> None:
 
 
 def test_a_fix_that_no_word_of_the_shorthand_makes_is_shown_and_never_made(tmp_path: Path) -> None:
-    # The samples would have to be cleared, and the resolved picture not: the engine has one word for both.
-    text = "renderTargets: {a: {api: vulkan, sampleCount: 4, enableStencil: false, colorAttachmentConfig: {loadAction: kClear}}}\n"
+    # The samples would have to be cleared, and the resolved picture not: the engine has one word
+    # for both.
+    text = (
+        "renderTargets: {a: {api: vulkan, sampleCount: 4, enableStencil: false, "
+        "colorAttachmentConfig: {loadAction: kClear}}}\n"
+    )
     made, (left,) = fixed(tmp_path, text, "--unsafe-fixes")
     assert made == text
     assert (left["rule"], left["fix"]["shown"]) == ("resolve-target-loaded", True)
@@ -335,12 +429,17 @@ def test_a_fix_that_no_word_of_the_shorthand_makes_is_shown_and_never_made(tmp_p
 @pytest.mark.parametrize(
     "stencil",
     [
-        "{storageMode: kDeviceTransient, storeAction: &s kStore}}\n  b: {api: vulkan, stencilAttachmentConfig: {storeAction: *s}}",
-        "&s {storageMode: kDeviceTransient, storeAction: kStore}}\n  b: {api: vulkan, stencilAttachmentConfig: *s}",
+        "{storageMode: kDeviceTransient, storeAction: &s kStore}}\n  b: {api: vulkan, "
+        "stencilAttachmentConfig: {storeAction: *s}}",
+        "&s {storageMode: kDeviceTransient, storeAction: kStore}}\n  b: {api: vulkan, "
+        "stencilAttachmentConfig: *s}",
     ],
 )
 def test_a_word_that_others_share_is_left_alone(tmp_path: Path, stencil: str) -> None:
-    text = f"renderTargets:\n  a: {{api: vulkan, sampleCount: 4, depthFormat: kD24UnormS8Uint, stencilAttachmentConfig: {stencil}\n"
+    text = (
+        f"renderTargets:\n  a: {{api: vulkan, sampleCount: 4, depthFormat: kD24UnormS8Uint, "
+        f"stencilAttachmentConfig: {stencil}\n"
+    )
     made, left = fixed(tmp_path, text, "--unsafe-fixes")
     assert made == text
     assert "multisampled-depth-stored" in [each["rule"] for each in left]
@@ -349,11 +448,17 @@ def test_a_word_that_others_share_is_left_alone(tmp_path: Path, stencil: str) ->
 def test_depth_that_is_loaded_from_nothing_is_no_safe_fixs(tmp_path: Path) -> None:
     # The engine begins depth in UNDEFINED, whatever it loads.
     config = "{storageMode: kDevicePrivate, loadAction: kLoad, storeAction: kStore}"
-    text = f"renderTargets: {{a: {{api: vulkan, sampleCount: 4, depthFormat: kD24UnormS8Uint, stencilAttachmentConfig: {config}}}}}\n"
+    text = (
+        f"renderTargets: {{a: {{api: vulkan, sampleCount: 4, depthFormat: kD24UnormS8Uint, "
+        f"stencilAttachmentConfig: {config}}}}}\n"
+    )
     made, left = fixed(tmp_path, text)
     assert made == text
-    assert [each["fix"]["title"] for each in left if each["rule"] == "load-from-undefined"] == ["loadAction: kDontCare"] * 2
-    # Nor one of a kind that only tells of the next mistake: without the load, nothing reads what is stored.
+    assert [each["fix"]["title"] for each in left if each["rule"] == "load-from-undefined"] == [
+        "loadAction: kDontCare"
+    ] * 2
+    # Nor one of a kind that only tells of the next mistake: without the load, nothing reads what is
+    # stored.
     made, _ = fixed(tmp_path, text, "--unsafe-fixes")
     assert made == text
 
@@ -361,7 +466,12 @@ def test_depth_that_is_loaded_from_nothing_is_no_safe_fixs(tmp_path: Path) -> No
 def test_suppressions_work_in_the_shorthand(tmp_path: Path) -> None:
     text, _ = unmarked(MARKED)
     path = tmp_path / "a.msaa.yaml"
-    path.write_text(text.replace("kClear\n", "kClear  # msaa-lint: ignore[resolve-target-loaded] the engine's own\n"), encoding="utf-8")
+    path.write_text(
+        text.replace(
+            "kClear\n", "kClear  # msaa-lint: ignore[resolve-target-loaded] the engine's own\n"
+        ),
+        encoding="utf-8",
+    )
     result = lint(str(path), isolated=True)
     assert "resolve-target-loaded" not in [each.rule for each in result.findings]
     assert [each.finding.rule for each in result.suppressed] == ["resolve-target-loaded"]
@@ -371,11 +481,17 @@ def test_convert_tells_mistakes_and_where(tmp_path: Path) -> None:
     (tmp_path / "a.yaml").write_text("renderTargets:\n  a: {api: vulcan}\n", encoding="utf-8")
     made = run(tmp_path, "convert", "a.yaml")
     assert (made.returncode, made.stdout) == (2, "")
-    assert made.stderr == "msaa-lint: a.yaml:2:12: `api` must be vulkan or metal, found `vulcan`; did you mean `vulkan`? (MSAA903)\n"
+    assert (
+        made.stderr
+        == "msaa-lint: a.yaml:2:12: `api` must be vulkan or metal, found `vulcan`; did you mean "
+        "`vulkan`? (MSAA903)\n"
+    )
 
 
 def test_convert_of_a_stream_has_every_document(tmp_path: Path) -> None:
-    (tmp_path / "a.yaml").write_text("renderTargets: {a: {api: vulkan}}\n---\nimages: {b: {samples: 4}}\n", encoding="utf-8")
+    (tmp_path / "a.yaml").write_text(
+        "renderTargets: {a: {api: vulkan}}\n---\nimages: {b: {samples: 4}}\n", encoding="utf-8"
+    )
     command = ["convert", "a.yaml", "-o", "out.yaml"]
     assert run(tmp_path, *command).returncode == 0
     text = (tmp_path / "out.yaml").read_text(encoding="utf-8")
@@ -386,7 +502,10 @@ def test_convert_of_a_stream_has_every_document(tmp_path: Path) -> None:
 
 
 def test_hostile_names_and_many_targets() -> None:
-    made = read("renderTargets:\n" + "".join(f'  "{n} ]: #\\u2028": {{api: vulkan, sampleCount: 4}}\n' for n in range(256)))
+    made = read(
+        "renderTargets:\n"
+        + "".join(f'  "{n} ]: #\\u2028": {{api: vulkan, sampleCount: 4}}\n' for n in range(256))
+    )
     assert made.problems == ()
     assert made.tree is not None
     again = read(emit(made.tree))
@@ -396,7 +515,9 @@ def test_hostile_names_and_many_targets() -> None:
 
 
 def test_there_are_at_most_so_many_targets() -> None:
-    (problem,) = read("renderTargets:\n" + "".join(f"  t{n}: {{api: vulkan}}\n" for n in range(5000))).problems
+    (problem,) = read(
+        "renderTargets:\n" + "".join(f"  t{n}: {{api: vulkan}}\n" for n in range(5000))
+    ).problems
     assert (problem.code, problem.message, problem.path) == (
         "MSAA903",
         "at most 256 render targets are allowed",

@@ -1,7 +1,8 @@
-"""Calls in normal form as RenderDoc and Fossilize write them: XML with the zip beside it, and a pipeline database.
+"""Calls in normal form as RenderDoc and Fossilize write them: XML with the zip beside it, and a
+pipeline database.
 
-The calls are pairs of name and arguments, as `Program.calls` are, or `Call`s: structures as mappings with C's names, enumerants and flags
-as names or numbers.
+The calls are pairs of name and arguments, as `Program.calls` are, or `Call`s: structures as
+mappings with C's names, enumerants and flags as names or numbers.
 """
 
 from __future__ import annotations
@@ -49,7 +50,9 @@ def made(calls: Iterable[Call | tuple[str, dict[str, Any]]]) -> list[Call]:
 
 
 def number(text: str) -> int | None:
-    """The value of an enumerant, or of flags joined by `|`, by full names; None of a text that is none."""
+    """The value of an enumerant, or of flags joined by `|`, by full names; None of a text that is
+    none.
+    """
     total = 0
     for part in text.split("|"):
         name = part.strip()
@@ -58,7 +61,11 @@ def number(text: str) -> int | None:
         if name in OTHERS:
             total |= OTHERS[name]
             continue
-        enums = [enum for enum, prefix in PREFIXES.items() if name.startswith(prefix) and parse_enum(enum, name) is not None]
+        enums = [
+            enum
+            for enum, prefix in PREFIXES.items()
+            if name.startswith(prefix) and parse_enum(enum, name) is not None
+        ]
         if not enums:
             return None
         total |= VALUES[enums[0]][parse_enum(enums[0], name) or ""]
@@ -66,7 +73,9 @@ def number(text: str) -> int | None:
 
 
 def numbers(value: Any, key: str = "") -> Any:
-    """Normal form as these dialects can tell it: enumerants but sType as numbers, booleans as 0 and 1."""
+    """Normal form as these dialects can tell it: enumerants but sType as numbers, booleans as 0 and
+    1.
+    """
     if isinstance(value, dict):
         return {each: numbers(item, each) for each, item in value.items()}
     if isinstance(value, list):
@@ -82,10 +91,30 @@ def numbers(value: Any, key: str = "") -> Any:
 # RenderDoc.
 
 POINTERS = {
-    **{f"p{name}": name for name in ("CreateInfo", "AllocateInfo", "BeginInfo", "RenderPassBegin", "PresentInfo", "DependencyInfo")},
     **{
         f"p{name}": name
-        for name in ("Image", "Memory", "View", "RenderPass", "Framebuffer", "ShaderModule", "Device", "Queue", "SetLayout")
+        for name in (
+            "CreateInfo",
+            "AllocateInfo",
+            "BeginInfo",
+            "RenderPassBegin",
+            "PresentInfo",
+            "DependencyInfo",
+        )
+    },
+    **{
+        f"p{name}": name
+        for name in (
+            "Image",
+            "Memory",
+            "View",
+            "RenderPass",
+            "Framebuffer",
+            "ShaderModule",
+            "Device",
+            "Queue",
+            "SetLayout",
+        )
     },
     **{f"p{name}": name for name in ("Color", "DepthStencil")},
     "pSubpassBeginInfo": "SubpassBegin",
@@ -110,7 +139,9 @@ QUERIES = {
 
 
 def characters(text: str) -> str:
-    """Text as RenderDoc escapes it: a reference for every control character, whether XML has one or not."""
+    """Text as RenderDoc escapes it: a reference for every control character, whether XML has one or
+    not.
+    """
     return "".join(f"&#{ord(each):02};" if ord(each) < 32 else each for each in escape(text))
 
 
@@ -118,7 +149,13 @@ class RenderDoc:
     """The XML of a capture. `blobs` are the buffers that the zip beside it holds."""
 
     def __init__(self) -> None:
-        self.lines = ['<?xml version="1.0"?>', "<rdc>", "\t<header>", '\t\t<driver id="8">Vulkan</driver>', "\t</header>"]
+        self.lines = [
+            '<?xml version="1.0"?>',
+            "<rdc>",
+            "\t<header>",
+            '\t\t<driver id="8">Vulkan</driver>',
+            "\t</header>",
+        ]
         self.lines.append('\t<chunks version="21">')
         self.blobs: list[bytes] = []
         self.number = 0
@@ -127,7 +164,8 @@ class RenderDoc:
         """A call, or one of RenderDoc's own notes."""
         self.number += 1
         self.lines.append(
-            f'\t\t<chunk id="{1000 + self.number}" name={quoteattr(name)} length="1" threadID="1" timestamp="1" duration="1">'
+            f'\t\t<chunk id="{1000 + self.number}" name={quoteattr(name)} length="1" threadID="1" '
+            f'timestamp="1" duration="1">'
         )
         for key, value in arguments.items():
             self.value(key, value, 3)
@@ -137,27 +175,38 @@ class RenderDoc:
         tabs, name = "\t" * depth, f" name={quoteattr(key)}" if key else ""
         if isinstance(value, (dict, list)):
             if key == "pNext":
-                self.lines.append(f'{tabs}<enum name="pNextType" string={quoteattr(value["sType"])}>1</enum>')  # type: ignore[call-overload]
+                self.lines.append(
+                    f'{tabs}<enum name="pNextType" string={quoteattr(value["sType"])}>1</enum>'
+                )  # type: ignore[call-overload]
             if key == "pSampleMask" and isinstance(value, list):
                 self.lines.append(f"{tabs}<uint{name}>{value[0]}</uint>")
                 return
             tag = "struct" if isinstance(value, dict) else "array"
             self.lines.append(f"{tabs}<{tag}{name}>")
-            for each, item in value.items() if isinstance(value, dict) else (("", item) for item in value):
+            for each, item in (
+                value.items() if isinstance(value, dict) else (("", item) for item in value)
+            ):
                 self.value(each, item, depth + 1)
             self.lines.append(f"{tabs}</{tag}>")
         elif value is None:
             self.lines.append(f'{tabs}<null{name} typename="void *" />')
         elif isinstance(value, bytes):
-            self.lines.append(f'{tabs}<buffer{name} byteLength="{len(value)}">{len(self.blobs)}</buffer>')
+            self.lines.append(
+                f'{tabs}<buffer{name} byteLength="{len(value)}">{len(self.blobs)}</buffer>'
+            )
             self.blobs.append(value)
         elif isinstance(value, (bool, int)):
-            self.lines.append(f"{tabs}<{'int' if value < 0 else 'uint'}{name}>{int(value)}</{'int' if value < 0 else 'uint'}>")
+            self.lines.append(
+                f"{tabs}<{'int' if value < 0 else 'uint'}{name}>{int(value)}</{'int' if value < 0 else 'uint'}>"
+            )
         elif isinstance(value, float):
             self.lines.append(f"{tabs}<float{name}>{value!r}</float>")
         elif key == "sType" or number(value) is not None:
             known = number(value)
-            self.lines.append(f"{tabs}<enum{name} string={quoteattr(value)}>{0 if known is None else known}</enum>")
+            self.lines.append(
+                f"{tabs}<enum{name} "
+                f"string={quoteattr(value)}>{0 if known is None else known}</enum>"
+            )
         else:
             self.lines.append(f"{tabs}<string{name}>{characters(value)}</string>")
 
@@ -181,12 +230,17 @@ def renderdoc(calls: Iterable[Call | tuple[str, dict[str, Any]]]) -> RenderDoc:
     for call in made(calls):
         if call.name in QUERIES:
             parameter, own = QUERIES[call.name]
-            device |= {"PhysicalDevice": call.args["physicalDevice"], own: _fixed(call.args[parameter])}
+            device |= {
+                "PhysicalDevice": call.args["physicalDevice"],
+                own: _fixed(call.args[parameter]),
+            }
             continue
         if call.name == "vkEnumeratePhysicalDevices":
             continue
         if call.name == "vkCreateDevice" and device:
-            out.chunk("vkEnumeratePhysicalDevices", {"instance": 1, "PhysicalDeviceIndex": 0, **device})
+            out.chunk(
+                "vkEnumeratePhysicalDevices", {"instance": 1, "PhysicalDeviceIndex": 0, **device}
+            )
         for name, arguments in _chunks(call):
             out.chunk(name, arguments)
     return out
@@ -195,7 +249,10 @@ def renderdoc(calls: Iterable[Call | tuple[str, dict[str, Any]]]) -> RenderDoc:
 def _fixed(structure: dict[str, Any]) -> dict[str, Any]:
     """Memory properties with C's arrays of fixed length."""
     out = dict(structure)
-    for array, length, empty in (("memoryTypes", 32, {"propertyFlags": 0, "heapIndex": 0}), ("memoryHeaps", 16, {"size": 0, "flags": 0})):
+    for array, length, empty in (
+        ("memoryTypes", 32, {"propertyFlags": 0, "heapIndex": 0}),
+        ("memoryHeaps", 16, {"size": 0, "flags": 0}),
+    ):
         if array in out:
             out[array] = out[array] + [empty] * (length - len(out[array]))
     return out
@@ -207,16 +264,29 @@ def _chunks(call: Call) -> Iterator[tuple[str, dict[str, Any]]]:
     if call.name == "vkCreateInstance":
         info = args["pCreateInfo"]
         application = info.get("pApplicationInfo") or {}
-        stated = {"AppName": application.get("pApplicationName"), "APIVersion": application.get("apiVersion")}
+        stated = {
+            "AppName": application.get("pApplicationName"),
+            "APIVersion": application.get("apiVersion"),
+        }
         yield (
             call.name,
-            {"InitParams": {**stated, "Extensions": info.get("ppEnabledExtensionNames"), "InstanceID": args.get("pInstance", 1)}},
+            {
+                "InitParams": {
+                    **stated,
+                    "Extensions": info.get("ppEnabledExtensionNames"),
+                    "InstanceID": args.get("pInstance", 1),
+                }
+            },
         )
     elif call.name == "vkCreateGraphicsPipelines":
         for info, handle in zip(args.pop("pCreateInfos"), args.pop("pPipelines"), strict=False):
             yield call.name, {**args, "count": 1, "CreateInfo": info, "Pipeline": handle}
     elif call.name in ("vkAllocateCommandBuffers", "vkAllocateDescriptorSets"):
-        many, one = ("pCommandBuffers", "CommandBuffer") if "Command" in call.name else ("pDescriptorSets", "DescriptorSet")
+        many, one = (
+            ("pCommandBuffers", "CommandBuffer")
+            if "Command" in call.name
+            else ("pDescriptorSets", "DescriptorSet")
+        )
         info = dict(args["pAllocateInfo"])
         layouts = info.get("pSetLayouts")
         for index, handle in enumerate(args[many]):
@@ -225,12 +295,29 @@ def _chunks(call: Call) -> Iterator[tuple[str, dict[str, Any]]]:
             yield call.name, {"device": args.get("device"), "AllocateInfo": info, one: handle}
     elif call.name == "vkGetSwapchainImagesKHR":
         for index, handle in enumerate(args["pSwapchainImages"] or []):
-            yield call.name, {"device": 1, "Swapchain": args["swapchain"], "SwapchainImageIndex": index, "SwapchainImage": handle}
+            yield (
+                call.name,
+                {
+                    "device": 1,
+                    "Swapchain": args["swapchain"],
+                    "SwapchainImageIndex": index,
+                    "SwapchainImage": handle,
+                },
+            )
     elif call.name in ("vkBeginCommandBuffer", "vkEndCommandBuffer"):
-        own = {"CommandBuffer": args.pop("commandBuffer"), **{POINTERS.get(key, key): value for key, value in args.items()}}
+        own = {
+            "CommandBuffer": args.pop("commandBuffer"),
+            **{POINTERS.get(key, key): value for key, value in args.items()},
+        }
         yield call.name, {**own, "BakedCommandBuffer": 999}
     elif call.name == "vkSetDebugUtilsObjectNameEXT":
-        yield call.name, {"Object": args["pNameInfo"]["objectHandle"], "ObjectName": args["pNameInfo"]["pObjectName"]}
+        yield (
+            call.name,
+            {
+                "Object": args["pNameInfo"]["objectHandle"],
+                "ObjectName": args["pNameInfo"]["pObjectName"],
+            },
+        )
     else:
         yield call.name, {POINTERS.get(key, key): value for key, value in args.items()}
 
@@ -255,11 +342,22 @@ OWN_NAMES = {
 }
 
 
-def entry(kind: int, hash: int, payload: bytes, deflated: bool = True, checked: bool = True) -> bytes:
+def entry(
+    kind: int, hash: int, payload: bytes, deflated: bool = True, checked: bool = True
+) -> bytes:
     """An entry of a database."""
     stored = zlib.compress(payload) if deflated else payload
-    numbers_of = (len(stored), 2 if deflated else 1, zlib.crc32(stored) if checked else 0, len(payload))
-    return f"{kind:024x}{hash:016x}".encode() + b"".join(each.to_bytes(4, "little") for each in numbers_of) + stored
+    numbers_of = (
+        len(stored),
+        2 if deflated else 1,
+        zlib.crc32(stored) if checked else 0,
+        len(payload),
+    )
+    return (
+        f"{kind:024x}{hash:016x}".encode()
+        + b"".join(each.to_bytes(4, "little") for each in numbers_of)
+        + stored
+    )
 
 
 def packed(code: bytes) -> bytes:
@@ -276,7 +374,9 @@ def packed(code: bytes) -> bytes:
 
 def fossilize(calls: Iterable[Call | tuple[str, dict[str, Any]]], deflated: bool = True) -> bytes:
     """A database of what the calls create, in their order; of other calls it has nothing."""
-    return MAGIC + b"".join(entry(*each, deflated) for call in made(calls) for each in entries(call))
+    return MAGIC + b"".join(
+        entry(*each, deflated) for call in made(calls) for each in entries(call)
+    )
 
 
 def entries(call: Call) -> Iterator[tuple[int, int, bytes]]:
@@ -288,14 +388,35 @@ def entries(call: Call) -> Iterator[tuple[int, int, bytes]]:
     info = call.args.get("pCreateInfo")
     if name == "vkCreateInstance":
         application = _own(info.get("pApplicationInfo") or {}) if info else {}
-        application = {key.replace("pApplicationName", "applicationName"): value for key, value in application.items()}
-        yield kind, 1, _json({"applicationInfo": application, "physicalDeviceFeatures": {"robustBufferAccess": 0}})
+        application = {
+            key.replace("pApplicationName", "applicationName"): value
+            for key, value in application.items()
+        }
+        yield (
+            kind,
+            1,
+            _json(
+                {
+                    "applicationInfo": application,
+                    "physicalDeviceFeatures": {"robustBufferAccess": 0},
+                }
+            ),
+        )
     elif name == "vkCreateShaderModule":
         assert info is not None
         code = info["pCode"]
-        module = {"varintOffset": 0, "varintSize": len(packed(code)), "codeSize": len(code), "flags": 0}
+        module = {
+            "varintOffset": 0,
+            "varintSize": len(packed(code)),
+            "codeSize": len(code),
+            "flags": 0,
+        }
         handle = call.args["pShaderModule"]
-        yield kind, handle, _json({"shaderModules": {f"{handle:016x}": module}}) + b"\x00" + packed(code)
+        yield (
+            kind,
+            handle,
+            _json({"shaderModules": {f"{handle:016x}": module}}) + b"\x00" + packed(code),
+        )
     elif name == "vkCreateGraphicsPipelines":
         for each, handle in zip(call.args["pCreateInfos"], call.args["pPipelines"], strict=False):
             yield kind, handle, _json({"graphicsPipelines": {f"{handle:016x}": _own(each)}})
@@ -310,7 +431,9 @@ def _json(document: dict[str, Any]) -> bytes:
 
 
 def _own(value: Any, key: str = "") -> Any:
-    """A structure with Fossilize's names: no pointers, no sType but in a list of chained structures, hashes as digits."""
+    """A structure with Fossilize's names: no pointers, no sType but in a list of chained
+    structures, hashes as digits.
+    """
     if isinstance(value, dict):
         out: dict[str, Any] = {}
         for each, item in value.items():
@@ -319,7 +442,9 @@ def _own(value: Any, key: str = "") -> Any:
                 if chain:
                     out["pNext"] = chain
             elif each != "sType" and item is not None:
-                name = OWN_NAMES.get(each) or (each[1].lower() + each[2:] if each[0] == "p" and each[1].isupper() else each)
+                name = OWN_NAMES.get(each) or (
+                    each[1].lower() + each[2:] if each[0] == "p" and each[1].isupper() else each
+                )
                 out[name] = _own(item, each)
         return out
     if isinstance(value, list):
@@ -337,6 +462,8 @@ def _chain(structure: Any) -> Iterator[dict[str, Any]]:
         if structure["sType"] in CHAINED:
             yield {
                 "sType": CHAINED[structure["sType"]],
-                **_own({key: item for key, item in structure.items() if key not in ("sType", "pNext")}),
+                **_own(
+                    {key: item for key, item in structure.items() if key not in ("sType", "pNext")}
+                ),
             }
         structure = structure.get("pNext")

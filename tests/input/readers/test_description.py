@@ -1,4 +1,6 @@
-"""The description format: every member of it is read, from YAML and from JSON, and a description is told by its content."""
+"""The description format: every member of it is read, from YAML and from JSON, and a description is
+told by its content.
+"""
 
 from __future__ import annotations
 
@@ -23,7 +25,10 @@ from tests.frame.description.test_schema import documents, mistakes
 from tests.paths import ROOT
 
 WHOLE = (ROOT / "tests" / "data" / "format.msaa.yaml").read_text(encoding="utf-8")
-ELSEWHERE = [(ROOT / "tests" / "data" / f"{name}.msaa.yaml").read_text(encoding="utf-8") for name in ("metal", "render_targets")]
+ELSEWHERE = [
+    (ROOT / "tests" / "data" / f"{name}.msaa.yaml").read_text(encoding="utf-8")
+    for name in ("metal", "render_targets")
+]
 """What cannot stand beside the sections of a frame in Vulkan's words."""
 
 
@@ -38,7 +43,10 @@ def records(value: Any) -> Iterator[Record]:
     """A record and all within it."""
     if isinstance(value, Record):
         yield value
-        value = [getattr(value, name) for name in (value.SHAPE if not isinstance(value, Command) else ("body",))]
+        value = [
+            getattr(value, name)
+            for name in (value.SHAPE if not isinstance(value, Command) else ("body",))
+        ]
     if isinstance(value, dict):
         value = list(value.values())
     if isinstance(value, (list, tuple)):
@@ -53,7 +61,9 @@ def test_every_member_of_the_format_is_read() -> None:
     stated: dict[str, set[str]] = {}
     for text in (WHOLE, *ELSEWHERE):
         binder = Binder()
-        described = binder.record(Description, parse(Source("frame.yaml", text), Limits()).documents[0], "", "")
+        described = binder.record(
+            Description, parse(Source("frame.yaml", text), Limits()).documents[0], "", ""
+        )
         assert binder.problems == []
         for record in records(described):
             names = {record.kind} if isinstance(record, Command) else set(record.spelled)
@@ -69,22 +79,42 @@ def test_members_are_read_as_they_are_written() -> None:
     described = document(WHOLE).description
     assert described.device is not None and not isinstance(described.device, str)
     assert described.device.memoryTypes == (("DEVICE_LOCAL",), ("DEVICE_LOCAL", "LAZILY_ALLOCATED"))
-    assert described.device.sampleCounts is not None and described.device.sampleCounts.stencil == (1, 4)
+    assert described.device.sampleCounts is not None and described.device.sampleCounts.stencil == (
+        1,
+        4,
+    )
     assert described.device.tile == {"model": "mali-g76"}
     image = described.images["color_ms"]
     assert (image.format, image.samples, image.imageType) == ("R16G16B16A16_SFLOAT", 4, "2D")
     assert image.usage == ("COLOR_ATTACHMENT", "TRANSIENT_ATTACHMENT")
     forward, single = described.renderPasses.values()
-    assert [attachment.key for attachment in forward.attachments] == ["color", "depth", "output", "depth_out", "density_map"]
+    assert [attachment.key for attachment in forward.attachments] == [
+        "color",
+        "depth",
+        "output",
+        "depth_out",
+        "density_map",
+    ]
     assert [attachment.key for attachment in single.attachments] == ["0"]
-    assert [reference.attachment for reference in forward.subpasses[0].colorAttachments] == ["color", None]
-    assert forward.dependencies[0].dstStageMask == ("COLOR_ATTACHMENT_OUTPUT", "EARLY_FRAGMENT_TESTS")
+    assert [reference.attachment for reference in forward.subpasses[0].colorAttachments] == [
+        "color",
+        None,
+    ]
+    assert forward.dependencies[0].dstStageMask == (
+        "COLOR_ATTACHMENT_OUTPUT",
+        "EARLY_FRAGMENT_TESTS",
+    )
     stage = described.pipelines["opaque"].stages[0]
     assert stage.specialization == {"0": 4, "1": True}
     state = described.pipelines["opaque"].multisampleState
     assert state is not None and state.sampleMask == (15,)
     assert described.commands is not None
-    assert [command.kind for command in described.commands[:4]] == ["beginRenderPass", "draw", "nextSubpass", "endRenderPass"]
+    assert [command.kind for command in described.commands[:4]] == [
+        "beginRenderPass",
+        "draw",
+        "nextSubpass",
+        "endRenderPass",
+    ]
     assert described.commands[7].body.framebuffer == ("even", "odd")
     assert described.scene is not None and described.scene.peak == 16.5
 
@@ -122,13 +152,17 @@ def test_the_documentation_shows_a_description() -> None:
 def test_a_format_is_told_by_content_and_not_by_name(text: str, format: str, name: str) -> None:
     source = Source(name, text)
     root = parse(source, Limits()).documents[0]
-    claimed = next((known for known, module in FORMATS.items() if module.claims(root)), "description")
+    claimed = next(
+        (known for known, module in FORMATS.items() if module.claims(root)), "description"
+    )
     assert claimed == format
     assert read(source, root).whole == (format == "description")
 
 
 def test_a_format_may_be_forced() -> None:
-    assert [problem.code for problem in document("GraphicsPipelineState: {}", "description").problems] == ["MSAA902"]
+    assert [
+        problem.code for problem in document("GraphicsPipelineState: {}", "description").problems
+    ] == ["MSAA902"]
     assert [problem.code for problem in document("images: {}", "vulkan-sc").problems] == ["MSAA903"]
 
 
@@ -139,7 +173,11 @@ def test_what_is_no_mapping_is_no_description(text: str) -> None:
 
 
 def test_documents_of_a_stream_are_read_apart() -> None:
-    result = lint(text="images: {a: {samples: 3}}\n---\nimages: {b: {formt: 1}}\n", filename="two.yaml", isolated=True)
+    result = lint(
+        text="images: {a: {samples: 3}}\n---\nimages: {b: {formt: 1}}\n",
+        filename="two.yaml",
+        isolated=True,
+    )
     assert [(found.code, found.subject) for found in result.findings] == [
         ("MSAA903", "documents[0].images.a.samples"),
         ("MSAA902", "documents[1].images.b.formt"),

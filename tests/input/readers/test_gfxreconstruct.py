@@ -1,4 +1,6 @@
-"""gfxreconstruct's JSON in all of its dialects: every call at its place, the marks, the files beside it, and what is broken."""
+"""gfxreconstruct's JSON in all of its dialects: every call at its place, the marks, the files
+beside it, and what is broken.
+"""
 
 from __future__ import annotations
 
@@ -30,12 +32,16 @@ FOLDER = SAMPLES / "captures"
 DRAWS = frozenset({"vkCmdDraw"})
 
 
-def read(text: bytes, wanted: frozenset[str] = WANTED, name: str | None = None) -> tuple[list[Call | Mark], CaptureError | None]:
+def read(
+    text: bytes, wanted: frozenset[str] = WANTED, name: str | None = None
+) -> tuple[list[Call | Mark], CaptureError | None]:
     """What is read of a text, and why no more, without whether calls recur."""
     out: list[Call | Mark] = []
     read_calls = gfxreconstruct.calls(io.BytesIO(text), wanted, name)
     try:
-        out.extend(each._replace(recurring=0) if isinstance(each, Call) else each for each in read_calls)
+        out.extend(
+            each._replace(recurring=0) if isinstance(each, Call) else each for each in read_calls
+        )
     except CaptureError as error:
         # Lists extended by a generator that fails keep what it gave before.
         return out, error
@@ -77,13 +83,19 @@ def test_all_dialects_give_the_same_calls(program: list[tuple[str, dict[str, Any
     assert [common(call) for call in calls(lined(new_lines(program, expand=True)))] == wanted
     array = calls(new_array(program))
     assert [common(call) for call in array] == wanted
-    assert [call.at.call for call in array] == [call.at.call for call in plain] == list(range(2, len(program) + 2))
+    assert (
+        [call.at.call for call in array]
+        == [call.at.call for call in plain]
+        == list(range(2, len(program) + 2))
+    )
     dump = list(api_dump.calls(io.BytesIO(dumped(program)), WANTED, None))
     assert [common(call) for call in dump if isinstance(call, Call)] == wanted
     for new, old in zip(wanted, calls(lined(old_lines(program))), strict=True):
         name, args, result = common(old)
         assert (name, result) == (new[0], new[2])
-        for info, expected in zip(args.get("pCreateInfos", ()), new[1].get("pCreateInfos", ()), strict=True):
+        for info, expected in zip(
+            args.get("pCreateInfos", ()), new[1].get("pCreateInfos", ()), strict=True
+        ):
             if info["pMultisampleState"] is not None:
                 assert "pSampleMask" not in info["pMultisampleState"], "0.9 does not know it"
                 del expected["pMultisampleState"]["pSampleMask"]
@@ -105,25 +117,40 @@ def test_places_in_lines_and_in_an_array() -> None:
     for call in array:
         assert call.at.line is not None and call.at.column == 1
         rows = text.decode().split("\n")[call.at.line - 1 :]
-        assert (rows[0], rows[1].strip(), rows[3].strip()) == ("{", f'"index": {call.at.call},', f'"name": "{call.name}",')
+        assert (rows[0], rows[1].strip(), rows[3].strip()) == (
+            "{",
+            f'"index": {call.at.call},',
+            f'"name": "{call.name}",',
+        )
 
 
 def test_results_and_arguments() -> None:
     image, _, first, second, present = calls(lined(new_lines(SMALL)))
     assert (image.result, first.result, present.result) == ("VK_SUCCESS", None, "VK_SUCCESS")
-    assert image.args["pCreateInfo"] == {"samples": "VK_SAMPLE_COUNT_4_BIT", "usage": "0x00000011", "flags": "0x00000000"}
+    assert image.args["pCreateInfo"] == {
+        "samples": "VK_SAMPLE_COUNT_4_BIT",
+        "usage": "0x00000011",
+        "flags": "0x00000000",
+    }
     assert first.args == second.args == {"commandBuffer": 7, "vertexCount": 3, "instanceCount": 1}
 
 
 def test_a_call_that_nobody_follows_is_not_looked_into() -> None:
-    text = lined([line(1, draw(3)), line(2, '{"name":"vkDeviceWaitIdle","args":{no json'), line(3, draw(4))])
+    text = lined(
+        [line(1, draw(3)), line(2, '{"name":"vkDeviceWaitIdle","args":{no json'), line(3, draw(4))]
+    )
     assert [call.at.call for call in calls(text)] == [1, 3]
 
 
 def test_suffixes_of_vendors_do_not_matter() -> None:
     names = ["vkCmdDrawKHR", "vkCmdDrawEXT", "vkCmdDrawNV", "vkCmdDrawIndexed", "vkCmdDraw"]
     text = lined([line(at, f'{{"name":"{name}","args":{{}}}}') for at, name in enumerate(names)])
-    assert [call.name for call in calls(text, DRAWS)] == ["vkCmdDrawKHR", "vkCmdDrawEXT", "vkCmdDrawNV", "vkCmdDraw"]
+    assert [call.name for call in calls(text, DRAWS)] == [
+        "vkCmdDrawKHR",
+        "vkCmdDrawEXT",
+        "vkCmdDrawNV",
+        "vkCmdDraw",
+    ]
 
 
 def test_lines_of_an_unexpected_shape_are_parsed() -> None:
@@ -136,7 +163,11 @@ def test_lines_of_an_unexpected_shape_are_parsed() -> None:
         '{"index":8,"other":{"name":"vkCmdDraw","args":{"vertexCount":3}}}',
     ])  # fmt: skip
     found = calls(text)
-    assert [(call.args["vertexCount"], call.at) for call in found] == [(1, (1, 1, 5)), (2, (2, 1, 6)), (3, (5, 1, 7))]
+    assert [(call.args["vertexCount"], call.at) for call in found] == [
+        (1, (1, 1, 5)),
+        (2, (2, 1, 6)),
+        (3, (5, 1, 7)),
+    ]
 
 
 # The reading of lines against a plain one: whatever recurs, and in whatever order.
@@ -150,7 +181,13 @@ BODIES = [
     '{"name":"vkCreateImage","args":{"pImage":1}}',
     '{"name":"vkCmdDraw","args":{"text":"\\n{\\"index\\":3,"}}',
 ]
-OTHER = ["", "  ", '{"state":{"marker_type":"EndMarker","frame_number":3}}', '{"index":3,"annotation":{"data":"x"}}', "\r"]
+OTHER = [
+    "",
+    "  ",
+    '{"state":{"marker_type":"EndMarker","frame_number":3}}',
+    '{"index":3,"annotation":{"data":"x"}}',
+    "\r",
+]
 
 
 def plainly(text: bytes, wanted: frozenset[str]) -> Iterator[Call]:
@@ -162,7 +199,9 @@ def plainly(text: bytes, wanted: frozenset[str]) -> Iterator[Call]:
             yield Call(body["name"], body["args"], Place(number, 1, value["index"]))
 
 
-pieces = st.lists(st.tuples(st.sampled_from(BODIES), st.integers(-2, 3)) | st.sampled_from(OTHER), max_size=12)
+pieces = st.lists(
+    st.tuples(st.sampled_from(BODIES), st.integers(-2, 3)) | st.sampled_from(OTHER), max_size=12
+)
 
 
 @given(
@@ -176,7 +215,13 @@ pieces = st.lists(st.tuples(st.sampled_from(BODIES), st.integers(-2, 3)) | st.sa
 )
 @examples(3)
 def test_what_recurs_is_read_as_if_it_were_new(
-    pieces: list[tuple[list[Any], int]], first: int, ending: str, last: bool, block: int, credit: int, size: int
+    pieces: list[tuple[list[Any], int]],
+    first: int,
+    ending: str,
+    last: bool,
+    block: int,
+    credit: int,
+    size: int,
 ) -> None:
     index = first
     lines = ['{"index":1,"function":{"name":"vkCmdDraw","args":{}}}']
@@ -194,7 +239,9 @@ def test_what_recurs_is_read_as_if_it_were_new(
         patch.setattr(gfxreconstruct, "CREDIT", credit)
         patch.setattr(gfxreconstruct, "PAUSE", 2 * credit)
         patch.setattr(gfxreconstruct, "MAX_CACHE", size)
-        assert calls(text, frozenset({"vkCmdDraw", "vkCreateImage"})) == list(plainly(text, frozenset({"vkCmdDraw", "vkCreateImage"})))
+        assert calls(text, frozenset({"vkCmdDraw", "vkCreateImage"})) == list(
+            plainly(text, frozenset({"vkCmdDraw", "vkCreateImage"}))
+        )
 
 
 class Counting:
@@ -211,7 +258,18 @@ class Counting:
 
 def test_frames_alike_are_not_parsed(monkeypatch: pytest.MonkeyPatch) -> None:
     # Draws recur within a frame, and a call that nobody follows differs in each.
-    frame = [draw(1), draw(2), draw(1), draw(3), draw(1), draw(1), '{"name":"vkWaitForFences","args":{"a":%d}}', draw(4), draw(2), draw(5)]
+    frame = [
+        draw(1),
+        draw(2),
+        draw(1),
+        draw(3),
+        draw(1),
+        draw(1),
+        '{"name":"vkWaitForFences","args":{"a":%d}}',
+        draw(4),
+        draw(2),
+        draw(5),
+    ]
     text = lined([line(8 + at, frame[at % 10].replace("%d", str(at))) for at in range(2000)])
     slow, parsed = Counting(gfxreconstruct.LINE_START), []
     monkeypatch.setattr(gfxreconstruct, "LINE_START", slow)
@@ -236,8 +294,20 @@ def test_lines_that_never_recur_are_hardly_kept(monkeypatch: pytest.MonkeyPatch)
     monkeypatch.setattr(gfxreconstruct, "LineCache", Counted)
     monkeypatch.setattr(gfxreconstruct, "CREDIT", 10)
     monkeypatch.setattr(gfxreconstruct, "PAUSE", 160)
-    frames = [each for frame in range(100) for each in (draw(frame), '{"name":"vkCmdDrawIndexed","args":{"indexCount":5}}')]
-    assert len(calls(lined([line(at, each) for at, each in enumerate(frames)]), frozenset({"vkCmdDraw", "vkCmdDrawIndexed"}))) == 200
+    frames = [
+        each
+        for frame in range(100)
+        for each in (draw(frame), '{"name":"vkCmdDrawIndexed","args":{"indexCount":5}}')
+    ]
+    assert (
+        len(
+            calls(
+                lined([line(at, each) for at, each in enumerate(frames)]),
+                frozenset({"vkCmdDraw", "vkCmdDrawIndexed"}),
+            )
+        )
+        == 200
+    )
     assert len(added) == 10 + 1, "the others are not worth it, which is known of each call apart"
 
 
@@ -245,7 +315,16 @@ def test_an_empty_line_before_one_that_is_foreseen() -> None:
     # The beginning of a call that nobody follows stands where it is expected, but a line further.
     unwanted = '{"name":"vkDeviceWaitIdle","args":{}}'
     text = lined(
-        [line(10, draw(1)), line(11, unwanted), line(12, draw(1)), "", line(9, unwanted), line(13, draw(1)), "{}", line(9, unwanted)]
+        [
+            line(10, draw(1)),
+            line(11, unwanted),
+            line(12, draw(1)),
+            "",
+            line(9, unwanted),
+            line(13, draw(1)),
+            "{}",
+            line(9, unwanted),
+        ]
     )
     text += lined([line(14, draw(2))])
     assert [call.at for call in calls(text)] == [(1, 1, 10), (3, 1, 12), (6, 1, 13), (9, 1, 14)]
@@ -257,7 +336,9 @@ def test_what_is_shared_and_what_is_not() -> None:
     for text in (lined(lines), f"[{','.join(lines)}]".encode()):
         first, one, second, other = calls(text)
         assert first.args is second.args
-        assert one.args == other.args and one.args is not other.args, "code may be large: nothing of it is kept"
+        assert one.args == other.args and one.args is not other.args, (
+            "code may be large: nothing of it is kept"
+        )
 
 
 def test_memory_does_not_grow_with_the_lines() -> None:
@@ -288,10 +369,20 @@ def test_memory_does_not_grow_with_the_lines() -> None:
 # Layouts of an array.
 
 
-@given(programs, st.sampled_from((None, 0, 1, 2, 4, "\t")), st.integers(0, 3), st.booleans(), st.sampled_from((16, 300, 1 << 18)))
+@given(
+    programs,
+    st.sampled_from((None, 0, 1, 2, 4, "\t")),
+    st.integers(0, 3),
+    st.booleans(),
+    st.sampled_from((16, 300, 1 << 18)),
+)
 @examples(0.8)
 def test_an_array_in_any_layout(
-    program: list[tuple[str, dict[str, Any]]], indent: int | str | None, shift: int, windows: bool, block: int
+    program: list[tuple[str, dict[str, Any]]],
+    indent: int | str | None,
+    shift: int,
+    windows: bool,
+    block: int,
 ) -> None:
     objects = new_objects(program)
     wanted = [common(call) for call in calls(lined(new_lines(program)))]
@@ -307,7 +398,11 @@ def test_an_array_in_any_layout(
         assert [common(call) for call in found] == wanted
         for call in found:
             assert call.at.line is not None and call.at.column is not None
-            start = sum(len(row) + 1 for row in text.split("\n")[: call.at.line - 1]) + call.at.column - 1
+            start = (
+                sum(len(row) + 1 for row in text.split("\n")[: call.at.line - 1])
+                + call.at.column
+                - 1
+            )
             assert json.JSONDecoder().raw_decode(text, start)[0]["index"] == call.at.call
 
 
@@ -316,18 +411,23 @@ def test_an_array_in_any_layout(
         '[{\n  "a": 1 }, {\n  "index": 1, "function": {"name": "vkCmdDraw", "args": {}}\n}]',
     '[\n{\n  "a": 1\n  },\n{\n  "index": 1, "function": {"name": "vkCmdDraw", "args": {}}\n}\n]',
     '[\n{\n"a": "}"\n},\n{\n"index": 1, "function": {\n"name": "vkCmdDraw", "args": {\n}\n}\n}\n]',
-    '[\n{\n  "a": "\\" } {"\n},\n{\n  "index": 1,\n  "function": {\n    "name": "vkCmdDraw",\n    "args": {}\n  }\n}\n]',
-    '[\n    {\n        "b": {\n    }, "a": 1},\n    {\n        "index": 1, "function": {"name": "vkCmdDraw", "args": {}}\n    }\n]',
+    '[\n{\n  "a": "\\" } {"\n},\n{\n  "index": 1,\n  "function": {\n    "name": "vkCmdDraw",\n    '
+    '"args": {}\n  }\n}\n]',
+    '[\n    {\n        "b": {\n    }, "a": 1},\n    {\n        "index": 1, "function": {"name": '
+    '"vkCmdDraw", "args": {}}\n    }\n]',
 ])  # fmt: skip
 def test_brackets_that_mislead(text: str) -> None:
     assert [call.name for call in calls(text.encode())] == ["vkCmdDraw"]
-    unwanted = text.replace("]", ', {"index": 2, "function": {"name": "vkCmdDraw", "args": {}}}]').encode()
+    unwanted = text.replace(
+        "]", ', {"index": 2, "function": {"name": "vkCmdDraw", "args": {}}}]'
+    ).encode()
     assert [call.at.call for call in calls(unwanted)] == [1, 2]
 
 
 def test_skipped_elements_in_a_misleading_layout() -> None:
     skipped = (
-        '{\n  "index": 1, "function": {"name": "vkDeviceWaitIdle", "args": {}} }, {\n  "index": 2, "function": {"name": "vkCmdDraw"} }'
+        '{\n  "index": 1, "function": {"name": "vkDeviceWaitIdle", "args": {}} }, {\n  '
+        '"index": 2, "function": {"name": "vkCmdDraw"} }'
     )
     assert [call.at for call in calls(f"[\n{skipped}\n]".encode())] == [(3, 71, 2)]
 
@@ -347,7 +447,9 @@ def test_device_commands_are_calls() -> None:
         ("SetDeviceMemoryPropertiesCommand", (2, 1, 5)),
         ("vkCmdDraw", (4, 1, 7)),
     ]
-    assert calls(text)[1].args == {"memory_types": [{"property_flags": "0x0000000f", "heap_index": 0}]}
+    assert calls(text)[1].args == {
+        "memory_types": [{"property_flags": "0x0000000f", "heap_index": 0}]
+    }
 
 
 def marks(*lines: str) -> list[Mark]:
@@ -360,32 +462,55 @@ def test_a_trimmed_capture_says_so_once() -> None:
     assert marks(state, ended) == [Mark("trimmed", Place(1, 1))]
     old = '{"header":{"source-path":"cube/cube_frames_3_through_4.gfxr","json-version":"0.8.0"}}'
     assert marks(old) == [Mark("trimmed", Place(1, 1))]
-    assert marks('{"header":{"source-path":"cube_frame_12.gfxr"}}', state) == [Mark("trimmed", Place(1, 1))]
+    assert marks('{"header":{"source-path":"cube_frame_12.gfxr"}}', state) == [
+        Mark("trimmed", Place(1, 1))
+    ]
     assert marks('{"header":{"source-path":"frames.gfxr"}}') == []
     assert marks('{"header":{"source-path":"my_frames_game.gfxr"}}', ended) == []
 
 
 def test_frames_that_the_tool_marks() -> None:
-    text = ['{"frame":{"marker_type":"BeginMarker","frame_number":1}}', '{"frame":{"marker_type":"EndMarker","frame_number":1}}']
+    text = [
+        '{"frame":{"marker_type":"BeginMarker","frame_number":1}}',
+        '{"frame":{"marker_type":"EndMarker","frame_number":1}}',
+    ]
     assert marks(*text) == [Mark("frame", Place(2, 1))]
 
 
 def test_direct3d_is_passed_over() -> None:
     method = '{"index":1,"method":{"name":"ID3D12Device::CreateFence","thread":1,"object":{},"return":"S_OK","args":{}}}'
     assert len(calls(lined([method, line(2, draw(3))]))) == 1
-    assert broken(lined([method, method]))[0] == "this capture contains no Vulkan calls, only Direct3D calls"
-    assert broken(b'{"header":{"source-path":"a.gfxr"}}\n') == ("this capture contains no Vulkan calls", Place(1, 1))
+    assert (
+        broken(lined([method, method]))[0]
+        == "this capture contains no Vulkan calls, only Direct3D calls"
+    )
+    assert broken(b'{"header":{"source-path":"a.gfxr"}}\n') == (
+        "this capture contains no Vulkan calls",
+        Place(1, 1),
+    )
     assert broken(b"")[0] == "this capture contains no Vulkan calls"
     assert calls(lined([line(2, '{"name":"vkDeviceWaitIdle","args":{}}')])) == []
 
 
 def test_null_sample_masks_of_the_old_dialect_are_unknown() -> None:
-    for key, mask, known in (("vkFunc", None, {}), ("vkFunc", [15], {"pSampleMask": [15]}), ("function", None, {"pSampleMask": None})):
+    for key, mask, known in (
+        ("vkFunc", None, {}),
+        ("vkFunc", [15], {"pSampleMask": [15]}),
+        ("function", None, {"pSampleMask": None}),
+    ):
         state = {"rasterizationSamples": "VK_SAMPLE_COUNT_4_BIT", "pSampleMask": mask}
         infos = [{"pMultisampleState": state}, {"pMultisampleState": None}, None]
-        text = json.dumps({"index": 1, key: {"name": "vkCreateGraphicsPipelines", "args": {"pCreateInfos": infos}}})
+        text = json.dumps(
+            {
+                "index": 1,
+                key: {"name": "vkCreateGraphicsPipelines", "args": {"pCreateInfos": infos}},
+            }
+        )
         (call,) = calls(text.encode())
-        assert call.args["pCreateInfos"][0]["pMultisampleState"] == {"rasterizationSamples": "VK_SAMPLE_COUNT_4_BIT", **known}
+        assert call.args["pCreateInfos"][0]["pMultisampleState"] == {
+            "rasterizationSamples": "VK_SAMPLE_COUNT_4_BIT",
+            **known,
+        }
 
 
 # Shaders in files.
@@ -408,7 +533,15 @@ def test_code_is_read_from_files_of_the_captures_folder(tmp_path: Path) -> None:
     assert module("game\\1_pCode.bin", capture) == CODE
     assert module(str(folder / "game" / "1_pCode.bin"), capture) == CODE
     assert module("game/1_pCode.bin", None) is None, "a stream has no folder"
-    for nothing in ("game", "game/2_pCode.bin", "[Binary data]", "0x7fff0000", "", "\0", "a" * 5000):
+    for nothing in (
+        "game",
+        "game/2_pCode.bin",
+        "[Binary data]",
+        "0x7fff0000",
+        "",
+        "\0",
+        "a" * 5000,
+    ):
         assert module(nothing, capture) is None, nothing
 
 
@@ -425,7 +558,16 @@ def test_code_elsewhere_is_left_out(tmp_path: Path) -> None:
     with open(folder / "large.bin", "wb") as file:
         file.truncate((16 << 20) + 1)
     capture = str(folder / "game.jsonl")
-    for path in ("../outside.bin", str(outside), "link.bin", "up/outside.bin", "pipe.bin", "large.bin", "/dev/zero", "../aa/x"):
+    for path in (
+        "../outside.bin",
+        str(outside),
+        "link.bin",
+        "up/outside.bin",
+        "pipe.bin",
+        "large.bin",
+        "/dev/zero",
+        "../aa/x",
+    ):
         assert module(path, capture) is None, path
     assert module("good.bin", capture) == CODE
 
@@ -436,14 +578,23 @@ def test_code_of_shaders_without_a_module(tmp_path: Path) -> None:
     args = {"pCreateInfos": [{"pStages": [stage], "pNext": {"pCode": "[Binary data]"}}, 5, None]}
     text = line(1, json.dumps({"name": "vkCreateGraphicsPipelines", "args": args})).encode()
     (call,) = calls(text, name=str(tmp_path / "c.jsonl"))
-    assert call.args["pCreateInfos"][0] == {"pStages": [{"module": 0, "pNext": {"sType": "X", "pNext": {"pCode": CODE}}}], "pNext": {}}
+    assert call.args["pCreateInfos"][0] == {
+        "pStages": [{"module": 0, "pNext": {"sType": "X", "pNext": {"pCode": CODE}}}],
+        "pNext": {},
+    }
 
 
 # What is broken.
 
 
 def test_a_line_that_is_no_json() -> None:
-    text = lined([line(1, draw(3)), '{"index":2,"function":{"name":"vkCmdDraw","args":{,}}}', line(3, draw(3))])
+    text = lined(
+        [
+            line(1, draw(3)),
+            '{"index":2,"function":{"name":"vkCmdDraw","args":{,}}}',
+            line(3, draw(3)),
+        ]
+    )
     found, error = read(text)
     assert [each.at for each in found] == [(1, 1, 1)]
     assert error is not None and error.message.startswith("invalid JSON: ")
@@ -455,22 +606,33 @@ def test_a_cut_line_is_named() -> None:
     message, place = broken(text[:-20])
     assert (message, place) == ("the file is truncated in this line", Place(7, 1))
     # The last line is read whole even where nobody follows its call: a cut is to be told.
-    assert broken(lined([line(1, draw(3))]) + b'{"index":2,"function":{"name":"vkDeviceWaitIdle","ar')[1] == Place(2, 1)
+    assert broken(
+        lined([line(1, draw(3))]) + b'{"index":2,"function":{"name":"vkDeviceWaitIdle","ar'
+    )[1] == Place(2, 1)
 
 
 def test_places_of_bad_json_in_an_array() -> None:
     text = b'[\n{\n  "index": 1,\n  "function": {"name": "vkCmdDraw", "args": {,}}\n}\n]'
     message, place = broken(text)
     assert message.startswith("invalid JSON: ") and place == (4, 46, None)
-    assert broken(b'[ {"index": 1, "function": {"name": "vkCmdDraw", "args": {,}}}]')[1] == (1, 59, None)
+    assert broken(b'[ {"index": 1, "function": {"name": "vkCmdDraw", "args": {,}}}]')[1] == (
+        1,
+        59,
+        None,
+    )
     assert broken(b'[\n{"a": 1}\n{"b": 2}]') == ("invalid JSON: expected `,` or `]`", Place(3, 1))
-    assert broken(b'[\n{"a": 1}\n] x') == ("invalid JSON: unexpected text after the end of the document", Place(3, 3))
+    assert broken(b'[\n{"a": 1}\n] x') == (
+        "invalid JSON: unexpected text after the end of the document",
+        Place(3, 3),
+    )
     assert broken(b'[\n{"a": 1},\n') == ("the file is truncated", Place(3, 1))
     assert broken(b"[\n]") == ("invalid JSON: expected a value", Place(2, 1))
 
 
-@pytest.mark.parametrize("text", [b"5\n", b'{"index":1,"function":5}\n', b'{"index":1,"function":{"name":7,"args":{}}}\n',
-                                  b'{"index":1,"function":{"name":"vkCmdDraw","args":7}}\n', b"[5]", b'["a", 5]'])  # fmt: skip
+@pytest.mark.parametrize("text", [b"5\n", b'{"index":1,"function":5}\n',
+b'{"index":1,"function":{"name":7,"args":{}}}\n',
+                                  b'{"index":1,"function":{"name":"vkCmdDraw","args":7}}\n',
+                                  b"[5]", b'["a", 5]'])  # fmt: skip
 def test_json_that_is_no_call(text: bytes) -> None:
     assert broken(text)[0].startswith("invalid call: ")
 
@@ -520,8 +682,14 @@ def test_floats_that_are_no_json(number: str) -> None:
     color = f'{{"name":"nan \\"inf\\"","float32":[{number},0.000000,{number}],"int32":[-1,0,-1]}}'
     for text in (with_argument(color), f"[{with_argument(color)}]"):
         (call,) = calls(text.encode())
-        assert call.args["a"] == {"name": 'nan "inf"', "float32": [None, 0.0, None], "int32": [-1, 0, -1]}
-    assert broken(with_argument(f'{{"b":{number}5}}').encode() + b"\n")[0].startswith("invalid JSON: ")
+        assert call.args["a"] == {
+            "name": 'nan "inf"',
+            "float32": [None, 0.0, None],
+            "int32": [-1, 0, -1],
+        }
+    assert broken(with_argument(f'{{"b":{number}5}}').encode() + b"\n")[0].startswith(
+        "invalid JSON: "
+    )
 
 
 def test_names_with_control_characters() -> None:
@@ -537,14 +705,21 @@ def test_a_byte_order_mark() -> None:
 
 # Cuts and flips.
 
-TEXTS = {"lines": lined(new_lines(SMALL)), "old": lined(old_lines(SMALL)), "array": new_array(SMALL)}
+TEXTS = {
+    "lines": lined(new_lines(SMALL)),
+    "old": lined(old_lines(SMALL)),
+    "array": new_array(SMALL),
+}
 
 
 @pytest.mark.parametrize("form", TEXTS)
 def test_cut_at_every_byte(form: str) -> None:
     text = TEXTS[form]
     whole = calls(text)
-    ends = [text.find(b"\n" if form != "array" else b"\n}", _offset(text, call)) + 2 * (form == "array") for call in whole]
+    ends = [
+        text.find(b"\n" if form != "array" else b"\n}", _offset(text, call)) + 2 * (form == "array")
+        for call in whole
+    ]
     for cut in range(len(text)):
         found, error = read(text[:cut])
         assert found == whole[: len(found)]
@@ -564,7 +739,10 @@ def _offset(text: bytes, call: Call) -> int:
     return at
 
 
-@given(st.sampled_from(sorted(TEXTS)), st.lists(st.tuples(st.integers(0, 1 << 20), st.integers(0, 255)), min_size=1, max_size=3))
+@given(
+    st.sampled_from(sorted(TEXTS)),
+    st.lists(st.tuples(st.integers(0, 1 << 20), st.integers(0, 255)), min_size=1, max_size=3),
+)
 @examples(3)
 def test_bytes_that_were_changed(form: str, changes: list[tuple[int, int]]) -> None:
     text = bytearray(TEXTS[form])
@@ -575,7 +753,11 @@ def test_bytes_that_were_changed(form: str, changes: list[tuple[int, int]]) -> N
         first = min(first, at % len(text))
     found, _ = read(bytes(text))
     ending = b"\n" if form != "array" else b"\n}"
-    before = [call for call in whole if TEXTS[form].index(ending, _offset(TEXTS[form], call)) + len(ending) <= first]
+    before = [
+        call
+        for call in whole
+        if TEXTS[form].index(ending, _offset(TEXTS[form], call)) + len(ending) <= first
+    ]
     assert found[: len(before)] == before
 
 
@@ -597,7 +779,15 @@ def test_who_claims_what() -> None:
     for text in TEXTS.values():
         assert gfxreconstruct.claims(text) and not api_dump.claims(text)
     assert api_dump.claims(dump) and not gfxreconstruct.claims(dump)
-    for other in (b"", b"images: {}", b'{"images": {}}', b'{"renderPasses": {}}', b"<rdc>", b'{"header": {}}', b'{"index": 1}'):
+    for other in (
+        b"",
+        b"images: {}",
+        b'{"images": {}}',
+        b'{"renderPasses": {}}',
+        b"<rdc>",
+        b'{"header": {}}',
+        b'{"index": 1}',
+    ):
         assert not gfxreconstruct.claims(other) and not api_dump.claims(other)
     assert gfxreconstruct.claims(lined([line(1, draw(3))])), "without a header"
 
@@ -627,16 +817,31 @@ class TestSamples:
     def test_every_call_of_a_sample(self, name: str) -> None:
         text = (FOLDER / name).read_bytes()
         assert gfxreconstruct.claims(text[: 1 << 16])
-        objects = json.loads(text) if name.endswith(".json") else [json.loads(each) for each in text.splitlines()]
-        bodies = [(each["index"], each.get("function") or each.get("vkFunc")) for each in objects if "function" in each or "vkFunc" in each]
+        objects = (
+            json.loads(text)
+            if name.endswith(".json")
+            else [json.loads(each) for each in text.splitlines()]
+        )
+        bodies = [
+            (each["index"], each.get("function") or each.get("vkFunc"))
+            for each in objects
+            if "function" in each or "vkFunc" in each
+        ]
         found = [call for call in calls(text, Everything()) if call.name.startswith("vk")]
-        assert [(call.at.call, call.name, call.result) for call in found] == [(at, body["name"], body.get("return")) for at, body in bodies]
+        assert [(call.at.call, call.name, call.result) for call in found] == [
+            (at, body["name"], body.get("return")) for at, body in bodies
+        ]
         assert len(calls(text, Everything())) == COUNTS[name]
-        assert len([each for each in read(text, Everything())[0] if isinstance(each, Mark)]) == ("trim" in name)
+        assert len([each for each in read(text, Everything())[0] if isinstance(each, Mark)]) == (
+            "trim" in name
+        )
 
     def test_a_sample_is_the_same_in_every_dialect(self) -> None:
         def of(name: str) -> list[tuple[str, Any, str | None]]:
-            found = calls((FOLDER / name).read_bytes(), WANTED | {"vkCreateFramebuffer", "vkCmdResolveImage", "vkQueueSubmit"})
+            found = calls(
+                (FOLDER / name).read_bytes(),
+                WANTED | {"vkCreateFramebuffer", "vkCmdResolveImage", "vkQueueSubmit"},
+            )
             return [common(call) for call in found if call.name.startswith("vk")]
 
         lines = of("gfxr_1.0.5_msaa.jsonl")

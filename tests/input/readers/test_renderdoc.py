@@ -1,4 +1,6 @@
-"""RenderDoc's XML: every call with C's names and its place, the zip beside it, and what is no capture."""
+"""RenderDoc's XML: every call with C's names and its place, the zip beside it, and what is no
+capture.
+"""
 
 from __future__ import annotations
 
@@ -42,22 +44,53 @@ RESOLVE = {
 }
 PIPELINE = {
     "sType": "VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO",
-    "pMultisampleState": {"rasterizationSamples": "VK_SAMPLE_COUNT_4_BIT", "minSampleShading": 0.25, "pSampleMask": [15]},
+    "pMultisampleState": {
+        "rasterizationSamples": "VK_SAMPLE_COUNT_4_BIT",
+        "minSampleShading": 0.25,
+        "pSampleMask": [15],
+    },
     "renderPass": 30,
 }
 PROGRAM: list[tuple[str, dict[str, Any]]] = [
-    ("vkCreateInstance", {"pCreateInfo": {"pApplicationInfo": {"pApplicationName": "a <b> & c", "apiVersion": 4206592}}, "pInstance": 1}),
+    (
+        "vkCreateInstance",
+        {
+            "pCreateInfo": {
+                "pApplicationInfo": {"pApplicationName": "a <b> & c", "apiVersion": 4206592}
+            },
+            "pInstance": 1,
+        },
+    ),
     (
         "vkGetPhysicalDeviceProperties",
-        {"physicalDevice": 2, "pProperties": {"vendorID": 5045, "limits": {"framebufferColorSampleCounts": 5}}},
+        {
+            "physicalDevice": 2,
+            "pProperties": {"vendorID": 5045, "limits": {"framebufferColorSampleCounts": 5}},
+        },
     ),
     (
         "vkGetPhysicalDeviceMemoryProperties",
-        {"physicalDevice": 2, "pMemoryProperties": {"memoryTypeCount": 1, "memoryTypes": [{"propertyFlags": 17, "heapIndex": 0}]}},
+        {
+            "physicalDevice": 2,
+            "pMemoryProperties": {
+                "memoryTypeCount": 1,
+                "memoryTypes": [{"propertyFlags": 17, "heapIndex": 0}],
+            },
+        },
     ),
     ("vkGetPhysicalDeviceFeatures", {"physicalDevice": 2, "pFeatures": {"sampleRateShading": 1}}),
-    ("vkCreateDevice", {"physicalDevice": 2, "pCreateInfo": {"ppEnabledExtensionNames": ["VK_KHR_swapchain"]}, "pDevice": 3}),
-    ("vkCreateSwapchainKHR", {"device": 3, "pCreateInfo": {"imageFormat": "VK_FORMAT_R8G8B8A8_UNORM"}, "pSwapchain": 4}),
+    (
+        "vkCreateDevice",
+        {
+            "physicalDevice": 2,
+            "pCreateInfo": {"ppEnabledExtensionNames": ["VK_KHR_swapchain"]},
+            "pDevice": 3,
+        },
+    ),
+    (
+        "vkCreateSwapchainKHR",
+        {"device": 3, "pCreateInfo": {"imageFormat": "VK_FORMAT_R8G8B8A8_UNORM"}, "pSwapchain": 4},
+    ),
     ("vkGetSwapchainImagesKHR", {"device": 3, "swapchain": 4, "pSwapchainImages": [5, 6]}),
     ("vkCreateImage", {"device": 3, "pCreateInfo": IMAGE, "pAllocator": None, "pImage": 10}),
     ("vkSetDebugUtilsObjectNameEXT", {"pNameInfo": {"objectHandle": 10, "pObjectName": "colour"}}),
@@ -66,23 +99,75 @@ PROGRAM: list[tuple[str, dict[str, Any]]] = [
     ("vkCreateImageView", {"device": 3, "pCreateInfo": {"image": 10}, "pView": 12}),
     (
         "vkCreateRenderPass2",
-        {"device": 3, "pCreateInfo": {"pSubpasses": [{"pNext": RESOLVE, "pResolveAttachments": []}]}, "pRenderPass": 30},
+        {
+            "device": 3,
+            "pCreateInfo": {"pSubpasses": [{"pNext": RESOLVE, "pResolveAttachments": []}]},
+            "pRenderPass": 30,
+        },
     ),
-    ("vkCreateFramebuffer", {"device": 3, "pCreateInfo": {"renderPass": 30, "pAttachments": [12]}, "pFramebuffer": 31}),
-    ("vkCreateShaderModule", {"device": 3, "pCreateInfo": {"codeSize": len(CODE), "pCode": CODE}, "pShaderModule": 32}),
-    ("vkCreateGraphicsPipelines", {"device": 3, "createInfoCount": 2, "pCreateInfos": [PIPELINE, PIPELINE], "pPipelines": [33, 34]}),
-    ("vkAllocateCommandBuffers", {"device": 3, "pAllocateInfo": {"commandPool": 39}, "pCommandBuffers": [40, 41]}),
-    ("vkBeginCommandBuffer", {"commandBuffer": 40, "pBeginInfo": {"flags": 0, "pInheritanceInfo": None}}),
-    ("vkCmdBeginRenderPass2", {"commandBuffer": 40, "pRenderPassBegin": {"renderPass": 30}, "pSubpassBeginInfo": {"contents": 0}}),
+    (
+        "vkCreateFramebuffer",
+        {"device": 3, "pCreateInfo": {"renderPass": 30, "pAttachments": [12]}, "pFramebuffer": 31},
+    ),
+    (
+        "vkCreateShaderModule",
+        {"device": 3, "pCreateInfo": {"codeSize": len(CODE), "pCode": CODE}, "pShaderModule": 32},
+    ),
+    (
+        "vkCreateGraphicsPipelines",
+        {
+            "device": 3,
+            "createInfoCount": 2,
+            "pCreateInfos": [PIPELINE, PIPELINE],
+            "pPipelines": [33, 34],
+        },
+    ),
+    (
+        "vkAllocateCommandBuffers",
+        {"device": 3, "pAllocateInfo": {"commandPool": 39}, "pCommandBuffers": [40, 41]},
+    ),
+    (
+        "vkBeginCommandBuffer",
+        {"commandBuffer": 40, "pBeginInfo": {"flags": 0, "pInheritanceInfo": None}},
+    ),
+    (
+        "vkCmdBeginRenderPass2",
+        {
+            "commandBuffer": 40,
+            "pRenderPassBegin": {"renderPass": 30},
+            "pSubpassBeginInfo": {"contents": 0},
+        },
+    ),
     ("vkCmdEndRenderPass2", {"commandBuffer": 40, "pSubpassEndInfo": {"pNext": None}}),
     (
         "vkCmdPipelineBarrier",
-        {"commandBuffer": 40, "srcStageMask": 1, "dstStageMask": 2, "pImageMemoryBarriers": [{"srcQueueFamilyIndex": -1}]},
+        {
+            "commandBuffer": 40,
+            "srcStageMask": 1,
+            "dstStageMask": 2,
+            "pImageMemoryBarriers": [{"srcQueueFamilyIndex": -1}],
+        },
     ),
-    ("vkCmdResolveImage", {"commandBuffer": 40, "srcImage": 10, "srcImageLayout": 6, "dstImage": 5, "dstImageLayout": 7, "pRegions": []}),
+    (
+        "vkCmdResolveImage",
+        {
+            "commandBuffer": 40,
+            "srcImage": 10,
+            "srcImageLayout": 6,
+            "dstImage": 5,
+            "dstImageLayout": 7,
+            "pRegions": [],
+        },
+    ),
     ("vkEndCommandBuffer", {"commandBuffer": 40}),
-    ("vkQueueSubmit", {"queue": 50, "submitCount": 1, "pSubmits": [{"pCommandBuffers": [40]}], "fence": 0}),
-    ("vkQueuePresentKHR", {"queue": 50, "pPresentInfo": {"pSwapchains": [4], "pImageIndices": [1]}}),
+    (
+        "vkQueueSubmit",
+        {"queue": 50, "submitCount": 1, "pSubmits": [{"pCommandBuffers": [40]}], "fence": 0},
+    ),
+    (
+        "vkQueuePresentKHR",
+        {"queue": 50, "pPresentInfo": {"pSwapchains": [4], "pImageIndices": [1]}},
+    ),
 ]
 
 
@@ -96,7 +181,9 @@ class Everything(frozenset[str]):
         return False
 
 
-def read(text: bytes, wanted: frozenset[str] = Everything(), name: str | None = None) -> tuple[list[Call], CaptureError | None]:
+def read(
+    text: bytes, wanted: frozenset[str] = Everything(), name: str | None = None
+) -> tuple[list[Call], CaptureError | None]:
     """The calls, and how reading ended. There is one mark, before the first call."""
     found: list[Call] = []
     marks: list[tuple[int, Mark]] = []
@@ -109,7 +196,9 @@ def read(text: bytes, wanted: frozenset[str] = Everything(), name: str | None = 
                 found.append(each)
     except CaptureError as error:
         broken = error
-    assert [(at, mark.kind) for at, mark in marks] == ([(0, "frameless")] if b"<chunk " in text and (found or marks) else [])
+    assert [(at, mark.kind) for at, mark in marks] == (
+        [(0, "frameless")] if b"<chunk " in text and (found or marks) else []
+    )
     return found, broken
 
 
@@ -118,14 +207,25 @@ def split(program: list[tuple[str, dict[str, Any]]]) -> Iterator[tuple[str, dict
     for name, args in program:
         if name == "vkCreateGraphicsPipelines":
             for info, handle in zip(args["pCreateInfos"], args["pPipelines"], strict=False):
-                yield name, {**args, "createInfoCount": 1, "pCreateInfos": [info], "pPipelines": [handle]}
+                yield (
+                    name,
+                    {**args, "createInfoCount": 1, "pCreateInfos": [info], "pPipelines": [handle]},
+                )
         elif name == "vkAllocateCommandBuffers":
             for handle in args["pCommandBuffers"]:
                 yield name, {**args, "pCommandBuffers": [handle]}
         elif name == "vkGetSwapchainImagesKHR":
             images = args["pSwapchainImages"]
             for count in range(1, len(images) + 1):
-                yield name, {**args, "device": 1, "pSwapchainImageCount": count, "pSwapchainImages": images[:count]}
+                yield (
+                    name,
+                    {
+                        **args,
+                        "device": 1,
+                        "pSwapchainImageCount": count,
+                        "pSwapchainImages": images[:count],
+                    },
+                )
         else:
             yield name, args
 
@@ -145,7 +245,10 @@ def test_every_call_has_cs_names() -> None:
     instance, *others = told
     assert instance[0] == "vkCreateInstance"
     assert instance[1]["pInstance"] == 1
-    assert instance[1]["pCreateInfo"]["pApplicationInfo"] == {"pApplicationName": "a <b> & c", "apiVersion": 4206592}
+    assert instance[1]["pCreateInfo"]["pApplicationInfo"] == {
+        "pApplicationName": "a <b> & c",
+        "apiVersion": 4206592,
+    }
     expected = [(name, numbers(without(args, "pCode"))) for name, args in split(PROGRAM)][1:]
     for name, args in expected:
         if name == "vkSetDebugUtilsObjectNameEXT":
@@ -156,7 +259,11 @@ def test_every_call_has_cs_names() -> None:
 @given(programs)
 @examples(1)
 def test_any_program(program: list[tuple[str, dict[str, Any]]]) -> None:
-    told = [each for each in program if each[0] not in ("vkGetPhysicalDeviceProperties", "vkSetDebugUtilsObjectNameEXT")]
+    told = [
+        each
+        for each in program
+        if each[0] not in ("vkGetPhysicalDeviceProperties", "vkSetDebugUtilsObjectNameEXT")
+    ]
     found, broken = read(written(told).text())
     assert broken is None
     expected = [(name, first_words(numbers(args))) for name, args in split(told)]
@@ -166,22 +273,44 @@ def test_any_program(program: list[tuple[str, dict[str, Any]]]) -> None:
 def first_words(value: Any) -> Any:
     """Sample masks cut to the word that RenderDoc writes."""
     if isinstance(value, dict):
-        return {key: item[:1] if key == "pSampleMask" and item else first_words(item) for key, item in value.items()}
+        return {
+            key: item[:1] if key == "pSampleMask" and item else first_words(item)
+            for key, item in value.items()
+        }
     return [first_words(item) for item in value] if isinstance(value, list) else value
 
 
 @given(text=st.text(max_size=30), block=st.integers(1, 40))
 @examples(2)
 def test_names_of_any_characters(text: str, block: int) -> None:
-    capture = written([("vkSetDebugUtilsObjectNameEXT", {"pNameInfo": {"objectHandle": 7, "pObjectName": text}}), ("vkCmdDraw", {})])
-    name, draw = (each for each in renderdoc.calls(Slow(capture.text(), block), Everything(), None) if isinstance(each, Call))
-    assert name.args["pNameInfo"]["pObjectName"] == "".join("?" if ord(each) < 32 and each not in "\t\n\r" else each for each in text)
+    capture = written(
+        [
+            (
+                "vkSetDebugUtilsObjectNameEXT",
+                {"pNameInfo": {"objectHandle": 7, "pObjectName": text}},
+            ),
+            ("vkCmdDraw", {}),
+        ]
+    )
+    name, draw = (
+        each
+        for each in renderdoc.calls(Slow(capture.text(), block), Everything(), None)
+        if isinstance(each, Call)
+    )
+    assert name.args["pNameInfo"]["pObjectName"] == "".join(
+        "?" if ord(each) < 32 and each not in "\t\n\r" else each for each in text
+    )
     assert (draw.at.line, draw.at.column) == (11, 3)
 
 
 def test_names_in_another_encoding() -> None:
-    capture = written([("vkSetDebugUtilsObjectNameEXT", {"pNameInfo": {"objectHandle": 7, "pObjectName": "é😀"}})]).text()
-    for other, name in ((capture.replace("é".encode(), b"\xe9"), "\ufffd😀"), (capture.replace("😀".encode(), b"\xf0\x9f"), "é\ufffd")):
+    capture = written(
+        [("vkSetDebugUtilsObjectNameEXT", {"pNameInfo": {"objectHandle": 7, "pObjectName": "é😀"}})]
+    ).text()
+    for other, name in (
+        (capture.replace("é".encode(), b"\xe9"), "\ufffd😀"),
+        (capture.replace("😀".encode(), b"\xf0\x9f"), "é\ufffd"),
+    ):
         (call,), broken = read(other)
         assert broken is None
         assert call.args["pNameInfo"]["pObjectName"] == name
@@ -202,11 +331,17 @@ def test_the_device_is_told_before_the_call_that_finds_it() -> None:
     found, _ = read(written(PROGRAM).text())
     names = [call.name for call in found]
     queries = names[1:4]
-    assert queries == ["vkGetPhysicalDeviceProperties", "vkGetPhysicalDeviceMemoryProperties", "vkGetPhysicalDeviceFeatures"]
+    assert queries == [
+        "vkGetPhysicalDeviceProperties",
+        "vkGetPhysicalDeviceMemoryProperties",
+        "vkGetPhysicalDeviceFeatures",
+    ]
     assert names[4] == "vkEnumeratePhysicalDevices"
     assert found[4].args == {"instance": 1, "pPhysicalDeviceCount": 1, "pPhysicalDevices": [2]}
     # Of C's 32 memory types the one that is.
-    assert found[2].args["pMemoryProperties"]["memoryTypes"] == [{"propertyFlags": 17, "heapIndex": 0}]
+    assert found[2].args["pMemoryProperties"]["memoryTypes"] == [
+        {"propertyFlags": 17, "heapIndex": 0}
+    ]
     assert {call.at for call in found[1:5]} == {found[1].at}
 
 
@@ -220,9 +355,9 @@ def test_places_are_those_of_the_chunks() -> None:
         line = lines[call.at.line - 1]
         assert line[call.at.column - 1 :].startswith("<chunk ")
         assert line == chunks[call.at.call] or line in chunks
-    assert [call.at.call for call in found if not call.name.startswith(("vkGetPhysical", "vkEnumerate"))] == [
-        number for number in range(len(chunks)) if number != 1
-    ]
+    assert [
+        call.at.call for call in found if not call.name.startswith(("vkGetPhysical", "vkEnumerate"))
+    ] == [number for number in range(len(chunks)) if number != 1]
     one_line = text.replace(b"\n", b" ")
     places = [call.at for call in read(one_line)[0]]
     assert {place.line for place in places} == {1}
@@ -230,7 +365,9 @@ def test_places_are_those_of_the_chunks() -> None:
 
 
 def test_columns_count_characters() -> None:
-    text = written([("vkCmdDraw", {})]).text().replace(b"\t\t<chunk ", "<!-- 🎮é --><chunk ".encode())
+    text = (
+        written([("vkCmdDraw", {})]).text().replace(b"\t\t<chunk ", "<!-- 🎮é --><chunk ".encode())
+    )
     (call,), _ = read(text)
     assert call.at.column == 12
 
@@ -246,8 +383,17 @@ def test_only_what_is_wanted_is_told() -> None:
         assert broken is None
         assert {call.name.removesuffix("KHR") for call in found} == wanted
     everything, _ = read(text)
-    some = frozenset({"vkCreateImage", "vkGetSwapchainImages", "vkSetDebugUtilsObjectName", "vkGetPhysicalDeviceProperties"})
-    assert read(text, some)[0] == [call for call in everything if call.name.removesuffix("KHR").removesuffix("EXT") in some]
+    some = frozenset(
+        {
+            "vkCreateImage",
+            "vkGetSwapchainImages",
+            "vkSetDebugUtilsObjectName",
+            "vkGetPhysicalDeviceProperties",
+        }
+    )
+    assert read(text, some)[0] == [
+        call for call in everything if call.name.removesuffix("KHR").removesuffix("EXT") in some
+    ]
 
 
 def test_a_name_tells_its_objects_type() -> None:
@@ -257,7 +403,13 @@ def test_a_name_tells_its_objects_type() -> None:
     ]
     found, _ = read(written(made).text(), frozenset({"vkSetDebugUtilsObjectName"}))
     assert [call.args for call in found] == [
-        {"pNameInfo": {"objectType": "VK_OBJECT_TYPE_FRAMEBUFFER", "objectHandle": 7, "pObjectName": "a"}},
+        {
+            "pNameInfo": {
+                "objectType": "VK_OBJECT_TYPE_FRAMEBUFFER",
+                "objectHandle": 7,
+                "pObjectName": "a",
+            }
+        },
     ]
     found, _ = read(written(made[1:]).text())
     assert found[0].args["pNameInfo"]["objectType"] is None
@@ -266,14 +418,26 @@ def test_a_name_tells_its_objects_type() -> None:
 def test_what_is_no_part_of_a_call_is_left_out() -> None:
     capture = RenderDoc()
     capture.chunk(
-        "vkBeginCommandBuffer", {"CommandBuffer": 1, "BeginInfo": {"flags": 4}, "BakedCommandBuffer": 2, "device": 3, "AllocateInfo": {}}
+        "vkBeginCommandBuffer",
+        {
+            "CommandBuffer": 1,
+            "BeginInfo": {"flags": 4},
+            "BakedCommandBuffer": 2,
+            "device": 3,
+            "AllocateInfo": {},
+        },
     )
-    capture.chunk("vkCmdDraw", {"commandBuffer": 1, "vertexCount": 3, "DebugMessages": [{"message": "x"}]})
+    capture.chunk(
+        "vkCmdDraw", {"commandBuffer": 1, "vertexCount": 3, "DebugMessages": [{"message": "x"}]}
+    )
     capture.lines[-1:-1] = [
         "<callstack><address>140</address><address>141</address></callstack>",
         "<what>1<struct><uint>2</uint></struct></what>",
     ]
-    capture.chunk("vkQueuePresentKHR", {"queue": 5, "PresentInfo": {"pImageIndices": [0]}, "PresentedImage": 9})
+    capture.chunk(
+        "vkQueuePresentKHR",
+        {"queue": 5, "PresentInfo": {"pImageIndices": [0]}, "PresentedImage": 9},
+    )
     found, broken = read(capture.text())
     assert broken is None
     assert [call.args for call in found] == [
@@ -285,11 +449,22 @@ def test_what_is_no_part_of_a_call_is_left_out() -> None:
 
 def test_memory_requirements_are_a_query() -> None:
     capture = RenderDoc()
-    capture.chunk("vkCreateImage", {"device": 1, "CreateInfo": {"format": 37}, "Image": 2, "memoryRequirements": {"size": 4096}})
+    capture.chunk(
+        "vkCreateImage",
+        {
+            "device": 1,
+            "CreateInfo": {"format": 37},
+            "Image": 2,
+            "memoryRequirements": {"size": 4096},
+        },
+    )
     found, _ = read(capture.text())
     assert [(call.name, call.args) for call in found] == [
         ("vkCreateImage", {"device": 1, "pCreateInfo": {"format": 37}, "pImage": 2}),
-        ("vkGetImageMemoryRequirements", {"device": 1, "image": 2, "pMemoryRequirements": {"size": 4096}}),
+        (
+            "vkGetImageMemoryRequirements",
+            {"device": 1, "image": 2, "pMemoryRequirements": {"size": 4096}},
+        ),
     ]
 
 
@@ -303,10 +478,18 @@ LAYOUT = [
 
 def with_sets(slots: list[dict[str, Any]], layout: int = 1) -> RenderDoc:
     capture = RenderDoc()
-    capture.chunk("vkCreateDescriptorSetLayout", {"CreateInfo": {"pBindings": LAYOUT}, "SetLayout": 1})
-    capture.chunk("vkAllocateDescriptorSets", {"AllocateInfo": {"descriptorPool": 9, "pSetLayouts": [layout]}, "DescriptorSet": 20})
+    capture.chunk(
+        "vkCreateDescriptorSetLayout", {"CreateInfo": {"pBindings": LAYOUT}, "SetLayout": 1}
+    )
+    capture.chunk(
+        "vkAllocateDescriptorSets",
+        {"AllocateInfo": {"descriptorPool": 9, "pSetLayouts": [layout]}, "DescriptorSet": 20},
+    )
     capture.chunk("Internal::Initial Contents", {"type": 8, "id": 2, "Contents": b"abc"})
-    capture.chunk("Internal::Initial Contents", {"type": 19, "id": 20, "Bindings": slots, "NumBindings": len(slots)})
+    capture.chunk(
+        "Internal::Initial Contents",
+        {"type": 19, "id": 20, "Bindings": slots, "NumBindings": len(slots)},
+    )
     return capture
 
 
@@ -328,8 +511,12 @@ def sampled(view: int) -> dict[str, Any]:
         ([UNIFORM, BLOCK, sampled(71)], [(0, [71])]),
     ],
 )
-def test_what_sets_hold_when_the_frame_begins_is_an_update(slots: list[dict[str, Any]], writes: list[tuple[int, list[int]]]) -> None:
-    found, broken = read(with_sets(slots).text(), frozenset({"vkUpdateDescriptorSets", "vkAllocateDescriptorSets"}))
+def test_what_sets_hold_when_the_frame_begins_is_an_update(
+    slots: list[dict[str, Any]], writes: list[tuple[int, list[int]]]
+) -> None:
+    found, broken = read(
+        with_sets(slots).text(), frozenset({"vkUpdateDescriptorSets", "vkAllocateDescriptorSets"})
+    )
     assert broken is None
     assert found[0].name == "vkAllocateDescriptorSets"
     told = [
@@ -338,12 +525,19 @@ def test_what_sets_hold_when_the_frame_begins_is_an_update(slots: list[dict[str,
         for write in call.args["pDescriptorWrites"]
     ]
     assert told == writes
-    assert all(write["dstBinding"] == 7 and write["dstSet"] == 20 for call in found[1:] for write in call.args["pDescriptorWrites"])
+    assert all(
+        write["dstBinding"] == 7 and write["dstSet"] == 20
+        for call in found[1:]
+        for write in call.args["pDescriptorWrites"]
+    )
 
 
 def test_a_set_of_an_unknown_layout_holds_what_is_not_told() -> None:
     found, _ = read(with_sets([sampled(71)], layout=5).text())
-    assert (found[-1].name, found[-1].args) == ("vkUpdateDescriptorSetWithTemplate", {"descriptorSet": 20})
+    assert (found[-1].name, found[-1].args) == (
+        "vkUpdateDescriptorSetWithTemplate",
+        {"descriptorSet": 20},
+    )
 
 
 def test_a_large_set_is_not_told_and_stops_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -362,11 +556,30 @@ def test_a_large_set_is_not_told_and_stops_nothing(monkeypatch: pytest.MonkeyPat
 @given(
     programs,
     st.floats(0, 1),
-    st.sampled_from(["", "<", ">", "/", '"', "x", " ", "&", "&amp;", "<!-- -->", "\n", "é", "<uint>", "</chunk>"]),
+    st.sampled_from(
+        [
+            "",
+            "<",
+            ">",
+            "/",
+            '"',
+            "x",
+            " ",
+            "&",
+            "&amp;",
+            "<!-- -->",
+            "\n",
+            "é",
+            "<uint>",
+            "</chunk>",
+        ]
+    ),
     st.integers(1, 300),
 )
 @examples(2)
-def test_text_is_read_as_by_the_xml_parser(program: list[tuple[str, dict[str, Any]]], place: float, insertion: str, block: int) -> None:
+def test_text_is_read_as_by_the_xml_parser(
+    program: list[tuple[str, dict[str, Any]]], place: float, insertion: str, block: int
+) -> None:
     text = written(program).text()
     at = int(place * len(text))
     text = text[:at] + insertion.encode() + text[at:]
@@ -378,7 +591,9 @@ def test_text_is_read_as_by_the_xml_parser(program: list[tuple[str, dict[str, An
             found: list[Call | Mark] = []
             broken = None
             try:
-                found += renderdoc.calls(Slow(text, block), frozenset(name.decode() for name in names), None)
+                found += renderdoc.calls(
+                    Slow(text, block), frozenset(name.decode() for name in names), None
+                )
             except CaptureError as error:
                 broken = error.message, error.place
             results.append((found, broken))
@@ -392,8 +607,14 @@ def test_wherever_a_large_set_is_cut_the_rest_is_told(block: int, limit: int) ->
     capture.chunk("vkCmdDraw", {"vertexCount": 3})
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(renderdoc, "MAX_CHUNK", limit)
-        sets = frozenset({"vkUpdateDescriptorSets", "vkUpdateDescriptorSetWithTemplate", "vkCmdDraw"})
-        found = [each for each in renderdoc.calls(Slow(capture.text(), block), sets, None) if isinstance(each, Call)]
+        sets = frozenset(
+            {"vkUpdateDescriptorSets", "vkUpdateDescriptorSetWithTemplate", "vkCmdDraw"}
+        )
+        found = [
+            each
+            for each in renderdoc.calls(Slow(capture.text(), block), sets, None)
+            if isinstance(each, Call)
+        ]
     assert [call.name for call in found[1:]] == ["vkCmdDraw"]
     assert found[0].name in ("vkUpdateDescriptorSets", "vkUpdateDescriptorSetWithTemplate")
 
@@ -401,16 +622,30 @@ def test_wherever_a_large_set_is_cut_the_rest_is_told(block: int, limit: int) ->
 def test_the_writes_of_a_template_are_decoded() -> None:
     capture = RenderDoc()
     capture.chunk(
-        "vkUpdateDescriptorSetWithTemplate", {"device": 1, "descriptorSet": 20, "Decoded Writes": [{"dstSet": 0, "dstBinding": 2}]}
+        "vkUpdateDescriptorSetWithTemplate",
+        {"device": 1, "descriptorSet": 20, "Decoded Writes": [{"dstSet": 0, "dstBinding": 2}]},
     )
     capture.chunk("vkUpdateDescriptorSetWithTemplate", {"device": 1, "descriptorSet": 20})
     writes = [{"dstSet": 0, "dstBinding": 3}]
-    capture.chunk("vkCmdPushDescriptorSetWithTemplateKHR", {"commandBuffer": 7, "set": 0, "Decoded Writes": writes})
+    capture.chunk(
+        "vkCmdPushDescriptorSetWithTemplateKHR",
+        {"commandBuffer": 7, "set": 0, "Decoded Writes": writes},
+    )
     found, _ = read(capture.text())
     assert [(call.name, call.args) for call in found] == [
-        ("vkUpdateDescriptorSetWithTemplate", {"device": 1, "descriptorSet": 20, "pDescriptorWrites": [{"dstSet": 0, "dstBinding": 2}]}),
+        (
+            "vkUpdateDescriptorSetWithTemplate",
+            {
+                "device": 1,
+                "descriptorSet": 20,
+                "pDescriptorWrites": [{"dstSet": 0, "dstBinding": 2}],
+            },
+        ),
         ("vkUpdateDescriptorSetWithTemplate", {"device": 1, "descriptorSet": 20}),
-        ("vkCmdPushDescriptorSetWithTemplateKHR", {"commandBuffer": 7, "set": 0, "pDescriptorWrites": writes}),
+        (
+            "vkCmdPushDescriptorSetWithTemplateKHR",
+            {"commandBuffer": 7, "set": 0, "pDescriptorWrites": writes},
+        ),
     ]
 
 
@@ -430,7 +665,9 @@ def test_code_is_in_the_zip_beside(tmp_path: Path) -> None:
     assert "pCode" not in call.args["pCreateInfo"]
 
 
-def test_buffers_of_another_size_are_unknown(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_buffers_of_another_size_are_unknown(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     capture = written(PROGRAM)
     (tmp_path / "a.zip").write_bytes(capture.zip())
     length = f'byteLength="{len(CODE)}"'.encode()
@@ -465,7 +702,9 @@ def test_what_is_no_zip_is_no_matter(tmp_path: Path) -> None:
 
 @given(at=st.integers(0, 10**6), bit=st.integers(0, 7))
 @examples(1.5)
-def test_a_flipped_bit_in_the_zip_gives_the_code_or_nothing(at: int, bit: int, tmp_path_factory: pytest.TempPathFactory) -> None:
+def test_a_flipped_bit_in_the_zip_gives_the_code_or_nothing(
+    at: int, bit: int, tmp_path_factory: pytest.TempPathFactory
+) -> None:
     capture = written(PROGRAM)
     data = bytearray(capture.zip())
     data[at % len(data)] ^= 1 << bit
@@ -495,21 +734,47 @@ GOOD = '<chunk name="vkCmdDraw"><uint name="vertexCount">3</uint></chunk>'
     [
         ("⟦", "the XML is truncated"),
         ("⟦<html></html>", "the root element must be `rdc`, found `html`"),
-        ("<rdc><header><driver>D3D11⟦</driver></header></rdc>", "expected a Vulkan capture, found the driver `D3D11`"),
-        ("<rdc><header><driver/>⟦</header></rdc>", "expected a Vulkan capture, found the driver ``"),
+        (
+            "<rdc><header><driver>D3D11⟦</driver></header></rdc>",
+            "expected a Vulkan capture, found the driver `D3D11`",
+        ),
+        (
+            "<rdc><header><driver/>⟦</header></rdc>",
+            "expected a Vulkan capture, found the driver ``",
+        ),
         (
             '<!DOCTYPE rdc ⟦[<!ENTITY a "b">]><rdc>&a;</rdc>',
-            "unexpected document type declaration; RenderDoc does not write one, and entities are not supported",
+            "unexpected document type declaration; RenderDoc does not write one, and entities are "
+            "not supported",
         ),
-        ("<!DOCTYPE html⟦><html/>", "unexpected document type declaration; RenderDoc does not write one, and entities are not supported"),
+        (
+            "<!DOCTYPE html⟦><html/>",
+            "unexpected document type declaration; RenderDoc does not write one, and entities are "
+            "not supported",
+        ),
         ("<rdc>⟦&a;</rdc>", "invalid XML: undefined entity"),
         ("<rdc></rdc>⟦<rdc></rdc>", "invalid XML: junk after document element"),
         (xml("").decode()[:-6] + "⟦</rdc", "the XML is truncated"),
-        (xml('<chunk name="vkCmdDraw"><uint name="a">x⟦</uint></chunk>').decode(), "`x` is not a valid `uint`"),
-        (xml(f'<chunk name="vkCmdDraw"><uint name="a">{"9" * 5000}⟦</uint></chunk>').decode(), f"`{'9' * 64}` is not a valid `uint`"),
-        (xml('<chunk name="vkCmdDraw"><float name="a">1.0.0⟦</float></chunk>').decode(), "`1.0.0` is not a valid `float`"),
-        (xml('<chunk name="vkCmdDraw"><bool name="a">1⟦</bool></chunk>').decode(), "`1` is not a valid `bool`"),
-        (xml('<chunk name="vkCmdDraw"><uint>⟦<uint>1</uint></uint></chunk>').decode(), "unexpected element `uint` inside a value"),
+        (
+            xml('<chunk name="vkCmdDraw"><uint name="a">x⟦</uint></chunk>').decode(),
+            "`x` is not a valid `uint`",
+        ),
+        (
+            xml(f'<chunk name="vkCmdDraw"><uint name="a">{"9" * 5000}⟦</uint></chunk>').decode(),
+            f"`{'9' * 64}` is not a valid `uint`",
+        ),
+        (
+            xml('<chunk name="vkCmdDraw"><float name="a">1.0.0⟦</float></chunk>').decode(),
+            "`1.0.0` is not a valid `float`",
+        ),
+        (
+            xml('<chunk name="vkCmdDraw"><bool name="a">1⟦</bool></chunk>').decode(),
+            "`1` is not a valid `bool`",
+        ),
+        (
+            xml('<chunk name="vkCmdDraw"><uint>⟦<uint>1</uint></uint></chunk>').decode(),
+            "unexpected element `uint` inside a value",
+        ),
     ],
 )
 def test_what_is_no_capture(marked: str, message: str) -> None:
@@ -526,7 +791,9 @@ def test_what_comes_before_a_mistake_is_told() -> None:
     assert broken is not None and broken.place.call == 2
 
 
-@pytest.mark.parametrize("wanted", [Everything(), frozenset({"vkCreateImage"})], ids=["read", "passed over"])
+@pytest.mark.parametrize(
+    "wanted", [Everything(), frozenset({"vkCreateImage"})], ids=["read", "passed over"]
+)
 def test_limits(wanted: frozenset[str], monkeypatch: pytest.MonkeyPatch) -> None:
     deep = '<chunk name="vkCmdDraw">' + "<struct>" * 200 + "</struct>" * 200 + "</chunk>"
     for text in (xml(deep), xml("", "<a>" * 200 + "</a>" * 200)):
@@ -537,18 +804,27 @@ def test_limits(wanted: frozenset[str], monkeypatch: pytest.MonkeyPatch) -> None
     assert broken is not None and broken.message == "a tag or comment exceeds 1 MiB"
     names = "".join(f"<a{number}/>" for number in range(30_000))
     _, broken = read(xml(f'<chunk name="vkCmdDraw">{names}</chunk>'), wanted)
-    assert broken is not None and broken.message == "more than 20000 names of elements and attributes"
+    assert (
+        broken is not None and broken.message == "more than 20000 names of elements and attributes"
+    )
 
 
 def test_limits_of_a_chunk(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(renderdoc, "MAX_CHUNK", 1 << 20)
     monkeypatch.setattr(renderdoc, "MAX_ELEMENTS", 1000)
-    text = xml(GOOD + f'<chunk name="vkCmdDraw"><string name="a">{"b " * (1 << 20)}</string></chunk>')
+    text = xml(
+        GOOD + f'<chunk name="vkCmdDraw"><string name="a">{"b " * (1 << 20)}</string></chunk>'
+    )
     found, broken = read(text)
     assert len(found) == 1
-    assert broken is not None and (broken.message, broken.place) == ("vkCmdDraw exceeds 1 MiB", Place(1, 119, 1))
+    assert broken is not None and (broken.message, broken.place) == (
+        "vkCmdDraw exceeds 1 MiB",
+        Place(1, 119, 1),
+    )
     assert read(text, frozenset({"vkCreateImage"})) == ([], None)
-    _, broken = read(xml(f'<chunk name="vkCmdDraw"><array name="a">{"<struct/>" * 2000}</array></chunk>'))
+    _, broken = read(
+        xml(f'<chunk name="vkCmdDraw"><array name="a">{"<struct/>" * 2000}</array></chunk>')
+    )
     assert broken is not None and broken.message == "vkCmdDraw exceeds 1,000 structures and arrays"
 
 
@@ -563,7 +839,9 @@ def test_claims() -> None:
 
 def test_a_byte_order_mark_is_no_matter() -> None:
     text = written(PROGRAM).text()
-    assert [call.args for call in read(b"\xef\xbb\xbf" + text)[0]] == [call.args for call in read(text)[0]]
+    assert [call.args for call in read(b"\xef\xbb\xbf" + text)[0]] == [
+        call.args for call in read(text)[0]
+    ]
 
 
 def test_another_encodings_declaration_is_no_matter() -> None:
@@ -582,7 +860,10 @@ def test_truncated_at_every_byte() -> None:
         assert found == [call for call in whole if (call.at.call or 0) < chunks]
 
 
-@given(flips=st.lists(st.tuples(st.integers(0, 10**6), st.integers(0, 7)), min_size=1, max_size=4), block=st.integers(1, 300))
+@given(
+    flips=st.lists(st.tuples(st.integers(0, 10**6), st.integers(0, 7)), min_size=1, max_size=4),
+    block=st.integers(1, 300),
+)
 @examples(3)
 def test_flipped_bits_break_nothing_else(flips: list[tuple[int, int]], block: int) -> None:
     text = bytearray(written(PROGRAM).text())
@@ -592,19 +873,60 @@ def test_flipped_bits_break_nothing_else(flips: list[tuple[int, int]], block: in
         text[at % len(text)] ^= 1 << bit
     found, _ = read(bytes(text))
     whole = text[:first].count(b"</chunk>")
-    assert found[: sum((call.at.call or 0) < whole for call in found)] == [call for call in before if (call.at.call or 0) < whole]
+    assert found[: sum((call.at.call or 0) < whole for call in found)] == [
+        call for call in before if (call.at.call or 0) < whole
+    ]
 
 
 NAMES = [
-    *("InitParams", "physProps", "memProps", "memoryTypes", "memoryTypeCount", "PhysicalDevice", "Swapchain", "SwapchainImage"),
-    *("SwapchainImageIndex", "Image", "memoryRequirements", "SetLayout", "CreateInfo", "pBindings", "binding", "descriptorCount"),
-    *("DescriptorSet", "AllocateInfo", "pSetLayouts", "id", "Bindings", "type", "resource", "Decoded Writes", "descriptorSet", "Object"),
+    *(
+        "InitParams",
+        "physProps",
+        "memProps",
+        "memoryTypes",
+        "memoryTypeCount",
+        "PhysicalDevice",
+        "Swapchain",
+        "SwapchainImage",
+    ),
+    *(
+        "SwapchainImageIndex",
+        "Image",
+        "memoryRequirements",
+        "SetLayout",
+        "CreateInfo",
+        "pBindings",
+        "binding",
+        "descriptorCount",
+    ),
+    *(
+        "DescriptorSet",
+        "AllocateInfo",
+        "pSetLayouts",
+        "id",
+        "Bindings",
+        "type",
+        "resource",
+        "Decoded Writes",
+        "descriptorSet",
+        "Object",
+    ),
     *("pNext", "sType", "pNextType", "pSampleMask", "pCode", "pData", "CommandBuffer", "count"),
 ]
 CHUNKS = sorted(
-    {*NEEDED_FOR, *RENAMED_BY_CALL, "vkCreateInstance", "vkCreateShaderModule", "vkSetDebugUtilsObjectNameEXT", "vkCmdDraw", "Internal::X"}
+    {
+        *NEEDED_FOR,
+        *RENAMED_BY_CALL,
+        "vkCreateInstance",
+        "vkCreateShaderModule",
+        "vkSetDebugUtilsObjectNameEXT",
+        "vkCmdDraw",
+        "Internal::X",
+    }
 )
-LEAVES = [*("uint", "int", "enum", "ResourceId", "buffer", "float", "bool", "string", "null", "what")]
+LEAVES = [
+    *("uint", "int", "enum", "ResourceId", "buffer", "float", "bool", "string", "null", "what")
+]
 
 
 def element(tag: str, name: str | None, content: str) -> str:
@@ -612,7 +934,10 @@ def element(tag: str, name: str | None, content: str) -> str:
 
 
 leaves = st.builds(
-    element, st.sampled_from(LEAVES), st.none() | st.sampled_from(NAMES), st.sampled_from(["0", "1", "2", "3", "1000138000"])
+    element,
+    st.sampled_from(LEAVES),
+    st.none() | st.sampled_from(NAMES),
+    st.sampled_from(["0", "1", "2", "3", "1000138000"]),
 )
 elements = st.recursive(
     leaves,
@@ -626,11 +951,23 @@ elements = st.recursive(
 )
 
 
-@given(st.lists(st.builds(element, st.just("chunk"), st.sampled_from(CHUNKS), st.lists(elements, max_size=5).map("".join)), max_size=8))
+@given(
+    st.lists(
+        st.builds(
+            element,
+            st.just("chunk"),
+            st.sampled_from(CHUNKS),
+            st.lists(elements, max_size=5).map("".join),
+        ),
+        max_size=8,
+    )
+)
 @examples(1.5)
 def test_chunks_of_any_shape(chunks: list[str]) -> None:
     found, broken = read(xml("".join(chunks)))
-    assert broken is None or (broken.message.endswith(" is not a valid `bool`") and broken.place.call is not None)
+    assert broken is None or (
+        broken.message.endswith(" is not a valid `bool`") and broken.place.call is not None
+    )
     numbers_of = [call.at.call or 0 for call in found]
     assert numbers_of == sorted(numbers_of)
     assert all(isinstance(call.args, dict) for call in found)
@@ -640,7 +977,11 @@ def test_chunks_of_any_shape(chunks: list[str]) -> None:
 @examples(0.3)
 def test_blocks_of_any_size_give_the_same(block: int) -> None:
     text = written(PROGRAM).text()
-    assert [each for each in renderdoc.calls(Slow(text, block), Everything(), None) if isinstance(each, Call)] == read(text)[0]
+    assert [
+        each
+        for each in renderdoc.calls(Slow(text, block), Everything(), None)
+        if isinstance(each, Call)
+    ] == read(text)[0]
 
 
 @pytest.mark.skipif(not FOLDER.is_dir(), reason=f"no samples at {FOLDER}")
@@ -664,20 +1005,46 @@ class TestSample:
         ]
         (second,) = [call for call in found if call.name == "vkCreateRenderPass2"]
         (subpass,) = second.args["pCreateInfo"]["pSubpasses"]
-        assert subpass["pNext"]["sType"] == "VK_STRUCTURE_TYPE_SUBPASS_DESCRIPTION_DEPTH_STENCIL_RESOLVE"
+        assert (
+            subpass["pNext"]["sType"]
+            == "VK_STRUCTURE_TYPE_SUBPASS_DESCRIPTION_DEPTH_STENCIL_RESOLVE"
+        )
         assert subpass["pNext"]["pDepthStencilResolveAttachment"]["attachment"] == 3
-        pipelines = [call.args["pCreateInfos"][0] for call in found if call.name == "vkCreateGraphicsPipelines"]
-        assert [(each["pMultisampleState"]["sampleShadingEnable"], each["pMultisampleState"]["pSampleMask"]) for each in pipelines] == [
+        pipelines = [
+            call.args["pCreateInfos"][0]
+            for call in found
+            if call.name == "vkCreateGraphicsPipelines"
+        ]
+        assert [
+            (
+                each["pMultisampleState"]["sampleShadingEnable"],
+                each["pMultisampleState"]["pSampleMask"],
+            )
+            for each in pipelines
+        ] == [
             (1, [15]),
             (0, [15]),
             (0, [15]),
         ]
         assert pipelines[2]["pNext"]["pColorAttachmentFormats"] == [37]
         (memory,) = [call for call in found if call.name == "vkGetPhysicalDeviceMemoryProperties"]
-        assert memory.args["pMemoryProperties"]["memoryTypes"] == [{"propertyFlags": 15, "heapIndex": 0}]
+        assert memory.args["pMemoryProperties"]["memoryTypes"] == [
+            {"propertyFlags": 15, "heapIndex": 0}
+        ]
         frame = [call.name for call in found if (call.at.call or 0) > 40]
-        assert frame[:4] == ["vkBeginCommandBuffer", "vkCmdBeginRenderPass", "vkCmdBindPipeline", "vkCmdDraw"]
-        assert frame[-5:] == ["vkCmdResolveImage", "vkEndCommandBuffer", "vkQueueSubmit", "vkWaitForFences", "vkDeviceWaitIdle"]
+        assert frame[:4] == [
+            "vkBeginCommandBuffer",
+            "vkCmdBeginRenderPass",
+            "vkCmdBindPipeline",
+            "vkCmdDraw",
+        ]
+        assert frame[-5:] == [
+            "vkCmdResolveImage",
+            "vkEndCommandBuffer",
+            "vkQueueSubmit",
+            "vkWaitForFences",
+            "vkDeviceWaitIdle",
+        ]
 
     def test_truncated(self) -> None:
         text = (FOLDER / "renderdoc_1.24_msaa.xml").read_bytes()

@@ -1,4 +1,6 @@
-"""A render pass says the same however it is written: in YAML, as VkRenderPassCreateInfo and ...2 of a Vulkan SC dump."""
+"""A render pass says the same however it is written: in YAML, as VkRenderPassCreateInfo and ...2 of
+a Vulkan SC dump.
+"""
 
 from __future__ import annotations
 
@@ -23,14 +25,35 @@ RULES = {rule.name: rule for rule in CATALOGUE.rules}
 JUDGE = RuleRunner(CATALOGUE.rules)
 
 ELSEWHERE = (
-    *("image.", "scene.", "device.", "frame.", "enabled.depth_stencil_resolve", "subpass.has_pipelines"),
+    *(
+        "image.",
+        "scene.",
+        "device.",
+        "frame.",
+        "enabled.depth_stencil_resolve",
+        "subpass.has_pipelines",
+    ),
     *("subpass.partial_coverage", "subpass.tile_known"),
-    *("aspect.read_later", "aspect.costly_operations", "aspect.store_wasted", "resolve.source_encoding"),
-    *("resolve.target_read", "resolve.waited_for", "resolve.resolved_anew", "aspect.undefined_used"),
+    *(
+        "aspect.read_later",
+        "aspect.costly_operations",
+        "aspect.store_wasted",
+        "resolve.source_encoding",
+    ),
+    *(
+        "resolve.target_read",
+        "resolve.waited_for",
+        "resolve.resolved_anew",
+        "aspect.undefined_used",
+    ),
 )
 """Facts that a dump of one pipeline cannot have."""
 
-EXAMPLES = [e for e in all_examples() if "renderPasses:" in e.text and not re.search("PipelineState|^metal:", e.text, re.MULTILINE)]
+EXAMPLES = [
+    e
+    for e in all_examples()
+    if "renderPasses:" in e.text and not re.search("PipelineState|^metal:", e.text, re.MULTILINE)
+]
 
 
 def as_written(rule: Rule, suggested: str, vendor: str | None) -> str:
@@ -48,12 +71,19 @@ def judged(given: str) -> Verdicts:
 def subject(path: str) -> str:
     """A structural path without what the two forms write differently."""
     path = re.sub(r"^(GraphicsPipelineState|renderPasses|pipelines)\.|\.pNext", "", path)
-    return re.sub(r"\bp([A-Z])", lambda match: match[1].lower(), path).removesuffix(".depthStencilResolve")
+    return re.sub(r"\bp([A-Z])", lambda match: match[1].lower(), path).removesuffix(
+        ".depthStencilResolve"
+    )
 
 
 def said(verdicts: Verdicts) -> tuple[list[Json], list[Json]]:
-    findings = [(f.code, f.severity, f.confidence, f.message, subject(f.subject), f.notes) for f in verdicts.findings]
-    return sorted(findings), sorted((u.code, subject(u.subject), u.missing) for u in verdicts.undecided)
+    findings = [
+        (f.code, f.severity, f.confidence, f.message, subject(f.subject), f.notes)
+        for f in verdicts.findings
+    ]
+    return sorted(findings), sorted(
+        (u.code, subject(u.subject), u.missing) for u in verdicts.undecided
+    )
 
 
 @pytest.mark.parametrize("version", [1, 2])
@@ -67,12 +97,21 @@ def test_the_same_findings(example: Example, version: int) -> None:
 def needs_the_pass_alone(example: Example) -> bool:
     asked = RULES[example.rule].when
     # A dump names no module.
-    return not re.search("commands:|framebuffers:|module:", example.text) and not any(fact in asked for fact in ELSEWHERE)
+    return not re.search("commands:|framebuffers:|module:", example.text) and not any(
+        fact in asked for fact in ELSEWHERE
+    )
 
 
-@pytest.mark.parametrize("example", [e for e in EXAMPLES if e.kind == "bad" and needs_the_pass_alone(e)], ids=str)
+@pytest.mark.parametrize(
+    "example", [e for e in EXAMPLES if e.kind == "bad" and needs_the_pass_alone(e)], ids=str
+)
 def test_the_rule_fires_in_a_dump(example: Example) -> None:
-    fired = [f.rule for d in documents(example.text) for made in alone(d, 2) for f in judged(text(dump(made, 2))).findings]
+    fired = [
+        f.rule
+        for d in documents(example.text)
+        for made in alone(d, 2)
+        for f in judged(text(dump(made, 2))).findings
+    ]
     assert example.rule in fired
 
 

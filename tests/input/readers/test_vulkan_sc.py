@@ -1,4 +1,6 @@
-"""Vulkan SC pipeline JSON: C's structures as the tools dump them, and what those tools may write yet."""
+"""Vulkan SC pipeline JSON: C's structures as the tools dump them, and what those tools may write
+yet.
+"""
 
 from __future__ import annotations
 
@@ -54,35 +56,73 @@ def places(result: Result) -> list[tuple[str, int, str]]:
     for found in result.findings:
         source = result.sources[found.file]
         assert found.span is not None
-        out.append((found.rule, source.position(found.span.start).line, source.text[found.span.start : found.span.end]))
+        out.append(
+            (
+                found.rule,
+                source.position(found.span.start).line,
+                source.text[found.span.start : found.span.end],
+            )
+        )
     return out
 
 
 def test_a_render_pass_of_version_1() -> None:
     render_pass, made = pipeline(RENDERPASS)
     color, depth, output = render_pass.attachments
-    assert (color.format, color.samples, color.loadOp, color.storeOp) == ("R8G8B8A8_UNORM", 4, "CLEAR", "STORE")
+    assert (color.format, color.samples, color.loadOp, color.storeOp) == (
+        "R8G8B8A8_UNORM",
+        4,
+        "CLEAR",
+        "STORE",
+    )
     assert (color.flags, depth.flags, output.flags) == (("MAY_ALIAS",), (), ())
     assert (depth.samples, depth.stencilLoadOp, depth.stencilStoreOp) == (4, "CLEAR", "DONT_CARE")
     assert output.finalLayout == "PRESENT_SRC_KHR"
     (subpass,) = render_pass.subpasses
     assert [each.attachment for each in subpass.colorAttachments] == [0, None]
     assert [each.attachment for each in subpass.resolveAttachments] == [2, None]
-    assert subpass.depthStencilAttachment is not None and subpass.depthStencilAttachment.attachment == 1
-    assert (subpass.inputAttachments, subpass.preserveAttachments, subpass.depthStencilResolve) == ((), (), None)
+    assert (
+        subpass.depthStencilAttachment is not None
+        and subpass.depthStencilAttachment.attachment == 1
+    )
+    assert (subpass.inputAttachments, subpass.preserveAttachments, subpass.depthStencilResolve) == (
+        (),
+        (),
+        None,
+    )
     (dependency,) = render_pass.dependencies
     assert (dependency.srcSubpass, dependency.dstSubpass) == ("EXTERNAL", 0)
     assert dependency.srcStageMask == ("COLOR_ATTACHMENT_OUTPUT", "LATE_FRAGMENT_TESTS")
     assert dependency.dstStageMask == ("EARLY_FRAGMENT_TESTS", "COLOR_ATTACHMENT_OUTPUT")
-    assert dependency.srcAccessMask == dependency.dstAccessMask == ("COLOR_ATTACHMENT_WRITE", "DEPTH_STENCIL_ATTACHMENT_WRITE")
-    assert (made.renderPass, made.subpass, made.dynamicState) == ("Renderpass", 0, ("VIEWPORT", "SCISSOR"))
+    assert (
+        dependency.srcAccessMask
+        == dependency.dstAccessMask
+        == ("COLOR_ATTACHMENT_WRITE", "DEPTH_STENCIL_ATTACHMENT_WRITE")
+    )
+    assert (made.renderPass, made.subpass, made.dynamicState) == (
+        "Renderpass",
+        0,
+        ("VIEWPORT", "SCISSOR"),
+    )
     state = made.multisampleState
     assert state is not None
-    assert (state.rasterizationSamples, state.sampleShadingEnable, state.minSampleShading) == (4, True, 0.25)
-    assert (state.sampleMask, state.alphaToCoverageEnable, state.alphaToOneEnable) == ((7,), False, False)
+    assert (state.rasterizationSamples, state.sampleShadingEnable, state.minSampleShading) == (
+        4,
+        True,
+        0.25,
+    )
+    assert (state.sampleMask, state.alphaToCoverageEnable, state.alphaToOneEnable) == (
+        (7,),
+        False,
+        False,
+    )
     assert made.colorBlendState is not None
     blended = made.colorBlendState.attachments[0]
-    assert (blended.blendEnable, blended.colorWriteMask, blended.dstColorBlendFactor) == (True, ("R", "A"), None)
+    assert (blended.blendEnable, blended.colorWriteMask, blended.dstColorBlendFactor) == (
+        True,
+        ("R", "A"),
+        None,
+    )
     assert made.stages[0].stage == "FRAGMENT"
     assert made.depthStencilState is None
 
@@ -90,7 +130,11 @@ def test_a_render_pass_of_version_1() -> None:
 def test_what_is_enabled() -> None:
     enabled = document(RENDERPASS).description.enabled
     assert enabled is not None
-    assert (enabled.extensions, enabled.features, enabled.apiVersion) == (("VK_KHR_swapchain",), ("sampleRateShading",), None)
+    assert (enabled.extensions, enabled.features, enabled.apiVersion) == (
+        ("VK_KHR_swapchain",),
+        ("sampleRateShading",),
+        None,
+    )
     nothing = document(RENDERPASS2).description.enabled
     assert nothing is not None
     assert (nothing.extensions, nothing.features) == (None, None)
@@ -99,18 +143,34 @@ def test_what_is_enabled() -> None:
 def test_a_render_pass_of_version_2() -> None:
     render_pass, made = pipeline(RENDERPASS2)
     depth, _ = render_pass.attachments
-    assert (depth.initialLayout, depth.stencilInitialLayout) == ("DEPTH_ATTACHMENT_OPTIMAL", "UNDEFINED")
+    assert (depth.initialLayout, depth.stencilInitialLayout) == (
+        "DEPTH_ATTACHMENT_OPTIMAL",
+        "UNDEFINED",
+    )
     assert depth.stencilFinalLayout == "STENCIL_ATTACHMENT_OPTIMAL"
     subpass: Subpass = render_pass.subpasses[0]
-    assert subpass.depthStencilAttachment is not None and subpass.depthStencilAttachment.attachment == 0
+    assert (
+        subpass.depthStencilAttachment is not None
+        and subpass.depthStencilAttachment.attachment == 0
+    )
     resolve = subpass.depthStencilResolve
     assert resolve is not None and resolve.attachment is not None
-    assert (resolve.depthResolveMode, resolve.stencilResolveMode, resolve.attachment.attachment) == ("AVERAGE", "NONE", 1)
+    assert (
+        resolve.depthResolveMode,
+        resolve.stencilResolveMode,
+        resolve.attachment.attachment,
+    ) == ("AVERAGE", "NONE", 1)
     single = subpass.multisampledRenderToSingleSampled
     assert single is not None
-    assert (single.multisampledRenderToSingleSampledEnable, single.rasterizationSamples) == (False, 1)
+    assert (single.multisampledRenderToSingleSampledEnable, single.rasterizationSamples) == (
+        False,
+        1,
+    )
     (dependency,) = render_pass.dependencies
-    assert (dependency.srcStageMask, dependency.srcAccessMask) == (("LATE_FRAGMENT_TESTS",), ("DEPTH_STENCIL_ATTACHMENT_WRITE",))
+    assert (dependency.srcStageMask, dependency.srcAccessMask) == (
+        ("LATE_FRAGMENT_TESTS",),
+        ("DEPTH_STENCIL_ATTACHMENT_WRITE",),
+    )
     assert made.renderPass == "Renderpass2"
     assert made.multisampleState is not None and made.multisampleState.sampleMask == ()
 
@@ -160,7 +220,9 @@ def test_enumerants_of_the_future_are_unknown() -> None:
     assert (color.storeOp, color.format, color.flags) == (None, None, ())
     assert made.dynamicState == ("VIEWPORT",)
     assert render_pass.dependencies[0].dstStageMask is None
-    assert "multisampled-attachment-stored" not in {found.rule for found in lint(text=text, isolated=True).findings}
+    assert "multisampled-attachment-stored" not in {
+        found.rule for found in lint(text=text, isolated=True).findings
+    }
 
 
 def test_a_pipeline_without_a_render_pass() -> None:
@@ -186,32 +248,68 @@ def test_a_pipeline_without_a_render_pass() -> None:
 
 
 def test_dynamic_sample_count() -> None:
-    static = changed(RENDERPASS, ('"rasterizationSamples" : "VK_SAMPLE_COUNT_4_BIT"', '"rasterizationSamples" : "VK_SAMPLE_COUNT_8_BIT"'))
-    dynamic = changed(static, ("VK_DYNAMIC_STATE_SCISSOR", "VK_DYNAMIC_STATE_RASTERIZATION_SAMPLES_EXT"))
+    static = changed(
+        RENDERPASS,
+        (
+            '"rasterizationSamples" : "VK_SAMPLE_COUNT_4_BIT"',
+            '"rasterizationSamples" : "VK_SAMPLE_COUNT_8_BIT"',
+        ),
+    )
+    dynamic = changed(
+        static, ("VK_DYNAMIC_STATE_SCISSOR", "VK_DYNAMIC_STATE_RASTERIZATION_SAMPLES_EXT")
+    )
     assert pipeline(dynamic)[1].dynamicState == ("VIEWPORT", "RASTERIZATION_SAMPLES_EXT")
     for text, fires in ((static, True), (dynamic, False)):
-        assert ("rasterization-samples-mismatch" in {found.rule for found in lint(text=text, isolated=True).findings}) == fires
+        assert (
+            "rasterization-samples-mismatch"
+            in {found.rule for found in lint(text=text, isolated=True).findings}
+        ) == fires
 
 
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ('{"GraphicsPipelineState": []}', "`GraphicsPipelineState` must be a mapping, found a list"),
-        ('{"GraphicsPipelineState": {"Renderpass": 4}}', "`GraphicsPipelineState.Renderpass` must be a mapping, found `4`"),
-        ('{"GraphicsPipelineState": {"GraphicsPipeline": []}}', "`GraphicsPipelineState.GraphicsPipeline` must be a mapping, found a list"),
+        (
+            '{"GraphicsPipelineState": []}',
+            "`GraphicsPipelineState` must be a mapping, found a list",
+        ),
+        (
+            '{"GraphicsPipelineState": {"Renderpass": 4}}',
+            "`GraphicsPipelineState.Renderpass` must be a mapping, found `4`",
+        ),
+        (
+            '{"GraphicsPipelineState": {"GraphicsPipeline": []}}',
+            "`GraphicsPipelineState.GraphicsPipeline` must be a mapping, found a list",
+        ),
         ('{"GraphicsPipelineState": {"Renderpass": {"pAttachments": {}}}}', None),
         (
             '{"GraphicsPipelineState": {"Renderpass": {"pAttachments": [4]}}}',
             "`GraphicsPipelineState.Renderpass.pAttachments[0]` must be a mapping, found `4`",
         ),
-        ('{"GraphicsPipelineState": {"Renderpass": {"pAttachments": [{"samples": "VK_SAMPLE_COUNT_3_BIT"}]}}}', None),
+        (
+            '{"GraphicsPipelineState": {"Renderpass": {"pAttachments": [{"samples": '
+            '"VK_SAMPLE_COUNT_3_BIT"}]}}}',
+            None,
+        ),
         (
             '{"GraphicsPipelineState": {"Renderpass": {"pSubpasses": [{"viewMask": "²"}]}}}',
             "`viewMask` must be an integer from 0 to 4294967295, found `²`",
         ),
-        ('{"GraphicsPipelineState": {"Renderpass": {"pSubpasses": [{"viewMask": "99999999999999999999999"}]}}}', None),
-        ('{"GraphicsPipelineState": {"GraphicsPipeline": {"pMultisampleState": {"minSampleShading": "much"}}}}', None),
-        ('{"GraphicsPipelineState": {"GraphicsPipeline": {"pMultisampleState": {"sampleShadingEnable": "VK_MAYBE"}}}}', None),
+        (
+            '{"GraphicsPipelineState": {"Renderpass": {"pSubpasses": [{"viewMask": '
+            '"99999999999999999999999"}]}}}',
+            None,
+        ),
+        (
+            '{"GraphicsPipelineState": {"GraphicsPipeline": {"pMultisampleState": '
+            '{"minSampleShading": "much"}}}}',
+            None,
+        ),
+        (
+            '{"GraphicsPipelineState": {"GraphicsPipeline": {"pMultisampleState": '
+            '{"sampleShadingEnable": "VK_MAYBE"}}}}',
+            None,
+        ),
     ],
 )
 def test_what_no_tool_writes(text: str, message: str | None) -> None:
@@ -225,17 +323,26 @@ def test_what_no_tool_writes(text: str, message: str | None) -> None:
 
 
 ENGINE = Engine(load())
-VALUES: list[Any] = [value_of(parse(Source("x", text), Limits()).documents[0]) for text in (RENDERPASS, RENDERPASS2)]
+VALUES: list[Any] = [
+    value_of(parse(Source("x", text), Limits()).documents[0]) for text in (RENDERPASS, RENDERPASS2)
+]
 
 
 @examples(1.5, suppress_health_check=[HealthCheck.too_slow])
-@given(st.sampled_from([0, 1]), st.lists(st.tuples(st.integers(0, 10**6), JUNK | st.text(max_size=3)), min_size=1, max_size=4))
+@given(
+    st.sampled_from([0, 1]),
+    st.lists(st.tuples(st.integers(0, 10**6), JUNK | st.text(max_size=3)), min_size=1, max_size=4),
+)
 def test_garbage_in_any_member_never_crashes(which: int, changes: list[tuple[int, Any]]) -> None:
     value = VALUES[which]
     for number, junk in changes:
         every = paths(value)
         value = replaced(value, every[number % len(every)], junk)
-    linted = ENGINE.lint(json.dumps(value).encode(), "pipeline.json", LintOptions(lambda rule, suggested, vendor: suggested))
+    linted = ENGINE.lint(
+        json.dumps(value).encode(),
+        "pipeline.json",
+        LintOptions(lambda rule, suggested, vendor: suggested),
+    )
     fatal = {found.code for found in linted.findings if found.fatal}
     assert fatal <= {"MSAA903", "MSAA902"}
 
@@ -260,6 +367,8 @@ class TestSamples:
         line = source.line(source.position(stored.span.start).line)
         assert line.strip() == '"storeOp" : "VK_ATTACHMENT_STORE_OP_STORE",'
         assert source.text[stored.span.start : stored.span.end] == '"VK_ATTACHMENT_STORE_OP_STORE"'
-        assert '"samples" : "VK_SAMPLE_COUNT_4_BIT"' in source.line(source.position(stored.span.start).line - 2)
+        assert '"samples" : "VK_SAMPLE_COUNT_4_BIT"' in source.line(
+            source.position(stored.span.start).line - 2
+        )
         of_compute = [found for found in result.findings if "compute" in Path(found.file).name]
         assert of_compute == []

@@ -1,4 +1,6 @@
-"""A render pass of a description, with one pipeline of it, alone; and the same as the tools of Vulkan SC dump it."""
+"""A render pass of a description, with one pipeline of it, alone; and the same as the tools of
+Vulkan SC dump it.
+"""
 
 from __future__ import annotations
 
@@ -20,13 +22,19 @@ SEPARATE_LAYOUTS = ("stencilInitialLayout", "stencilFinalLayout")
 
 
 def alone(description: Json, version: int) -> Iterator[Json]:
-    """Each render pass of a description with each of its pipelines, or none: attachments by index, with what their images state.
+    """Each render pass of a description with each of its pipelines, or none: attachments by index,
+    with what their images state.
 
-    A pass is named as the dump of that version has it. Version 1 has none with what only version 2 can say.
+    A pass is named as the dump of that version has it. Version 1 has none with what only version 2
+    can say.
     """
     images = description.get("images", {})
     for name, render_pass in description.get("renderPasses", {}).items():
-        bound = [each for each in description.get("framebuffers", {}).values() if each.get("renderPass") == name]
+        bound = [
+            each
+            for each in description.get("framebuffers", {}).values()
+            if each.get("renderPass") == name
+        ]
         own = _pass(render_pass, images, bound[0].get("attachments", []) if len(bound) == 1 else [])
         if version == 1 and _needs_version_2(own):
             continue
@@ -35,7 +43,9 @@ def alone(description: Json, version: int) -> Iterator[Json]:
         enabled = {k: v for k, v in description.get("enabled", {}).items() if k != "apiVersion"}
         if enabled:
             made["enabled"] = enabled
-        pipelines = [p for p in description.get("pipelines", {}).values() if p.get("renderPass") == name]
+        pipelines = [
+            p for p in description.get("pipelines", {}).values() if p.get("renderPass") == name
+        ]
         for pipeline in pipelines:
             yield {**made, "pipelines": {"GraphicsPipeline": {**pipeline, "renderPass": key}}}
         if not pipelines:
@@ -47,13 +57,17 @@ def _pass(render_pass: Json, images: Json, bound: list[str | None]) -> Json:
     names = list(stated) if isinstance(stated, dict) else []
     attachments = []
     for index, attachment in enumerate(stated.values() if isinstance(stated, dict) else stated):
-        image = images.get((bound[index] if index < len(bound) else None) or attachment.get("image"), {})
+        image = images.get(
+            (bound[index] if index < len(bound) else None) or attachment.get("image"), {}
+        )
         of_image = {key: image[key] for key in ("format", "samples") if key in image}
         attachments.append({**of_image, **{k: v for k, v in attachment.items() if k != "image"}})
     subpasses = [_subpass(subpass, names) for subpass in render_pass.get("subpasses", [])]
     made = {**render_pass, "attachments": attachments, "subpasses": subpasses}
     if "fragmentDensityMapAttachment" in made:
-        made["fragmentDensityMapAttachment"] = _reference(made["fragmentDensityMapAttachment"], names)
+        made["fragmentDensityMapAttachment"] = _reference(
+            made["fragmentDensityMapAttachment"], names
+        )
     return made
 
 
@@ -67,7 +81,10 @@ def _subpass(subpass: Json, names: list[str]) -> Json:
             out[member] = _reference(out[member], names)
     if "depthStencilResolve" in out and "attachment" in out["depthStencilResolve"]:
         chained = out["depthStencilResolve"]
-        out["depthStencilResolve"] = {**chained, "attachment": _reference(chained["attachment"], names)}
+        out["depthStencilResolve"] = {
+            **chained,
+            "attachment": _reference(chained["attachment"], names),
+        }
     return out
 
 
@@ -80,12 +97,22 @@ def _reference(stated: Json, names: list[str]) -> Json:
 
 def _needs_version_2(render_pass: Json) -> bool:
     subpasses, attachments = render_pass["subpasses"], render_pass["attachments"]
-    chained = ("depthStencilResolve", "multisampledRenderToSingleSampled", "fragmentShadingRateAttachment", "pNext", "viewMask")
-    return any(k in s for s in subpasses for k in chained) or any(k in a for a in attachments for k in SEPARATE_LAYOUTS)
+    chained = (
+        "depthStencilResolve",
+        "multisampledRenderToSingleSampled",
+        "fragmentShadingRateAttachment",
+        "pNext",
+        "viewMask",
+    )
+    return any(k in s for s in subpasses for k in chained) or any(
+        k in a for a in attachments for k in SEPARATE_LAYOUTS
+    )
 
 
 def dump(made: Json, version: int) -> Json:
-    """What `alone` gives as the structures of a pipeline dump. A member that is not stated is left out, as it would be unknown."""
+    """What `alone` gives as the structures of a pipeline dump. A member that is not stated is left
+    out, as it would be unknown.
+    """
     ((key, render_pass),) = made["renderPasses"].items()
     state: Json = {key: _dumped_pass(render_pass, version)}
     for pipeline in made.get("pipelines", {}).values():
@@ -95,16 +122,27 @@ def dump(made: Json, version: int) -> Json:
     if "extensions" in enabled:
         out["EnabledExtensions"] = enabled["extensions"]
     if "features" in enabled:
-        features = {"sType": "VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2", "features": dict.fromkeys(enabled["features"], "VK_TRUE")}
-        reserved = {"sType": "VK_STRUCTURE_TYPE_DEVICE_OBJECT_RESERVATION_CREATE_INFO", "pNext": features}
-        state["PhysicalDeviceFeatures"] = {**reserved, "features": {"sampleRateShading": "VK_FALSE"}}
+        features = {
+            "sType": "VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2",
+            "features": dict.fromkeys(enabled["features"], "VK_TRUE"),
+        }
+        reserved = {
+            "sType": "VK_STRUCTURE_TYPE_DEVICE_OBJECT_RESERVATION_CREATE_INFO",
+            "pNext": features,
+        }
+        state["PhysicalDeviceFeatures"] = {
+            **reserved,
+            "features": {"sampleRateShading": "VK_FALSE"},
+        }
     return out
 
 
 def text(dumped: Json) -> str:
     """A dump as the tools write it: keys with blanks before the colon, commas after last items."""
     lines = json.dumps(dumped, indent=4, separators=(",", " : ")).splitlines()
-    return "\n".join(f"{line}," if line.strip() in ("}", "]") and len(line) > 8 else line for line in lines)
+    return "\n".join(
+        f"{line}," if line.strip() in ("}", "]") and len(line) > 8 else line for line in lines
+    )
 
 
 def _dumped_pass(render_pass: Json, version: int) -> Json:
@@ -112,7 +150,8 @@ def _dumped_pass(render_pass: Json, version: int) -> Json:
     attachments = [_attachment(each, suffix) for each in render_pass["attachments"]]
     subpasses = [_dumped_subpass(each, suffix) for each in render_pass["subpasses"]]
     dependencies = [
-        _structure("SubpassDependency", each, f"SUBPASS_DEPENDENCY{suffix}", suffix) for each in render_pass.get("dependencies", [])
+        _structure("SubpassDependency", each, f"SUBPASS_DEPENDENCY{suffix}", suffix)
+        for each in render_pass.get("dependencies", [])
     ]
     for each in dependencies:
         for member in ("srcSubpass", "dstSubpass"):
@@ -184,7 +223,9 @@ def _attachment(stated: Json, suffix: str) -> Json:
     out = _structure("AttachmentDescription", own, "ATTACHMENT_DESCRIPTION_2", suffix)
     separate = {key: value for key, value in stated.items() if key in SEPARATE_LAYOUTS}
     if separate:
-        out["pNext"] = _structure("AttachmentDescription", separate, "ATTACHMENT_DESCRIPTION_STENCIL_LAYOUT")
+        out["pNext"] = _structure(
+            "AttachmentDescription", separate, "ATTACHMENT_DESCRIPTION_STENCIL_LAYOUT"
+        )
     return out
 
 
@@ -195,32 +236,51 @@ def _dumped_subpass(stated: Json, suffix: str) -> Json:
         out[f"{member[:-1]}Count"] = len(stated.get(member, []))
         out[c_name] = [_dumped_reference(each, suffix) for each in stated.get(member, [])] or "NULL"
     depth = stated.get("depthStencilAttachment")
-    out["pDepthStencilAttachment"] = _dumped_reference(depth, suffix) if depth is not None else "NULL"
+    out["pDepthStencilAttachment"] = (
+        _dumped_reference(depth, suffix) if depth is not None else "NULL"
+    )
     out["pPreserveAttachments"] = [
-        UNUSED if each["attachment"] is None else each["attachment"] for each in stated.get("preserveAttachments", [])
+        UNUSED if each["attachment"] is None else each["attachment"]
+        for each in stated.get("preserveAttachments", [])
     ]
     if "depthStencilResolve" in stated:
         resolve = stated["depthStencilResolve"]
-        chained = _structure("DepthStencilResolve", resolve, "SUBPASS_DESCRIPTION_DEPTH_STENCIL_RESOLVE")
+        chained = _structure(
+            "DepthStencilResolve", resolve, "SUBPASS_DESCRIPTION_DEPTH_STENCIL_RESOLVE"
+        )
         target = resolve.get("attachment")
-        chained["pDepthStencilResolveAttachment"] = _dumped_reference(target, suffix) if target is not None else "NULL"
+        chained["pDepthStencilResolveAttachment"] = (
+            _dumped_reference(target, suffix) if target is not None else "NULL"
+        )
         chained["pNext"] = out["pNext"]
         out["pNext"] = chained
     if "fragmentShadingRateAttachment" in stated:
-        rate = {"pFragmentShadingRateAttachment": _dumped_reference(stated["fragmentShadingRateAttachment"], suffix)}
+        rate = {
+            "pFragmentShadingRateAttachment": _dumped_reference(
+                stated["fragmentShadingRateAttachment"], suffix
+            )
+        }
         size = stated.get("shadingRateAttachmentTexelSize")
         rate |= {"shadingRateAttachmentTexelSize": size} if size is not None else {}
-        out["pNext"] = {"sType": "VK_STRUCTURE_TYPE_FRAGMENT_SHADING_RATE_ATTACHMENT_INFO_KHR", "pNext": out["pNext"], **rate}
+        out["pNext"] = {
+            "sType": "VK_STRUCTURE_TYPE_FRAGMENT_SHADING_RATE_ATTACHMENT_INFO_KHR",
+            "pNext": out["pNext"],
+            **rate,
+        }
     if "multisampledRenderToSingleSampled" in stated:
         single = stated["multisampledRenderToSingleSampled"]
-        chained = _structure("RenderToSingleSampled", single, "MULTISAMPLED_RENDER_TO_SINGLE_SAMPLED_INFO_EXT")
+        chained = _structure(
+            "RenderToSingleSampled", single, "MULTISAMPLED_RENDER_TO_SINGLE_SAMPLED_INFO_EXT"
+        )
         chained["pNext"] = out["pNext"]
         out["pNext"] = chained
     return out
 
 
 def _dumped_reference(stated: Json, suffix: str) -> Json:
-    out: Json = {"sType": "VK_STRUCTURE_TYPE_ATTACHMENT_REFERENCE_2", "pNext": "NULL"} if suffix else {}
+    out: Json = (
+        {"sType": "VK_STRUCTURE_TYPE_ATTACHMENT_REFERENCE_2", "pNext": "NULL"} if suffix else {}
+    )
     out["attachment"] = UNUSED if stated["attachment"] is None else stated["attachment"]
     out["layout"] = full("VkImageLayout", stated.get("layout", "GENERAL"))
     if suffix:
@@ -237,21 +297,38 @@ STATES = {
 
 
 def _pipeline(stated: Json) -> Json:
-    out: Json = {"sType": "VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO", "pNext": "NULL", "flags": "0", "renderPass": 19}
+    out: Json = {
+        "sType": "VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO",
+        "pNext": "NULL",
+        "flags": "0",
+        "renderPass": 19,
+    }
     for member, (kind, stype) in STATES.items():
         c_name = "p" + member[0].upper() + member[1:]
         out[c_name] = _structure(kind, stated[member], stype) if member in stated else "NULL"
     state = stated.get("multisampleState", {})
     if "multisampleState" in stated:
-        out["pMultisampleState"]["pSampleMask"] = [f"0x{mask:x}" for mask in state.get("sampleMask", [])] or "NULL"
+        out["pMultisampleState"]["pSampleMask"] = [
+            f"0x{mask:x}" for mask in state.get("sampleMask", [])
+        ] or "NULL"
     if "attachments" in stated.get("colorBlendState", {}):
         blended = stated["colorBlendState"]["attachments"]
         out["pColorBlendState"]["attachmentCount"] = len(blended)
-        out["pColorBlendState"]["pAttachments"] = [_structure("ColorBlendAttachment", each, "", "") for each in blended]
+        out["pColorBlendState"]["pAttachments"] = [
+            _structure("ColorBlendAttachment", each, "", "") for each in blended
+        ]
     states = [full("VkDynamicState", each) for each in stated.get("dynamicState", [])]
     if states:
-        dynamic = {"sType": "VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO", "pNext": "NULL", "flags": 0}
-        out["pDynamicState"] = {**dynamic, "dynamicStateCount": len(states), "pDynamicStates": states}
+        dynamic = {
+            "sType": "VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO",
+            "pNext": "NULL",
+            "flags": 0,
+        }
+        out["pDynamicState"] = {
+            **dynamic,
+            "dynamicStateCount": len(states),
+            "pDynamicStates": states,
+        }
     else:
         out["pDynamicState"] = "NULL"
     if "subpass" in stated:

@@ -60,8 +60,18 @@ def _meaning(value: object) -> object:
             return (value.kind, _meaning(value.body))
         stated = {name: getattr(value, name) for name in value.SHAPE}
         # The order of flags says nothing.
-        flags = {name: sorted(each) for name, each in stated.items() if value.SHAPE[name][0] == "flags" and each is not None}
-        return (type(value).__name__, value.key, [(name, flags.get(name, _meaning(each))) for name, each in stated.items()])
+        flags = {
+            name: sorted(each)
+            for name, each in stated.items()
+            if value.SHAPE[name][0] == "flags" and each is not None
+        }
+        return (
+            type(value).__name__,
+            value.key,
+            [(name, flags.get(name, _meaning(each))) for name, each in stated.items()],
+        )
     if isinstance(value, (tuple, list)):
         return [_meaning(item) for item in value]
-    return {name: _meaning(item) for name, item in value.items()} if isinstance(value, dict) else value
+    return (
+        {name: _meaning(item) for name, item in value.items()} if isinstance(value, dict) else value
+    )

@@ -1,4 +1,6 @@
-"""Random texts of a description: block and flow style, quotes, names, indentation, comments, line breaks, JSON."""
+"""Random texts of a description: block and flow style, quotes, names, indentation, comments, line
+breaks, JSON.
+"""
 
 from __future__ import annotations
 
@@ -55,7 +57,9 @@ def plain(node: Node) -> Any:
 
 
 def written(data: Any, random: Random, shared: float = 0.0) -> str:
-    """A random text of a description; `shared` is the probability of an alias or a merge of an earlier value."""
+    """A random text of a description; `shared` is the probability of an alias or a merge of an
+    earlier value.
+    """
     writer = _Json(random) if random.random() < 0.25 and not shared else _Yaml(random, shared)
     text = writer.document(data)
     if random.random() < 0.3:
@@ -84,14 +88,22 @@ class _Spelled:
         """A member's value as the document spells it."""
         if key in METAL and isinstance(value, (str, list)):
             names = [value] if isinstance(value, str) else value
-            if all(isinstance(name, str) and name in metal.ENUMS[METAL[key]] for name in names) and names:
+            if (
+                all(isinstance(name, str) and name in metal.ENUMS[METAL[key]] for name in names)
+                and names
+            ):
                 return self.metals(METAL[key], value)
         if key in FLAGS and isinstance(value, list):
             names = [f"{FLAGS[key]}{name}_BIT" if self.long else name for name in value]
             return " | ".join(names) if self.joined and names else names
         if key in ENUMS and isinstance(value, str) and self.long:
             return ENUMS[key] + value
-        if key in ("samples", "rasterizationSamples") and isinstance(value, int) and value > 1 and self.long:
+        if (
+            key in ("samples", "rasterizationSamples")
+            and isinstance(value, int)
+            and value > 1
+            and self.long
+        ):
             return f"VK_SAMPLE_COUNT_{value}_BIT"
         return value
 
@@ -106,13 +118,21 @@ class _Json(_Spelled):
         data = self.respelled(key, data)
         if isinstance(data, (dict, list)) and data:
             pairs = list(data.items()) if isinstance(data, dict) else [("", item) for item in data]
-            inner = [(f'"{name}": ' if isinstance(data, dict) else "") + self.value(name, item, depth + 1) for name, item in pairs]
+            inner = [
+                (f'"{name}": ' if isinstance(data, dict) else "")
+                + self.value(name, item, depth + 1)
+                for name, item in pairs
+            ]
             opened, closed = "{}" if isinstance(data, dict) else "[]"
             if self.indent == 0 or (self.likely(0.3) and sum(map(len, inner)) < 60):
                 return opened + self.random.choice([", ", ","]).join(inner) + closed
             blanks = " " * self.indent * (depth + 1)
             ending = "," if self.trailing else ""
-            return f"{opened}\n{blanks}" + f",\n{blanks}".join(inner) + f"{ending}\n{' ' * self.indent * depth}{closed}"
+            return (
+                f"{opened}\n{blanks}"
+                + f",\n{blanks}".join(inner)
+                + f"{ending}\n{' ' * self.indent * depth}{closed}"
+            )
         return _scalar(data, '"')
 
 
@@ -127,8 +147,14 @@ def _scalar(data: Any, quote: str) -> str:
 
 
 def _mergeable(data: Any) -> bool:
-    """Whether data is a structure without nested structures, in which the order of members does not matter."""
-    return isinstance(data, dict) and bool({"format", "loadOp"} & set(data)) and not any(isinstance(each, dict) for each in data.values())
+    """Whether data is a structure without nested structures, in which the order of members does not
+    matter.
+    """
+    return (
+        isinstance(data, dict)
+        and bool({"format", "loadOp"} & set(data))
+        and not any(isinstance(each, dict) for each in data.values())
+    )
 
 
 class _Yaml(_Spelled):
@@ -150,28 +176,59 @@ class _Yaml(_Spelled):
         return f"# {self.number}: {self.random.choice(['why', 'storeOp: STORE', 'a, b] }', '- x', 'é ☃'])}"
 
     def tail(self) -> str:
-        return f"{self.random.choice(['  ', ' ', '    '])}{self.comment()}\n" if self.likely(self.comments) else "\n"
+        return (
+            f"{self.random.choice(['  ', ' ', '    '])}{self.comment()}\n"
+            if self.likely(self.comments)
+            else "\n"
+        )
 
     def above(self, indent: int) -> list[str]:
-        lines = [" " * self.random.choice([0, indent]) + self.comment() + "\n"] if self.likely(self.comments / 2) else []
+        lines = (
+            [" " * self.random.choice([0, indent]) + self.comment() + "\n"]
+            if self.likely(self.comments / 2)
+            else []
+        )
         return [*lines, "\n"] if self.likely(0.05) else lines
 
     def text(self, data: Any, flow: bool) -> str:
-        plainly = isinstance(data, str) and data.replace("_", "").replace(" | ", "").isalnum() and not data[:1].isdigit()
+        plainly = (
+            isinstance(data, str)
+            and data.replace("_", "").replace(" | ", "").isalnum()
+            and not data[:1].isdigit()
+        )
         quote = self.random.choice(["", "", '"', "'"]) if plainly else '"'
         return _scalar(data, quote)
 
     def sharing(self, data: Any, made: Callable[[Any], str]) -> str:
-        """The value, perhaps with an anchor; or an alias of an equal earlier one, or a merge of one that it extends."""
+        """The value, perhaps with an anchor; or an alias of an equal earlier one, or a merge of one
+        that it extends.
+        """
         if not self.likely(self.shared):
             return made(data)
         same = json.dumps(data)
         if same in self.anchors:
             return f"*{self.anchors[same][0]}"
         for name, base in self.anchors.values():
-            if _mergeable(data) and isinstance(base, dict) and set(base) <= set(data) and self.likely(0.5):
-                rest = {key: value for key, value in data.items() if key not in base or base[key] != value}
-                inner = ", ".join([f"<<: *{name}", *(f"{key}: {made(self.respelled(key, value))}" for key, value in rest.items())])
+            if (
+                _mergeable(data)
+                and isinstance(base, dict)
+                and set(base) <= set(data)
+                and self.likely(0.5)
+            ):
+                rest = {
+                    key: value
+                    for key, value in data.items()
+                    if key not in base or base[key] != value
+                }
+                inner = ", ".join(
+                    [
+                        f"<<: *{name}",
+                        *(
+                            f"{key}: {made(self.respelled(key, value))}"
+                            for key, value in rest.items()
+                        ),
+                    ]
+                )
                 return f"{{{inner}}}"
         text = made(data)
         name = f"a{len(self.anchors)}"
@@ -190,21 +247,40 @@ class _Yaml(_Spelled):
             item = self.respelled(name, item)
             lines += self.above(indent)
             head = f"{blanks}{self.key(name)}:" if isinstance(data, dict) else f"{blanks}-"
-            if isinstance(item, (dict, list)) and item and not self.likely(self.flowing if indent else 0.02):
+            if (
+                isinstance(item, (dict, list))
+                and item
+                and not self.likely(self.flowing if indent else 0.02)
+            ):
                 if isinstance(data, list) and isinstance(item, dict):
                     inner = self.block(name, item, indent + 2)
-                    first = next((n for n, line in enumerate(inner) if line.strip() and not line.lstrip().startswith("#")), 0)
+                    first = next(
+                        (
+                            n
+                            for n, line in enumerate(inner)
+                            if line.strip() and not line.lstrip().startswith("#")
+                        ),
+                        0,
+                    )
                     # A comment between a dash and what it begins stands above both.
                     lines += inner[:first]
                     lines += [f"{head} {inner[first].lstrip(' ')}", *inner[first + 1 :]]
                 else:
                     lines.append(head + self.tail())
-                    deeper = indent if isinstance(item, list) and isinstance(data, dict) and self.dented else indent + self.step
+                    deeper = (
+                        indent
+                        if isinstance(item, list) and isinstance(data, dict) and self.dented
+                        else indent + self.step
+                    )
                     lines += self.block(name, item, deeper)
             elif isinstance(item, (dict, list)):
-                lines.append(f"{head} {self.sharing(item, lambda each: self.flow(each, indent + self.step))}{self.tail()}")
+                lines.append(
+                    f"{head} {self.sharing(item, lambda each: self.flow(each, indent + self.step))}{self.tail()}"
+                )
             else:
-                lines.append(f"{head} {self.sharing(item, lambda each: self.text(each, False))}{self.tail()}")
+                lines.append(
+                    f"{head} {self.sharing(item, lambda each: self.text(each, False))}{self.tail()}"
+                )
         return lines
 
     def flow(self, data: Any, indent: int) -> str:
@@ -215,7 +291,9 @@ class _Yaml(_Spelled):
         opened, closed = "{}" if isinstance(data, dict) else "[]"
         inner = [
             (f"{self.key(name)}: " if isinstance(data, dict) else "")
-            + self.sharing(self.respelled(name, item), lambda each: self.flow(each, indent + self.step))
+            + self.sharing(
+                self.respelled(name, item), lambda each: self.flow(each, indent + self.step)
+            )
             for name, item in pairs
         ]
         if not inner:

@@ -63,11 +63,39 @@ COLOR = "renderPasses.main.attachments.color"
 @pytest.mark.parametrize(
     ("action", "fact", "value", "kind", "path", "expected"),
     [
-        ("set", "aspect.store", "DONT_CARE", "aspect", COLOR, [(COLOR, "storeOp", "set", "DONT_CARE")]),
+        (
+            "set",
+            "aspect.store",
+            "DONT_CARE",
+            "aspect",
+            COLOR,
+            [(COLOR, "storeOp", "set", "DONT_CARE")],
+        ),
         ("set", "aspect.store", "STORE", "aspect", COLOR, "the description already states this"),
-        ("add", "image.usage", "SAMPLED", "image", "images.ms", [("images.ms", "usage", "add", "SAMPLED")]),
-        ("remove", "image.usage", "SAMPLED", "image", "images.ms", "the description already states this"),
-        ("remove", "image.memory", "DEVICE_LOCAL", "image", "images.ms2", "the description already states this"),
+        (
+            "add",
+            "image.usage",
+            "SAMPLED",
+            "image",
+            "images.ms",
+            [("images.ms", "usage", "add", "SAMPLED")],
+        ),
+        (
+            "remove",
+            "image.usage",
+            "SAMPLED",
+            "image",
+            "images.ms",
+            "the description already states this",
+        ),
+        (
+            "remove",
+            "image.memory",
+            "DEVICE_LOCAL",
+            "image",
+            "images.ms2",
+            "the description already states this",
+        ),
         # Of images that alternate all are changed.
         (
             "add",
@@ -78,11 +106,46 @@ COLOR = "renderPasses.main.attachments.color"
             [("images.ms", "usage", "add", "SAMPLED"), ("images.ms2", "usage", "add", "SAMPLED")],
         ),
         # A count is changed wherever it is stated.
-        ("set", "image.samples", 2, "image", "images.ms", [("images.ms", "samples", "set", 2), (COLOR, "samples", "set", 2)]),
-        ("set", "image.samples", "{image.samples}", "image", "images.ms", "the description already states this"),
-        ("add", "image.usage", "{image.flags}", "image", "images.ms", "the description already states this"),
-        ("add", "image.usage", "{image.encoding}", "image", "images.ms", "the value of image.encoding is not known"),
-        ("set", "attachment.final_layout", "GENERAL", "attachment", COLOR, [(COLOR, "finalLayout", "set", "GENERAL")]),
+        (
+            "set",
+            "image.samples",
+            2,
+            "image",
+            "images.ms",
+            [("images.ms", "samples", "set", 2), (COLOR, "samples", "set", 2)],
+        ),
+        (
+            "set",
+            "image.samples",
+            "{image.samples}",
+            "image",
+            "images.ms",
+            "the description already states this",
+        ),
+        (
+            "add",
+            "image.usage",
+            "{image.flags}",
+            "image",
+            "images.ms",
+            "the description already states this",
+        ),
+        (
+            "add",
+            "image.usage",
+            "{image.encoding}",
+            "image",
+            "images.ms",
+            "the value of image.encoding is not known",
+        ),
+        (
+            "set",
+            "attachment.final_layout",
+            "GENERAL",
+            "attachment",
+            COLOR,
+            [(COLOR, "finalLayout", "set", "GENERAL")],
+        ),
         (
             "set",
             "resolve.mode",
@@ -93,7 +156,9 @@ COLOR = "renderPasses.main.attachments.color"
         ),
     ],
 )
-def test_plan_changes_the_members_that_state_a_fact(action: str, fact: str, value: Any, kind: str, path: str, expected: Any) -> None:
+def test_plan_changes_the_members_that_state_a_fact(
+    action: str, fact: str, value: Any, kind: str, path: str, expected: Any
+) -> None:
     assert planned(spec(action, fact, value), kind, path) == expected
 
 
@@ -102,7 +167,9 @@ def test_apply_temporarily_restores_values(actions: list[str], fails: bool) -> N
     image = DOCUMENT.description.images["ms"]
     before = meaning(LINTED)
     changes = [
-        Change(image, "usage", action, "SAMPLED") if action in ("add", "remove") else Change(image, "samples", action, 8)
+        Change(image, "usage", action, "SAMPLED")
+        if action in ("add", "remove")
+        else Change(image, "samples", action, 8)
         for action in actions
     ]
     try:
@@ -121,7 +188,12 @@ def test_apply_temporarily_rejects_structural_changes() -> None:
     image = DOCUMENT.description.images["ms"]
     with (
         pytest.raises(StructuralChange),
-        apply_temporarily([Change(image, "samples", "set", 8), Change(DOCUMENT.description, "commands", "drop", 0)]),
+        apply_temporarily(
+            [
+                Change(image, "samples", "set", 8),
+                Change(DOCUMENT.description, "commands", "drop", 0),
+            ]
+        ),
     ):
         pass
     assert meaning(LINTED) == before

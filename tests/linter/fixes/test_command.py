@@ -13,7 +13,9 @@ from tests.linter.fixes.test_fixer import FIXED, STORED
 from tests.linter.fixes.test_properties import EXAMPLES
 from tests.pages import all_examples
 
-UNSAFE = STORED.replace("storeOp: STORE}\n    subpasses", "storeOp: DONT_CARE}\n    subpasses").replace("LOAD", "DONT_CARE")
+UNSAFE = STORED.replace(
+    "storeOp: STORE}\n    subpasses", "storeOp: DONT_CARE}\n    subpasses"
+).replace("LOAD", "DONT_CARE")
 
 
 @pytest.fixture
@@ -27,10 +29,14 @@ def text(folder: Path, name: str = "frame.msaa.yaml") -> str:
 
 
 def test_fix_writes_the_file_and_reports_the_rest(folder: Path) -> None:
-    (folder / "frame.msaa.yaml").write_text(STORED.replace("samples: 4", "samples: 8"), encoding="utf-8")
+    (folder / "frame.msaa.yaml").write_text(
+        STORED.replace("samples: 4", "samples: 8"), encoding="utf-8"
+    )
     done = run(folder, "check", ".", "--fix")
     assert text(folder) == FIXED.replace("samples: 4", "samples: 8")
-    assert [line.split("[")[1].split("]")[0] for line in done.stdout.splitlines() if "[" in line] == [
+    assert [
+        line.split("[")[1].split("]")[0] for line in done.stdout.splitlines() if "[" in line
+    ] == [
         "sample-count-above-four",
         "sample-count-not-portable",
     ]
@@ -43,7 +49,11 @@ def test_exit_code_is_0_if_everything_is_fixed(folder: Path) -> None:
     done = run(folder, "check", ".", "--fix")
     assert (done.returncode, done.stderr) == (0, "msaa-lint: 3 fixed, 0 remaining\n")
     again = run(folder, "check", ".", "--fix")
-    assert (again.returncode, again.stderr, text(folder)) == (0, "msaa-lint: 0 fixed, 0 remaining\n", FIXED)
+    assert (again.returncode, again.stderr, text(folder)) == (
+        0,
+        "msaa-lint: 0 fixed, 0 remaining\n",
+        FIXED,
+    )
 
 
 DIFF = """\
@@ -81,12 +91,17 @@ def test_diff_can_be_applied(folder: Path) -> None:
     done = run(folder, "check", "frame.msaa.yaml", "--diff")
     (folder / "d.patch").write_bytes(done.stdout.encode())
     subprocess.run(["git", "apply", "d.patch"], cwd=folder, check=True)
-    assert (folder / "frame.msaa.yaml").read_bytes() == FIXED.replace("\n", "\r\n").rstrip("\r\n").encode()
+    assert (folder / "frame.msaa.yaml").read_bytes() == FIXED.replace("\n", "\r\n").rstrip(
+        "\r\n"
+    ).encode()
 
 
 def test_diff_in_color(folder: Path) -> None:
     done = run(folder, "check", ".", "--diff", "--color", "always")
-    assert "\x1b[32m+      output: {image: out, loadOp: DONT_CARE, storeOp: STORE}\x1b[0m\n" in done.stdout
+    assert (
+        "\x1b[32m+      output: {image: out, loadOp: DONT_CARE, storeOp: STORE}\x1b[0m\n"
+        in done.stdout
+    )
 
 
 def test_diff_beside_other_outputs(folder: Path) -> None:
@@ -117,7 +132,18 @@ def test_fixed_standard_input_is_printed(folder: Path) -> None:
     assert "2 fixed, 1 remaining" in done.stderr
     assert done.returncode == 1
     assert run(folder, "check", "-", "--fix", stdin=FIXED.encode()).stdout == FIXED
-    assert run(folder, "check", "-", "--diff", "--stdin-filename", "frame.msaa.yaml", stdin=STORED.encode()).stdout == DIFF
+    assert (
+        run(
+            folder,
+            "check",
+            "-",
+            "--diff",
+            "--stdin-filename",
+            "frame.msaa.yaml",
+            stdin=STORED.encode(),
+        ).stdout
+        == DIFF
+    )
     broken = run(folder, "check", "-", "--fix", stdin=b"a: [")
     assert (broken.stdout, broken.returncode) == ("a: [", 2)
     assert text(folder) == STORED
@@ -125,13 +151,22 @@ def test_fixed_standard_input_is_printed(folder: Path) -> None:
 
 @pytest.mark.parametrize(
     ("mark", "encoding"),
-    [(b"", "utf-8"), (codecs.BOM_UTF8, "utf-8"), (codecs.BOM_UTF16_LE, "utf-16-le"), (codecs.BOM_UTF16_BE, "utf-16-be")],
+    [
+        (b"", "utf-8"),
+        (codecs.BOM_UTF8, "utf-8"),
+        (codecs.BOM_UTF16_LE, "utf-16-le"),
+        (codecs.BOM_UTF16_BE, "utf-16-be"),
+    ],
 )
 @pytest.mark.parametrize("ending", ["\n", "\r\n", "\r"])
 @pytest.mark.parametrize("last", [True, False])
-def test_encoding_and_line_breaks_stay(folder: Path, mark: bytes, encoding: str, ending: str, last: bool) -> None:
+def test_encoding_and_line_breaks_stay(
+    folder: Path, mark: bytes, encoding: str, ending: str, last: bool
+) -> None:
     def encoded(plain: str) -> bytes:
-        return mark + (f"# é ☃ 𝄞\n{plain}" if last else f"# é ☃ 𝄞\n{plain}".rstrip("\n")).replace("\n", ending).encode(encoding)
+        return mark + (f"# é ☃ 𝄞\n{plain}" if last else f"# é ☃ 𝄞\n{plain}".rstrip("\n")).replace(
+            "\n", ending
+        ).encode(encoding)
 
     (folder / "frame.msaa.yaml").write_bytes(encoded(STORED))
     assert run(folder, "check", ".", "--fix").stderr == "msaa-lint: 3 fixed, 0 remaining\n"
@@ -167,7 +202,9 @@ def test_hidden_findings_are_not_fixed(folder: Path) -> None:
 def test_findings_of_the_baseline_are_fixed(folder: Path) -> None:
     """A baseline accepts findings for now; whoever asks for fixes gets these as well."""
     run(folder, "baseline", ".")
-    (summary, fixable) = run(folder, "check", ".", "--baseline", "msaa-lint-baseline.json").stdout.splitlines()[:2]
+    (summary, fixable) = run(
+        folder, "check", ".", "--baseline", "msaa-lint-baseline.json"
+    ).stdout.splitlines()[:2]
     assert summary.startswith("No findings in 1 file") and "3 suppressed" in summary
     assert fixable == "3 fixable with --fix"
     done = run(folder, "check", ".", "--fix", "--baseline", "msaa-lint-baseline.json")
@@ -178,12 +215,21 @@ def test_findings_of_the_baseline_are_fixed(folder: Path) -> None:
 
 def test_reason_of_a_failed_fix_is_reported(folder: Path) -> None:
     color = "{image: ms, loadOp: CLEAR, storeOp: STORE}"
-    shared = STORED.replace(color, f"&c {color}\n      normals: {{<<: *c, # as it is\n        image: kept}}")
-    shared = shared.replace("images:\n", "images:\n  kept: {format: R8G8B8A8_UNORM, samples: 4, usage: [COLOR_ATTACHMENT, SAMPLED]}\n")
+    shared = STORED.replace(
+        color, f"&c {color}\n      normals: {{<<: *c, # as it is\n        image: kept}}"
+    )
+    shared = shared.replace(
+        "images:\n",
+        "images:\n  kept: {format: R8G8B8A8_UNORM, samples: 4, usage: [COLOR_ATTACHMENT, "
+        "SAMPLED]}\n",
+    )
     shared = shared.replace("[color]", "[color, normals]").replace("[output]", "[output, null]")
     (folder / "frame.msaa.yaml").write_text(shared, encoding="utf-8")
     done = run(folder, "check", ".", "--fix")
-    reason = "frame.msaa.yaml:8: multisampled-attachment-stored is not fixed: an anchor shares this `storeOp` with other structures"
+    reason = (
+        "frame.msaa.yaml:8: multisampled-attachment-stored is not fixed: an anchor shares "
+        "this `storeOp` with other structures"
+    )
     assert reason in done.stderr
 
 
@@ -193,14 +239,19 @@ def test_json_has_the_edits(folder: Path) -> None:
     sarif = json.loads(run(folder, "check", ".", "--output", "sarif").stdout)
     replaced = sarif["runs"][0]["results"][0]["fixes"][0]["artifactChanges"][0]["replacements"][0]
     assert replaced["insertedContent"]["text"] == "DONT_CARE"
-    assert (replaced["deletedRegion"]["startLine"], replaced["deletedRegion"]["startColumn"]) == (7, 50)
+    assert (replaced["deletedRegion"]["startLine"], replaced["deletedRegion"]["startColumn"]) == (
+        7,
+        50,
+    )
 
 
 @pytest.mark.parametrize("unsafe", [[], ["--unsafe-fixes"]])
 def test_all_examples_in_one_run(tmp_path: Path, unsafe: list[str]) -> None:
     """Fixing leaves fewer findings and adds none, and fixing again changes nothing."""
     for number, example in enumerate(each for each in all_examples() if each.kind == "bad"):
-        (tmp_path / f"{number:03}-{example.rule}.msaa.yaml").write_text(example.text, encoding="utf-8")
+        (tmp_path / f"{number:03}-{example.rule}.msaa.yaml").write_text(
+            example.text, encoding="utf-8"
+        )
     for path in EXAMPLES:
         (tmp_path / f"{path.parent.name}-{path.name}").write_bytes(path.read_bytes())
 

@@ -24,7 +24,9 @@ renderPasses:
     subpasses:
       - {colorAttachments: [color], resolveAttachments: [output]}
 """
-FIXED = STORED.replace("CLEAR, storeOp: STORE", "CLEAR, storeOp: DONT_CARE").replace("LOAD", "DONT_CARE")
+FIXED = STORED.replace("CLEAR, storeOp: STORE", "CLEAR, storeOp: DONT_CARE").replace(
+    "LOAD", "DONT_CARE"
+)
 
 
 PASS = """\
@@ -37,7 +39,11 @@ renderPasses:
 
 def test_one_edit_fixes_two_findings() -> None:
     done = fix_findings(STORED)
-    assert rules(done.fixed_findings) == ["multisampled-attachment-stored", "resolve-target-loaded", "transient-needs-memory"]
+    assert rules(done.fixed_findings) == [
+        "multisampled-attachment-stored",
+        "resolve-target-loaded",
+        "transient-needs-memory",
+    ]
     assert done.text == FIXED
     assert done.result.findings == []
 
@@ -51,7 +57,8 @@ def test_only_selected_findings_are_fixed() -> None:
 
 def test_suppressed_finding_stays() -> None:
     text = STORED.replace(
-        "storeOp: STORE}\n      output", "storeOp: STORE}  # msaa-lint: ignore[MSAA201, MSAA403] a viewer reads it\n      output"
+        "storeOp: STORE}\n      output",
+        "storeOp: STORE}  # msaa-lint: ignore[MSAA201, MSAA403] a viewer reads it\n      output",
     )
     done = fix_findings(text)
     assert rules(done.fixed_findings) == ["resolve-target-loaded"]
@@ -61,10 +68,15 @@ def test_suppressed_finding_stays() -> None:
 def test_suppression_that_a_fix_leaves_unused_is_removed() -> None:
     """The fix of the store also removes the finding that the comment suppresses."""
     text = STORED.replace(
-        "storeOp: STORE}\n      output", "storeOp: STORE}  # msaa-lint: ignore[transient-needs-memory] once\n      output"
+        "storeOp: STORE}\n      output",
+        "storeOp: STORE}  # msaa-lint: ignore[transient-needs-memory] once\n      output",
     )
     done = fix_findings(text)
-    assert rules(done.fixed_findings) == ["multisampled-attachment-stored", "resolve-target-loaded", "unused-suppression"]
+    assert rules(done.fixed_findings) == [
+        "multisampled-attachment-stored",
+        "resolve-target-loaded",
+        "unused-suppression",
+    ]
     assert done.text == FIXED
 
 
@@ -81,7 +93,10 @@ renderPasses:
 """
     done = fix_findings(text)
     assert rules(done.fixed_findings) == ["reused-attachment-unsynchronised"]
-    added = "        srcStageMask: [COLOR_ATTACHMENT_OUTPUT]\n        srcAccessMask: [COLOR_ATTACHMENT_WRITE]\n"
+    added = (
+        "        srcStageMask: [COLOR_ATTACHMENT_OUTPUT]\n        srcAccessMask: "
+        "[COLOR_ATTACHMENT_WRITE]\n"
+    )
     assert done.text == text + added
 
 
@@ -102,8 +117,15 @@ pipelines:
 
 
 def test_failed_fix_does_not_prevent_others() -> None:
-    bad = "    g{0}: {{renderPass: main, multisampleState: {{rasterizationSamples: 4, sampleShadingEnable: {1}, minSampleShading: 4}}}}\n"
-    text = PASS + "pipelines:\n" + "".join(bad.format(n, "true" if n == 5 else "false") for n in range(9))
+    bad = (
+        "    g{0}: {{renderPass: main, multisampleState: {{rasterizationSamples: 4, "
+        "sampleShadingEnable: {1}, minSampleShading: 4}}}}\n"
+    )
+    text = (
+        PASS
+        + "pipelines:\n"
+        + "".join(bad.format(n, "true" if n == 5 else "false") for n in range(9))
+    )
     done = fix_findings(text, True)
     assert len(done.fixed_findings) == 8
     assert [each.finding.subject for each in done.failed_fixes] == ["pipelines.g5"]
@@ -128,10 +150,19 @@ def test_document_with_errors_does_not_prevent_fixes_of_others() -> None:
 
 
 def test_thousands_of_fixes_are_applied_in_time() -> None:
-    lines = "".join(f"      c{n}: {{format: R8_UNORM, samples: 4, loadOp: CLEAR, storeOp: STORE}}\n" for n in range(1000))
+    lines = "".join(
+        f"      c{n}: {{format: R8_UNORM, samples: 4, loadOp: CLEAR, storeOp: STORE}}\n"
+        for n in range(1000)
+    )
     references = ", ".join(f"c{n}" for n in range(1000))
-    text = f"renderPasses:\n  main:\n    attachments:\n{lines}      out: {{format: R8_UNORM, samples: 1, loadOp: DONT_CARE}}\n"
-    text += f"    subpasses:\n      - {{colorAttachments: [{references}], resolveAttachments: [{', '.join(['out'] * 1000)}]}}\n"
+    text = (
+        f"renderPasses:\n  main:\n    attachments:\n{lines}      out: {{format: R8_UNORM, "
+        f"samples: 1, loadOp: DONT_CARE}}\n"
+    )
+    text += (
+        f"    subpasses:\n      - {{colorAttachments: [{references}], resolveAttachments: "
+        f"[{', '.join(['out'] * 1000)}]}}\n"
+    )
     start = time.process_time()
     done = fix_findings(text, True)
     assert len(done.fixed_findings) == 1000
@@ -139,7 +170,10 @@ def test_thousands_of_fixes_are_applied_in_time() -> None:
 
 
 def test_many_failing_fixes_are_given_up() -> None:
-    each = "  g{0}: {{renderPass: main, multisampleState: {{rasterizationSamples: 4, sampleShadingEnable: true, minSampleShading: 4}}}}\n"
+    each = (
+        "  g{0}: {{renderPass: main, multisampleState: {{rasterizationSamples: 4, "
+        "sampleShadingEnable: true, minSampleShading: 4}}}}\n"
+    )
     text = PASS + "pipelines:\n" + "".join(each.format(n) for n in range(200))
     start = time.process_time()
     done = fix_findings(text, True)
@@ -202,7 +236,9 @@ def test_fix_that_a_failed_one_blocked_is_applied() -> None:
     done = fix_text(lint_letters("ab"), lint_letters, False, lambda _: True)
     assert done.text == "aB"
     assert rules(done.fixed_findings) == ["msaa2"]
-    assert [(each.finding.code, each.reason) for each in done.failed_fixes] == [("MSAA1", "it would introduce msaa3: ")]
+    assert [(each.finding.code, each.reason) for each in done.failed_fixes] == [
+        ("MSAA1", "it would introduce msaa3: ")
+    ]
 
 
 def test_flags_that_a_fix_replaces_and_removes_in_one_list() -> None:
@@ -230,8 +266,13 @@ commands:
 
 
 def test_a_finding_may_move_with_a_fix() -> None:
-    """The resolve has the same problem before and after it becomes part of the pass: that is no reason to leave it outside."""
+    """The resolve has the same problem before and after it becomes part of the pass: that is no
+    reason to leave it outside.
+    """
     text = (ROOT / "examples/phone/frame.msaa.yaml").read_text(encoding="utf-8")
     done = fix_findings(text, unsafe=True)
     assert "resolveImage" not in done.text and "resolveAttachments: [scene]" in done.text
-    assert rules(done.result.findings) == ["framebuffer-readback", "hdr-resolved-before-tone-mapping"]
+    assert rules(done.result.findings) == [
+        "framebuffer-readback",
+        "hdr-resolved-before-tone-mapping",
+    ]

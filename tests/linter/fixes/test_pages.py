@@ -34,7 +34,9 @@ Nothing is stored.
 
 
 def loaded(folder: Path, fix: str) -> tuple[list[tuple[str, str]], list[str]]:
-    """The problems of a page with a fix, each with the text that it points at; and the marked texts."""
+    """The problems of a page with a fix, each with the text that it points at; and the marked
+    texts.
+    """
     text, spans = unmarked(PAGE.format(fix=fix).rstrip("\n"))
     path = folder / "no-store.md"
     path.write_text(f"{text}\n", encoding="utf-8")
@@ -51,13 +53,34 @@ def loaded(folder: Path, fix: str) -> tuple[list[tuple[str, str]], list[str]]:
 @pytest.mark.parametrize(
     ("fix", "message"),
     [
-        ("fix: {title: x, safety: safe, set: {⟦aspect.stor⟧: DONT_CARE}}", "unknown fact `aspect.stor`: did you mean `aspect.store`?"),
-        ("fix: {title: x, safety: safe, set: {⟦aspect.name⟧: color}}", "fixes cannot change `aspect.name`; use one of "),
-        ("fix: {title: x, safety: safe, set: {⟦resolve.mode⟧: MIN}}", "unknown fact resolve.mode of aspect; it is a fact of resolve"),
-        ("fix: {title: x, safety: safe, set: {aspect.store: ⟦DONTCARE⟧}}", "`aspect.store` is never `DONTCARE`; did you mean `DONT_CARE`?"),
-        ("fix: {title: x, safety: safe, set: {aspect.store: ⟦4⟧}}", "expected a value of aspect.store (STRING), found "),
-        ("fix: {title: x, safety: safe, set: {⟦image.usage⟧: SAMPLED}}", "image.usage is a list: it cannot be changed with `set`"),
-        ("fix: {title: x, safety: safe, add: {⟦aspect.store⟧: STORE}}", "aspect.store is not a list: it cannot be changed with `add`"),
+        (
+            "fix: {title: x, safety: safe, set: {⟦aspect.stor⟧: DONT_CARE}}",
+            "unknown fact `aspect.stor`: did you mean `aspect.store`?",
+        ),
+        (
+            "fix: {title: x, safety: safe, set: {⟦aspect.name⟧: color}}",
+            "fixes cannot change `aspect.name`; use one of ",
+        ),
+        (
+            "fix: {title: x, safety: safe, set: {⟦resolve.mode⟧: MIN}}",
+            "unknown fact resolve.mode of aspect; it is a fact of resolve",
+        ),
+        (
+            "fix: {title: x, safety: safe, set: {aspect.store: ⟦DONTCARE⟧}}",
+            "`aspect.store` is never `DONTCARE`; did you mean `DONT_CARE`?",
+        ),
+        (
+            "fix: {title: x, safety: safe, set: {aspect.store: ⟦4⟧}}",
+            "expected a value of aspect.store (STRING), found ",
+        ),
+        (
+            "fix: {title: x, safety: safe, set: {⟦image.usage⟧: SAMPLED}}",
+            "image.usage is a list: it cannot be changed with `set`",
+        ),
+        (
+            "fix: {title: x, safety: safe, add: {⟦aspect.store⟧: STORE}}",
+            "aspect.store is not a list: it cannot be changed with `add`",
+        ),
         (
             "fix: {title: x, safety: safe, add: {image.usage: [SAMPLED, ⟦SMAPLED⟧]}}",
             "`image.usage` is never `SMAPLED`; did you mean `SAMPLED`?",
@@ -66,18 +89,31 @@ def loaded(folder: Path, fix: str) -> tuple[list[tuple[str, str]], list[str]]:
             'fix: {title: x, safety: safe, set: {aspect.store: ⟦"{image.samples}"⟧}}',
             "`{image.samples}` does not refer to a fact of type STRING",
         ),
-        ("fix: ⟦{title: x, safety: safe}⟧", "a fix must state what it changes: `set`, `add`, `remove` or `do`"),
-        ("fix: {title: x, safety: safe, do: ⟦nothing⟧}", "unknown action `nothing`: expected one of make-transient, resolve-in-pass"),
-        ("fix: {title: x, safety: safe, do: ⟦make_transient⟧}", "unknown action `make_transient`: did you mean `make-transient`?"),
+        (
+            "fix: ⟦{title: x, safety: safe}⟧",
+            "a fix must state what it changes: `set`, `add`, `remove` or `do`",
+        ),
+        (
+            "fix: {title: x, safety: safe, do: ⟦nothing⟧}",
+            "unknown action `nothing`: expected one of make-transient, resolve-in-pass",
+        ),
+        (
+            "fix: {title: x, safety: safe, do: ⟦make_transient⟧}",
+            "unknown action `make_transient`: did you mean `make-transient`?",
+        ),
         (
             "cases: [{when: image.samples > 1, fix: ⟦{safety: unsafe}⟧}]",
             "a fix must be a mapping with `title`, `safety` (safe, unsafe, shown)",
         ),
         (
-            "fix: {title: x, safety: safe, set: {aspect.store: NONE}}\ncases: [{when: image.samples > 1, fix: {safety: ⟦often⟧}}]",
+            "fix: {title: x, safety: safe, set: {aspect.store: NONE}}\ncases: [{when: "
+            "image.samples > 1, fix: {safety: ⟦often⟧}}]",
             "`safety`: expected one of safe, unsafe, shown, found `often`",
         ),
-        ('fix: {title: "{image.sample}", safety: safe, set: {aspect.store: NONE}}', "unknown fact image.sample of aspect"),
+        (
+            'fix: {title: "{image.sample}", safety: safe, set: {aspect.store: NONE}}',
+            "unknown fact image.sample of aspect",
+        ),
     ],
 )
 def test_problems_of_fixes_and_their_places(tmp_path: Path, fix: str, message: str) -> None:
@@ -97,11 +133,17 @@ cases:
   - {when: image.samples == 16, severity: note}"""
     assert loaded(tmp_path, fix)[0] == []
     engine = Engine(load([str(tmp_path / "no-store.md")]))
-    entries = ", ".join(f"a{n}: {{format: R8_UNORM, samples: {n}, storeOp: STORE}}" for n in (1, 2, 4, 8, 16))
+    entries = ", ".join(
+        f"a{n}: {{format: R8_UNORM, samples: {n}, storeOp: STORE}}" for n in (1, 2, 4, 8, 16)
+    )
     text = f"renderPasses: {{p: {{attachments: {{{entries}}}}}}}"
-    findings = engine.lint(text.encode(), "x", LintOptions(lambda rule, suggested, vendor: suggested)).findings
+    findings = engine.lint(
+        text.encode(), "x", LintOptions(lambda rule, suggested, vendor: suggested)
+    ).findings
     fixes = [found.fix for found in findings if found.rule == "no-store"]
-    assert [(each.title, each.safe, each.shown, bool(each.edits)) if each else None for each in fixes] == [
+    assert [
+        (each.title, each.safe, each.shown, bool(each.edits)) if each else None for each in fixes
+    ] == [
         ("store color: DONT_CARE", True, False, True),
         ("store color: DONT_CARE", False, False, True),
         ("none", False, True, False),
@@ -118,14 +160,24 @@ def test_fact_sources_are_of_known_facts() -> None:
 def test_built_in_rules() -> None:
     rules = load().rules
     assert [each for rule in rules for each in problems(rule)] == []
-    assert {spec.do for rule in rules for spec in rule.fix_specs if spec.do} == {*ACTIONS, *METAL_ACTIONS}
-    changed = {setting.fact for rule in rules for spec in rule.fix_specs for setting in (*spec.set, *spec.add, *spec.remove)}
+    assert {spec.do for rule in rules for spec in rule.fix_specs if spec.do} == {
+        *ACTIONS,
+        *METAL_ACTIONS,
+    }
+    changed = {
+        setting.fact
+        for rule in rules
+        for spec in rule.fix_specs
+        for setting in (*spec.set, *spec.add, *spec.remove)
+    }
     assert changed <= {*FACT_SOURCES, *METAL_FACT_SOURCES}
     for rule in rules:
         assert {fact.name for fact in SUBJECTS[rule.subject]}
 
 
-WRITTEN = [rule for rule in load().rules if any(spec.do not in PRICE_ONLY for spec in rule.fix_specs)]
+WRITTEN = [
+    rule for rule in load().rules if any(spec.do not in PRICE_ONLY for spec in rule.fix_specs)
+]
 
 
 @pytest.mark.parametrize("rule", WRITTEN, ids=lambda rule: rule.name)
@@ -141,7 +193,11 @@ def test_fixed_examples_are_what_the_fix_writes(rule: object) -> None:
     for example in examples(RULES / f"{name}.md"):
         if example.kind != "bad":
             continue
-        text = "".join(line for line in example.text.splitlines(keepends=True) if not line.startswith("#") or "^" not in line)
+        text = "".join(
+            line
+            for line in example.text.splitlines(keepends=True)
+            if not line.startswith("#") or "^" not in line
+        )
         result = lint(text)
         assert result.source is not None
         fixes = DocumentFixes(result.documents[0])
@@ -179,9 +235,11 @@ def test_resolve_outside_a_pass_stays_if_in_doubt(old: str, new: str, reason: st
     text = RESOLVED.replace(old, new, 1)
     assert text != RESOLVED
     done = fix_findings(text, True)
-    assert [(each.finding.rule, each.reason) for each in done.failed_fixes if each.finding.code == "MSAA301"] == [
-        ("resolve-outside-pass", reason)
-    ]
+    assert [
+        (each.finding.rule, each.reason)
+        for each in done.failed_fixes
+        if each.finding.code == "MSAA301"
+    ] == [("resolve-outside-pass", reason)]
 
 
 RESOLVED = """\
@@ -239,10 +297,14 @@ def test_resolve_moves_into_a_pass_with_a_framebuffer() -> None:
 
 
 def test_store_of_samples_with_other_readers_stays() -> None:
-    text = RESOLVED.replace("  - present", "  - readImage: {image: ms, stage: FRAGMENT, access: SHADER_READ}\n  - present").replace(
-        "TRANSFER_SRC]", "TRANSFER_SRC, SAMPLED]"
-    )
+    text = RESOLVED.replace(
+        "  - present",
+        "  - readImage: {image: ms, stage: FRAGMENT, access: SHADER_READ}\n  - present",
+    ).replace("TRANSFER_SRC]", "TRANSFER_SRC, SAMPLED]")
     done = fix_findings(text, True)
     assert "resolve-outside-pass" in {found.rule for found in done.fixed_findings}
-    assert "loadOp: CLEAR, storeOp: STORE, initialLayout: UNDEFINED, finalLayout: TRANSFER_SRC_OPTIMAL}" in done.text
+    assert (
+        "loadOp: CLEAR, storeOp: STORE, initialLayout: UNDEFINED, finalLayout: "
+        "TRANSFER_SRC_OPTIMAL}" in done.text
+    )
     assert "usage: [COLOR_ATTACHMENT, SAMPLED]" in done.text

@@ -16,7 +16,15 @@ from msaa_lint.linter.fixes.changes import Change, NoFix, apply_temporarily
 from msaa_lint.linter.fixes.document_fixes import DocumentFixes
 from msaa_lint.linter.results import FileResult
 from msaa_lint.linter.rules.rule_runner import finding_key
-from tests.linter.fixes.linting import _meaning, comments_of, fix_findings, kinds, lint, meaning, rules
+from tests.linter.fixes.linting import (
+    _meaning,
+    comments_of,
+    fix_findings,
+    kinds,
+    lint,
+    meaning,
+    rules,
+)
 from tests.linter.fixes.spellings import data_of, written
 from tests.pages import all_examples
 from tests.paths import ROOT
@@ -28,9 +36,18 @@ TEXTS |= {path.stem: path.read_text(encoding="utf-8") for path in EXAMPLES}
 DATA = {name: data_of(text) for name, text in TEXTS.items() if "\n---\n" not in text}
 """The data of the texts that hold one document."""
 FIXABLE = st.deferred(
-    lambda: st.sampled_from(sorted(name for name, text in TEXTS.items() if name in DATA and fix_findings(text, True).fixed_findings))
+    lambda: st.sampled_from(
+        sorted(
+            name
+            for name, text in TEXTS.items()
+            if name in DATA and fix_findings(text, True).fixed_findings
+        )
+    )
 )
-BESIDE = ("a comment stands between the entries", "comments or merge keys stand between the entries")
+BESIDE = (
+    "a comment stands between the entries",
+    "comments or merge keys stand between the entries",
+)
 
 
 @pytest.mark.parametrize("unsafe", [False, True])
@@ -40,7 +57,8 @@ def test_fixes_remove_findings_and_add_none(name: str, unsafe: bool) -> None:
 
 
 def check(text: str, unsafe: bool) -> None:
-    """Fixed findings are gone, no finding is new, remaining ones cannot be fixed, and fixing again changes nothing.
+    """Fixed findings are gone, no finding is new, remaining ones cannot be fixed, and fixing again
+    changes nothing.
 
     A finding may move: a resolve that becomes part of a pass has the same problem there.
     """
@@ -50,7 +68,9 @@ def check(text: str, unsafe: bool) -> None:
     assert [found for found in after.findings if found.fatal] == []
     assert after.findings == done.result.findings
     gone = kinds(before) - kinds(after)
-    assert not Counter(found.rule for found in after.findings) - Counter(found.rule for found in before.findings)
+    assert not Counter(found.rule for found in after.findings) - Counter(
+        found.rule for found in before.findings
+    )
     assert {found.rule for found in done.fixed_findings} <= {rule for rule, _ in gone}
     assert len(done.fixed_findings) <= gone.total()
     assert (done.text == text) == (not done.fixed_findings)
@@ -84,7 +104,9 @@ def test_fixes_do_not_depend_on_spelling(name: str, seed: int, unsafe: bool) -> 
 @examples(3)
 @given(FIXABLE, st.integers(0, 2**32), st.sampled_from([0.0, 0.2, 0.6]))
 def test_edits_make_the_changes_and_no_others(name: str, seed: int, shared: float) -> None:
-    """The text after the edits means what the records after the changes mean, also if anchors share what changes."""
+    """The text after the edits means what the records after the changes mean, also if anchors share
+    what changes.
+    """
     edits_make_changes(written(DATA[name], Random(seed), shared))
 
 
@@ -124,9 +146,13 @@ def stated(result: FileResult) -> object:
 
 
 def stated_with(result: FileResult, changes: Sequence[Change]) -> object:
-    before = [(change.record, change.member, getattr(change.record, change.member)) for change in changes]
+    before = [
+        (change.record, change.member, getattr(change.record, change.member)) for change in changes
+    ]
     for change in changes:
-        setattr(change.record, change.member, change.applied_to(getattr(change.record, change.member)))
+        setattr(
+            change.record, change.member, change.applied_to(getattr(change.record, change.member))
+        )
     found = stated(result)
     for record, member, value in reversed(before):
         setattr(record, member, value)

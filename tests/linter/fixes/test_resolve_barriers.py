@@ -7,7 +7,8 @@ import pytest
 from tests.linter.fixes.linting import fix_findings
 
 BARRIER = (
-    "  - pipelineBarrier: {{srcStageMask: [{source}], dstStageMask: [{target}], srcAccessMask: [{written}], dstAccessMask: [{read}], "
+    "  - pipelineBarrier: {{srcStageMask: [{source}], dstStageMask: [{target}], srcAccessMask: "
+    "[{written}], dstAccessMask: [{read}], "
     "images: [{images}]}}\n"
 )
 SAMPLES = BARRIER.format(
@@ -15,7 +16,8 @@ SAMPLES = BARRIER.format(
     target="TRANSFER",
     written="COLOR_ATTACHMENT_WRITE",
     read="TRANSFER_READ",
-    images="{image: color_ms, oldLayout: COLOR_ATTACHMENT_OPTIMAL, newLayout: TRANSFER_SRC_OPTIMAL}",
+    images="{image: color_ms, oldLayout: COLOR_ATTACHMENT_OPTIMAL, newLayout: "
+    "TRANSFER_SRC_OPTIMAL}",
 )
 PREPARED = BARRIER.format(
     source="FRAGMENT_SHADER",
@@ -34,7 +36,9 @@ RESOLVED = BARRIER.format(
 
 
 def frame(before: str = "", between: str = "", after: str = "", dependencies: str = "") -> str:
-    """A scene that a command resolves for a second pass, with barriers before the scene, and before and after the command."""
+    """A scene that a command resolves for a second pass, with barriers before the scene, and before
+    and after the command.
+    """
     return f"""\
 images:
   color_ms: {{format: R8G8B8A8_UNORM, samples: 4, usage: [COLOR_ATTACHMENT, TRANSFER_SRC]}}
@@ -67,14 +71,21 @@ def commands(text: str) -> str:
     return text[text.index("commands:") :]
 
 
-def test_barriers_before_the_resolve_become_a_dependency_and_the_one_after_it_waits_for_the_pass() -> None:
+def test_barriers_before_the_resolve_become_a_dependency_and_the_one_after_it_waits_for_the_pass() -> (
+    None
+):
     done = fix_findings(frame(between=SAMPLES + PREPARED, after=RESOLVED), unsafe=True)
     assert done.failed_fixes == ()
     assert (
-        "dependencies: [{srcSubpass: EXTERNAL, dstSubpass: 0, srcStageMask: [FRAGMENT_SHADER, COLOR_ATTACHMENT_OUTPUT], "
-        "dstStageMask: [COLOR_ATTACHMENT_OUTPUT], srcAccessMask: [COLOR_ATTACHMENT_WRITE], dstAccessMask: [COLOR_ATTACHMENT_WRITE]}]"
+        "dependencies: [{srcSubpass: EXTERNAL, dstSubpass: 0, srcStageMask: [FRAGMENT_SHADER, "
+        "COLOR_ATTACHMENT_OUTPUT], "
+        "dstStageMask: [COLOR_ATTACHMENT_OUTPUT], srcAccessMask: [COLOR_ATTACHMENT_WRITE], "
+        "dstAccessMask: [COLOR_ATTACHMENT_WRITE]}]"
     ) in done.text
-    assert "{image: color, loadOp: DONT_CARE, storeOp: STORE, initialLayout: UNDEFINED, finalLayout: COLOR_ATTACHMENT_OPTIMAL}" in done.text
+    assert (
+        "{image: color, loadOp: DONT_CARE, storeOp: STORE, initialLayout: UNDEFINED, finalLayout: "
+        "COLOR_ATTACHMENT_OPTIMAL}" in done.text
+    )
     assert commands(done.text) == (
         "commands:\n  - beginRenderPass: {renderPass: scene}\n  - endRenderPass\n"
         + RESOLVED.replace("TRANSFER_WRITE", "COLOR_ATTACHMENT_WRITE")
@@ -85,7 +96,13 @@ def test_barriers_before_the_resolve_become_a_dependency_and_the_one_after_it_wa
 
 
 def test_a_barrier_without_layouts_leaves_the_transition_to_the_pass() -> None:
-    plain = BARRIER.format(source="TRANSFER", target="FRAGMENT_SHADER", written="TRANSFER_WRITE", read="SHADER_READ", images="color")
+    plain = BARRIER.format(
+        source="TRANSFER",
+        target="FRAGMENT_SHADER",
+        written="TRANSFER_WRITE",
+        read="SHADER_READ",
+        images="color",
+    )
     done = fix_findings(frame(after=plain), unsafe=True)
     assert "initialLayout: UNDEFINED, finalLayout: SHADER_READ_ONLY_OPTIMAL}" in done.text
     assert "srcStageMask: [COLOR_ATTACHMENT_OUTPUT], dstStageMask: [FRAGMENT_SHADER]" in done.text
@@ -93,8 +110,10 @@ def test_a_barrier_without_layouts_leaves_the_transition_to_the_pass() -> None:
 
 def test_a_stated_dependency_takes_over_what_a_barrier_waits_for() -> None:
     stated = (
-        "    dependencies:\n      - {srcSubpass: EXTERNAL, dstSubpass: 0, srcStageMask: [COLOR_ATTACHMENT_OUTPUT], "
-        "dstStageMask: [COLOR_ATTACHMENT_OUTPUT], srcAccessMask: [COLOR_ATTACHMENT_WRITE], dstAccessMask: [COLOR_ATTACHMENT_WRITE]}\n"
+        "    dependencies:\n      - {srcSubpass: EXTERNAL, dstSubpass: 0, srcStageMask: "
+        "[COLOR_ATTACHMENT_OUTPUT], "
+        "dstStageMask: [COLOR_ATTACHMENT_OUTPUT], srcAccessMask: [COLOR_ATTACHMENT_WRITE], "
+        "dstAccessMask: [COLOR_ATTACHMENT_WRITE]}\n"
     )
     done = fix_findings(frame(between=PREPARED, after=RESOLVED, dependencies=stated), unsafe=True)
     assert "srcStageMask: [COLOR_ATTACHMENT_OUTPUT, FRAGMENT_SHADER]" in done.text
@@ -109,7 +128,10 @@ def test_a_stated_dependency_takes_over_what_a_barrier_waits_for() -> None:
             {"between": SAMPLES.replace("images: [", "images: [other, ")},
             "a barrier between the pass and the resolve concerns other images as well",
         ),
-        ({"after": RESOLVED.replace("images: [", "images: [other, ")}, "a barrier behind the resolve concerns other images as well"),
+        (
+            {"after": RESOLVED.replace("images: [", "images: [other, ")},
+            "a barrier behind the resolve concerns other images as well",
+        ),
     ],
 )
 def test_barriers_that_do_more_keep_the_command(barriers: dict[str, str], reason: str) -> None:
@@ -119,13 +141,16 @@ def test_barriers_that_do_more_keep_the_command(barriers: dict[str, str], reason
 
 
 def test_dynamic_rendering_has_no_dependencies() -> None:
-    attachment = "{image: color_ms, imageLayout: COLOR_ATTACHMENT_OPTIMAL, loadOp: CLEAR, storeOp: STORE}"
+    attachment = (
+        "{image: color_ms, imageLayout: COLOR_ATTACHMENT_OPTIMAL, loadOp: CLEAR, storeOp: STORE}"
+    )
     begin = f"  - beginRendering: {{colorAttachments: [{attachment}]}}\n"
     begun = "  - beginRenderPass: {renderPass: scene}\n  - endRenderPass\n"
     text = frame(between=PREPARED, after=RESOLVED).replace(begun, begin + "  - endRendering\n")
     done = fix_findings(text, unsafe=True)
     assert [failed.reason for failed in done.failed_fixes] == [
-        "a barrier prepares the image that is resolved to, and vkCmdBeginRendering has no dependencies"
+        "a barrier prepares the image that is resolved to, and vkCmdBeginRendering has no "
+        "dependencies"
     ]
     kept = fix_findings(text.replace(PREPARED, SAMPLES), unsafe=True)
     assert "resolveImage: {" not in kept.text and "resolveImage: color" in kept.text

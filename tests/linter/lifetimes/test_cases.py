@@ -1,5 +1,7 @@
-"""Frames in Markdown, as on the rule pages: a line of carets under a line of input marks what must be found there, and no other rule of the
-page's list may fire. `$name` in a frame takes each of the values listed below it."""
+"""Frames in Markdown, as on the rule pages: a line of carets under a line of input marks what must
+be found there, and no other rule of the page's list may fire. `$name` in a frame takes each of the
+values listed below it.
+"""
 
 from __future__ import annotations
 
@@ -15,7 +17,9 @@ from tests.linter.lifetimes import watched
 
 _RULES = re.compile(r"^Rules: (.*)$", re.MULTILINE)
 _CASE = re.compile(
-    r"^### (?P<title>[^\n]*)$|^```yaml\n(?P<frame>.*?)^```$(?:\s*^```yaml values\n(?P<values>.*?)^```$)?", re.MULTILINE | re.DOTALL
+    r"^### (?P<title>[^\n]*)$|^```yaml\n(?P<frame>.*?)^```$(?:\s*^```yaml "
+    r"values\n(?P<values>.*?)^```$)?",
+    re.MULTILINE | re.DOTALL,
 )
 _UNDECIDED = re.compile(r"^# undecided: (MSAA\d{3}) (\S+)$", re.MULTILINE)
 
@@ -38,7 +42,12 @@ def cases() -> Iterator[Case]:
                 title = match["title"]
                 continue
             for values in yaml.safe_load(match["values"]) if match["values"] else [{}]:
-                yield Case(f"{page.stem}: {title}", match["frame"], values, frozenset(listed[1].split(", ")))
+                yield Case(
+                    f"{page.stem}: {title}",
+                    match["frame"],
+                    values,
+                    frozenset(listed[1].split(", ")),
+                )
 
 
 CASES = list(cases())
@@ -54,4 +63,6 @@ def test_what_is_marked_is_found_and_nothing_else(case: Case) -> None:
     linted = watched.check(watched.given_text(case.frame, **values), case.rules)
     expected = {*_UNDECIDED.findall(case.frame), *map(tuple, case.values.get("undecided", []))}
     if expected or "undecided" in case.values:
-        assert {(each.code, each.subject) for each in linted.undecided if each.code in case.rules} == expected
+        assert {
+            (each.code, each.subject) for each in linted.undecided if each.code in case.rules
+        } == expected

@@ -1,6 +1,8 @@
-"""What becomes of what a pass stores, and what was in what it loads: against a frame that is played, and case by case.
+"""What becomes of what a pass stores, and what was in what it loads: against a frame that is
+played, and case by case.
 
-A line of carets under a line of input marks what must be found there, and nothing else of `WATCHED` may be found.
+A line of carets under a line of input marks what must be found there, and nothing else of `WATCHED`
+may be found.
 """
 
 from __future__ import annotations
@@ -40,7 +42,8 @@ def message(linted: FileResult, code: str) -> str:
     return found.message
 
 
-# A frame that is played: every image holds marks of who wrote what is in it, and for whom is told by who reads them.
+# A frame that is played: every image holds marks of who wrote what is in it, and for whom is told
+# by who reads them.
 
 
 class Step(NamedTuple):
@@ -91,7 +94,10 @@ def play(operations: Operations, steps: list[Step]) -> Played:
                 elif step.kind == "clear":
                     holds[image] = {("cleared", 0)}
                 else:
-                    holds[image] = {*((k, w) for k, w in holds[image] if k != "discarded"), ("written", 0)}
+                    holds[image] = {
+                        *((k, w) for k, w in holds[image] if k != "discarded"),
+                        ("written", 0),
+                    }
                 last[image] = step.kind
                 continue
             image = step.images[frame % len(step.images)]
@@ -108,24 +114,41 @@ def play(operations: Operations, steps: list[Step]) -> Played:
                 stores.add(step.which)
             holds[image] = {("stored" if end == "STORE" else "discarded", step.which)}
             last[image] = "pass"
-    return Played(stores - read, undefined, {which for which, every in cleared.items() if every}, copied)
+    return Played(
+        stores - read, undefined, {which for which, every in cleared.items() if every}, copied
+    )
 
 
-def described(operations: Operations, steps: list[Step], usage: str = "usage: [COLOR_ATTACHMENT], presentable: false") -> str:
+def described(
+    operations: Operations,
+    steps: list[Step],
+    usage: str = "usage: [COLOR_ATTACHMENT], presentable: false",
+) -> str:
     """The same as a description."""
     lines = ["images:", "  source: {format: R8_UNORM, samples: 1}"]
     lines += [f"  i{n}: {{format: R8_UNORM, samples: 1, {usage}}}" for n in range(IMAGES)]
     lines.append("renderPasses:")
     for n, (begin, end) in enumerate(operations):
-        lines += [f"  p{n}:", "    attachments:", f"      color: {{format: R8_UNORM, samples: 1, loadOp: {begin}, storeOp: {end}}}"]
+        lines += [
+            f"  p{n}:",
+            "    attachments:",
+            f"      color: {{format: R8_UNORM, samples: 1, loadOp: {begin}, storeOp: {end}}}",
+        ]
         lines.append("    subpasses: [{colorAttachments: [color]}]")
     lines.append("framebuffers:")
-    lines += [f"  f{n}x{i}: {{renderPass: p{n}, attachments: [i{i}]}}" for n in range(len(operations)) for i in range(IMAGES)]
+    lines += [
+        f"  f{n}x{i}: {{renderPass: p{n}, attachments: [i{i}]}}"
+        for n in range(len(operations))
+        for i in range(IMAGES)
+    ]
     lines.append("commands:")
     for step in steps:
         if step.kind == "pass":
             buffers = ", ".join(f"f{step.which}x{i}" for i in step.images)
-            lines += [f"  - beginRenderPass: {{renderPass: p{step.which}, framebuffer: [{buffers}]}}", "  - endRenderPass"]
+            lines += [
+                f"  - beginRenderPass: {{renderPass: p{step.which}, framebuffer: [{buffers}]}}",
+                "  - endRenderPass",
+            ]
         else:
             lines.append(f"  - {COMMANDS[step.kind].format(step.which)}")
     return "\n".join(lines) + "\n"
@@ -133,14 +156,23 @@ def described(operations: Operations, steps: list[Step], usage: str = "usage: [C
 
 def found(linted: FileResult, code: str) -> set[int]:
     """The passes that a rule blames."""
-    return {int(each.subject.split(".")[1].removeprefix("p")) for each in linted.findings if each.code == code}
+    return {
+        int(each.subject.split(".")[1].removeprefix("p"))
+        for each in linted.findings
+        if each.code == code
+    }
 
 
 @st.composite
 def frames(draw: st.DrawFn, alternating: bool) -> tuple[Operations, list[Step]]:
-    """Some passes with their operations, and in which order a frame begins them and gives commands."""
+    """Some passes with their operations, and in which order a frame begins them and gives
+    commands.
+    """
     operations = [
-        (draw(st.sampled_from(["LOAD", "LOAD", "CLEAR", "DONT_CARE"])), draw(st.sampled_from(["STORE", "STORE", "DONT_CARE"])))
+        (
+            draw(st.sampled_from(["LOAD", "LOAD", "CLEAR", "DONT_CARE"])),
+            draw(st.sampled_from(["STORE", "STORE", "DONT_CARE"])),
+        )
         for _ in range(draw(st.integers(1, 4)))
     ]
     steps = []
@@ -150,7 +182,9 @@ def frames(draw: st.DrawFn, alternating: bool) -> tuple[Operations, list[Step]]:
             images = tuple(draw(st.lists(st.integers(0, IMAGES - 1), min_size=1, max_size=most)))
             steps.append(Step("pass", draw(st.integers(0, len(operations) - 1)), images))
         else:
-            steps.append(Step(draw(st.sampled_from(sorted(COMMANDS))), draw(st.integers(0, IMAGES - 1))))
+            steps.append(
+                Step(draw(st.sampled_from(sorted(COMMANDS))), draw(st.integers(0, IMAGES - 1)))
+            )
     return operations, steps
 
 
@@ -169,21 +203,30 @@ def test_a_frame_that_is_played(case: tuple[Operations, list[Step]]) -> None:
 
 @examples(1)
 @given(st.booleans().flatmap(frames), st.integers(0, 30), st.integers(0, IMAGES - 1))
-def test_a_further_reader_excuses_stores_and_blames_none(case: tuple[Operations, list[Step]], at: int, image: int) -> None:
+def test_a_further_reader_excuses_stores_and_blames_none(
+    case: tuple[Operations, list[Step]], at: int, image: int
+) -> None:
     operations, steps = case
     before = found(lint(described(operations, steps)), "MSAA208")
     at %= len(steps) + 1
-    after = found(lint(described(operations, [*steps[:at], Step("read", image), *steps[at:]])), "MSAA208")
+    after = found(
+        lint(described(operations, [*steps[:at], Step("read", image), *steps[at:]])), "MSAA208"
+    )
     assert after <= before
 
 
 @examples(1)
 @given(frames(alternating=False), st.integers(0, 6))
-def test_where_the_loop_is_cut_does_not_matter(case: tuple[Operations, list[Step]], at: int) -> None:
+def test_where_the_loop_is_cut_does_not_matter(
+    case: tuple[Operations, list[Step]], at: int
+) -> None:
     """By what the usage tells, the frame may begin anywhere."""
     operations, steps = case
     at %= len(steps)
-    one, other = lint(described(operations, steps)), lint(described(operations, [*steps[at:], *steps[:at]]))
+    one, other = (
+        lint(described(operations, steps)),
+        lint(described(operations, [*steps[at:], *steps[:at]])),
+    )
     for code in ("MSAA208", "MSAA209", "MSAA211", "MSAA213"):
         assert found(one, code) == found(other, code)
 
@@ -193,7 +236,10 @@ def test_where_the_loop_is_cut_does_not_matter(case: tuple[Operations, list[Step
 def test_what_the_usage_does_not_tell_is_never_more(case: tuple[Operations, list[Step]]) -> None:
     """Unknown is not wrong: without a usage a part of it is found."""
     operations, steps = case
-    known, unknown = lint(described(operations, steps)), lint(described(operations, steps, usage="mipLevels: 1"))
+    known, unknown = (
+        lint(described(operations, steps)),
+        lint(described(operations, steps, usage="mipLevels: 1")),
+    )
     for code in ("MSAA208", "MSAA209"):
         assert found(unknown, code) <= found(known, code)
 
@@ -220,16 +266,32 @@ NEUTRAL = [
 @given(
     st.lists(st.sampled_from(NEUTRAL), max_size=4),
     st.sampled_from(["CLEAR", "DONT_CARE"]),
-    st.sampled_from(["x: {format: R8_UNORM, samples: 1}", "x: {format: R8_UNORM, samples: 1, usage: [COLOR_ATTACHMENT, SAMPLED]}"]),
+    st.sampled_from(
+        [
+            "x: {format: R8_UNORM, samples: 1}",
+            "x: {format: R8_UNORM, samples: 1, usage: [COLOR_ATTACHMENT, SAMPLED]}",
+        ]
+    ),
     st.sampled_from(READS),
     st.integers(0, 4),
 )
-def test_a_reader_anywhere_between_a_store_and_what_overwrites_it(between: list[str], begin: str, image: str, reader: str, at: int) -> None:
+def test_a_reader_anywhere_between_a_store_and_what_overwrites_it(
+    between: list[str], begin: str, image: str, reader: str, at: int
+) -> None:
     def blamed(commands: list[str]) -> bool:
-        text = f"images:\n  {image}\n  other: {{format: R8_UNORM, samples: 1}}\n  third: {{format: R8_UNORM, samples: 1}}\ncommands:\n"
-        text += "  - beginRendering: {colorAttachments: [{image: x, loadOp: CLEAR, storeOp: STORE}]}\n  - endRendering\n"
+        text = (
+            f"images:\n  {image}\n  other: {{format: R8_UNORM, samples: 1}}\n  third: {{format: "
+            f"R8_UNORM, samples: 1}}\ncommands:\n"
+        )
+        text += (
+            "  - beginRendering: {colorAttachments: [{image: x, loadOp: CLEAR, storeOp: "
+            "STORE}]}\n  - endRendering\n"
+        )
         text += "".join(f"  - {command}\n" for command in commands)
-        text += f"  - beginRendering: {{colorAttachments: [{{image: x, loadOp: {begin}, storeOp: STORE}}]}}\n  - endRendering\n"
+        text += (
+            f"  - beginRendering: {{colorAttachments: [{{image: x, loadOp: {begin}, storeOp: "
+            f"STORE}}]}}\n  - endRendering\n"
+        )
         text += "  - readImage: {image: x, stage: FRAGMENT}\n"
         return any(each.code == "MSAA208" for each in lint(text.replace("$", "$$")).findings)
 
@@ -244,9 +306,21 @@ def test_a_reader_anywhere_between_a_store_and_what_overwrites_it(between: list[
 @pytest.mark.parametrize(
     ("image", "begin", "whole"),
     [
-        ("extent: {width: 64, height: 64}", "renderArea: {x: 0, y: 0, width: 64, height: 64}", True),
-        ("extent: {width: 64, height: 64}", "renderArea: {x: 0, y: 0, width: 32, height: 64}", False),
-        ("extent: {width: 64, height: 64}", "renderArea: {x: 1, y: 0, width: 64, height: 64}", False),
+        (
+            "extent: {width: 64, height: 64}",
+            "renderArea: {x: 0, y: 0, width: 64, height: 64}",
+            True,
+        ),
+        (
+            "extent: {width: 64, height: 64}",
+            "renderArea: {x: 0, y: 0, width: 32, height: 64}",
+            False,
+        ),
+        (
+            "extent: {width: 64, height: 64}",
+            "renderArea: {x: 1, y: 0, width: 64, height: 64}",
+            False,
+        ),
         ("flags: []", "renderArea: {x: 0, y: 0, width: 64, height: 64}", False),
         ("arrayLayers: 2", "layerCount: 2", True),
         ("arrayLayers: 2", "layerCount: 1", False),
@@ -254,7 +328,9 @@ def test_a_reader_anywhere_between_a_store_and_what_overwrites_it(between: list[
         ("mipLevels: 2", "flags: []", False),
     ],
 )
-def test_what_is_overwritten_or_thrown_away_in_part_lives_on(image: str, begin: str, whole: bool) -> None:
+def test_what_is_overwritten_or_thrown_away_in_part_lives_on(
+    image: str, begin: str, whole: bool
+) -> None:
     linted = lint(
         """
     images:
@@ -300,7 +376,11 @@ def test_multisampled_stores_have_rules_of_their_own() -> None:
           stencilAttachment: {image: both, loadOp: CLEAR, storeOp: STORE}
       - endRendering
     """)
-    covering = {found.code for found in linted.findings if "covers stored-then-discarded (MSAA208) too" in found.notes}
+    covering = {
+        found.code
+        for found in linted.findings
+        if "covers stored-then-discarded (MSAA208) too" in found.notes
+    }
     assert covering == {"MSAA201", "MSAA203", "MSAA204"}
 
 
@@ -322,12 +402,21 @@ commands:
 
 
 def cleared(commands: list[str], load: str = "LOAD", image: str = "") -> list[tuple[str, str]]:
-    text = CLEARING % {"load": load, "image": image, "commands": "\n".join(f"  - {command}" for command in commands)}
-    return [(found.severity, found.message) for found in lint(text).findings if found.code == "MSAA211"]
+    text = CLEARING % {
+        "load": load,
+        "image": image,
+        "commands": "\n".join(f"  - {command}" for command in commands),
+    }
+    return [
+        (found.severity, found.message) for found in lint(text).findings if found.code == "MSAA211"
+    ]
 
 
 BEGIN = "beginRenderPass: {renderPass: scene, renderArea: {x: 0, y: 0, width: 64, height: 32}}"
-CLEAR = "clearAttachments: {attachments: [{aspect: COLOR, colorAttachment: 0}], rects: [{x: 0, y: 0, width: 64, height: 32}]}"
+CLEAR = (
+    "clearAttachments: {attachments: [{aspect: COLOR, colorAttachment: 0}], rects: [{x: 0, y: "
+    "0, width: 64, height: 32}]}"
+)
 
 
 @pytest.mark.parametrize(
@@ -389,7 +478,8 @@ commands:
 %(after)s
 """
 PLAIN = {
-    "read": "1", "vertices": "", "shading": "false", "more": "", "flags": "", "load": "DONT_CARE", "count": "3", "instances": "1",
+    "read": "1", "vertices": "", "shading": "false", "more": "", "flags": "", "load": "DONT_CARE",
+    "count": "3", "instances": "1",
     "after": "",
 }  # fmt: skip
 
@@ -408,12 +498,26 @@ PLAIN = {
         ({"more": ", sampleMask: [1]"}, False),
         ({"flags": "SUSPENDING"}, False),
         ({"vertices": "vertexBindingDescriptions: [{binding: 0, stride: 8}]"}, False),
-        ({"after": "  - beginRendering: {colorAttachments: [{image: color, loadOp: LOAD, storeOp: STORE}]}\n  - endRendering"}, False),
-        ({"after": "  - beginRendering: {colorAttachments: [{image: color, loadOp: CLEAR, storeOp: STORE}]}\n  - endRendering"}, True),
+        (
+            {
+                "after": "  - beginRendering: {colorAttachments: [{image: color, loadOp: LOAD, "
+                "storeOp: STORE}]}\n  - endRendering"
+            },
+            False,
+        ),
+        (
+            {
+                "after": "  - beginRendering: {colorAttachments: [{image: color, loadOp: CLEAR, "
+                "storeOp: STORE}]}\n  - endRendering"
+            },
+            True,
+        ),
     ],
 )
 def test_a_pass_over_the_whole_picture(changed: dict[str, str], expected: bool) -> None:
-    assert ("MSAA107" in {found.code for found in lint(SCREEN % {**PLAIN, **changed}).findings}) is expected
+    assert (
+        "MSAA107" in {found.code for found in lint(SCREEN % {**PLAIN, **changed}).findings}
+    ) is expected
 
 
 # Prices: plain arithmetic, 1000 * 500 texels of 4 bytes at 60 frames a second.
@@ -421,7 +525,11 @@ def test_a_pass_over_the_whole_picture(changed: dict[str, str], expected: bool) 
 
 def priced(text: str, code: str) -> tuple[float, float]:
     (found,) = [
-        found for found in lint("frame: {width: 1000, height: 500, fps: 60}\n" + textwrap.dedent(text)).findings if found.code == code
+        found
+        for found in lint(
+            "frame: {width: 1000, height: 500, fps: 60}\n" + textwrap.dedent(text)
+        ).findings
+        if found.code == code
     ]
     assert found.price is not None
     return found.price.read_mb_per_s, found.price.write_mb_per_s
@@ -431,27 +539,45 @@ PICTURE = 1000 * 500 * 4 * 60 / 1e6
 
 
 def test_prices() -> None:
-    stored = "images: {d: {format: D32_SFLOAT, samples: 1, usage: [DEPTH_STENCIL_ATTACHMENT]}}\ncommands:\n"
-    stored += "  - beginRendering: {depthAttachment: {image: d, loadOp: CLEAR, storeOp: STORE}}\n  - endRendering\n"
+    stored = (
+        "images: {d: {format: D32_SFLOAT, samples: 1, usage: [DEPTH_STENCIL_ATTACHMENT]}}\n"
+        "commands:\n"
+    )
+    stored += (
+        "  - beginRendering: {depthAttachment: {image: d, loadOp: CLEAR, storeOp: STORE}}\n  "
+        "- endRendering\n"
+    )
     assert priced(stored, "MSAA208") == pytest.approx((0, PICTURE))
     loaded = stored.replace("CLEAR", "LOAD").replace("STORE}", "DONT_CARE}")
     assert priced(loaded, "MSAA209") == pytest.approx((PICTURE, 0))
-    copied = "images: {a: {format: R8G8B8A8_UNORM, samples: 1}, b: {format: R8G8B8A8_UNORM, samples: 1}}\ncommands:\n"
-    copied += "  - blitImage: {srcImage: a, dstImage: b}\n"
-    copied += "  - beginRendering: {colorAttachments: [{image: b, loadOp: LOAD, storeOp: STORE}]}\n  - endRendering\n"
-    assert priced(copied, "MSAA213") == pytest.approx((PICTURE, PICTURE))
-    assert priced(copied.replace("blitImage: {srcImage: a, dstImage: b}", "clearColorImage: {image: b}"), "MSAA211") == pytest.approx(
-        (PICTURE, PICTURE)
+    copied = (
+        "images: {a: {format: R8G8B8A8_UNORM, samples: 1}, b: {format: R8G8B8A8_UNORM, "
+        "samples: 1}}\ncommands:\n"
     )
-    assert priced(TOUCHED % {"blend": "{colorWriteMask: [R]}", "depth": OFF.replace("stencilTestEnable: false", "stencilTestEnable: true"),
-                             "more": "", "load": "LOAD", "store": "STORE", "command": DRAW}, "MSAA212") == pytest.approx(
+    copied += "  - blitImage: {srcImage: a, dstImage: b}\n"
+    copied += (
+        "  - beginRendering: {colorAttachments: [{image: b, loadOp: LOAD, storeOp: STORE}]}\n"
+        "  - endRendering\n"
+    )
+    assert priced(copied, "MSAA213") == pytest.approx((PICTURE, PICTURE))
+    assert priced(
+        copied.replace("blitImage: {srcImage: a, dstImage: b}", "clearColorImage: {image: b}"),
+        "MSAA211",
+    ) == pytest.approx((PICTURE, PICTURE))
+    assert priced(TOUCHED % {"blend": "{colorWriteMask: [R]}",
+    "depth": OFF.replace("stencilTestEnable: false", "stencilTestEnable: true"),
+                             "more": "", "load": "LOAD", "store": "STORE", "command": DRAW},
+                             "MSAA212") == pytest.approx(
         (PICTURE * 3 / 4, PICTURE * 3 / 4)
     )  # fmt: skip
 
 
 def test_more_uses_than_are_followed_leave_all_unknown() -> None:
     attachments, begins = 750, 700
-    text = "images: {x: {format: D16_UNORM, samples: 1, usage: [DEPTH_STENCIL_ATTACHMENT]}}\nrenderPasses:\n  scene:\n    attachments:\n"
+    text = (
+        "images: {x: {format: D16_UNORM, samples: 1, usage: [DEPTH_STENCIL_ATTACHMENT]}}\n"
+        "renderPasses:\n  scene:\n    attachments:\n"
+    )
     text += "      - {image: x, loadOp: CLEAR, storeOp: STORE}\n" * attachments
     text += "    subpasses: [{depthStencilAttachment: 0}]\ncommands:\n"
     text += "  - beginRenderPass: {renderPass: scene}\n  - endRenderPass\n" * begins

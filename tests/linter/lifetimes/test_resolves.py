@@ -1,6 +1,8 @@
-"""What becomes of a resolve: who reads it, who waits for it, what is done twice; depth that is read unresolved; images that take turns.
+"""What becomes of a resolve: who reads it, who waits for it, what is done twice; depth that is read
+unresolved; images that take turns.
 
-A line of carets under a line of input marks what must be found there, and nothing else of `WATCHED` may be found.
+A line of carets under a line of input marks what must be found there, and nothing else of `WATCHED`
+may be found.
 """
 
 from __future__ import annotations
@@ -42,7 +44,9 @@ def undecided(linted: FileResult) -> set[tuple[str, str]]:
 
 
 def fixed(text: str, code: str) -> str:
-    """The text with the fixes of one rule made, the unsafe ones too; no finding of the rule is left."""
+    """The text with the fixes of one rule made, the unsafe ones too; no finding of the rule is
+    left.
+    """
     done = fix_text(lint(text), lambda other: lint(other), True, lambda found: found.code == code)
     assert [found.code for found in done.fixed_findings] == [code]
     assert code not in {found.code for found in done.result.findings}
@@ -64,13 +68,20 @@ READ_AFTER = """
     """
 
 
-def barrier(stages: str, into: str = "FRAGMENT_SHADER", access: str = "MEMORY_WRITE", images: str = "depth") -> str:
-    masks = f"srcStageMask: [{stages}], srcAccessMask: [{access}], dstStageMask: [{into}], dstAccessMask: [SHADER_READ]"
+def barrier(
+    stages: str, into: str = "FRAGMENT_SHADER", access: str = "MEMORY_WRITE", images: str = "depth"
+) -> str:
+    masks = (
+        f"srcStageMask: [{stages}], srcAccessMask: [{access}], dstStageMask: [{into}], "
+        f"dstAccessMask: [SHADER_READ]"
+    )
     return f"- pipelineBarrier: {{{masks}, images: [{images}]}}"
 
 
 def waits(*barriers: str, stage: str = "FRAGMENT") -> bool | None:
-    """Whether what orders a reader after a resolve waits for it, as the rule has it; None where it does not say."""
+    """Whether what orders a reader after a resolve waits for it, as the rule has it; None where it
+    does not say.
+    """
     linted = lint(given_text(READ_AFTER, barriers="\n      ".join(barriers), stage=stage))
     if "MSAA601" in {found.code for found in linted.findings}:
         return False
@@ -89,7 +100,11 @@ def waits(*barriers: str, stage: str = "FRAGMENT") -> bool | None:
         # It waits for everything, and accesses nothing.
         ("BOTTOM_OF_PIPE", False),
         ("LATE_FRAGMENT_TESTS", False),
-        ("VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT, VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT", False),
+        (
+            "VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT, "
+            "VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT",
+            False,
+        ),
         ("FRAGMENT_SHADER", False),
         ("TOP_OF_PIPE", False),
         ("TRANSFER", False),
@@ -133,8 +148,13 @@ PASSES = """
     """
 
 
-def dependency(src: str, dst: str, stages: str, into: str = "FRAGMENT_SHADER", access: str = "MEMORY_WRITE") -> str:
-    masks = f"srcStageMask: [{stages}], dstStageMask: [{into}], srcAccessMask: [{access}], dstAccessMask: [SHADER_READ]"
+def dependency(
+    src: str, dst: str, stages: str, into: str = "FRAGMENT_SHADER", access: str = "MEMORY_WRITE"
+) -> str:
+    masks = (
+        f"srcStageMask: [{stages}], dstStageMask: [{into}], srcAccessMask: [{access}], "
+        f"dstAccessMask: [SHADER_READ]"
+    )
     return f"{{srcSubpass: {src}, dstSubpass: {dst}, {masks}}}"
 
 
@@ -145,17 +165,47 @@ def dependency(src: str, dst: str, stages: str, into: str = "FRAGMENT_SHADER", a
         ("", "", None),
         (dependency("0", "EXTERNAL", "LATE_FRAGMENT_TESTS"), "", False),
         (dependency("0", "EXTERNAL", "COLOR_ATTACHMENT_OUTPUT"), "", True),
-        (dependency("0", "EXTERNAL", "COLOR_ATTACHMENT_OUTPUT", access="DEPTH_STENCIL_ATTACHMENT_WRITE"), "", False),
+        (
+            dependency(
+                "0", "EXTERNAL", "COLOR_ATTACHMENT_OUTPUT", access="DEPTH_STENCIL_ATTACHMENT_WRITE"
+            ),
+            "",
+            False,
+        ),
         ("", dependency("EXTERNAL", "0", "LATE_FRAGMENT_TESTS"), False),
-        ("", dependency("EXTERNAL", "0", "COLOR_ATTACHMENT_OUTPUT", access="COLOR_ATTACHMENT_WRITE"), True),
-        (dependency("0", "EXTERNAL", "LATE_FRAGMENT_TESTS"), dependency("EXTERNAL", "0", "ALL_GRAPHICS"), True),
+        (
+            "",
+            dependency("EXTERNAL", "0", "COLOR_ATTACHMENT_OUTPUT", access="COLOR_ATTACHMENT_WRITE"),
+            True,
+        ),
+        (
+            dependency("0", "EXTERNAL", "LATE_FRAGMENT_TESTS"),
+            dependency("EXTERNAL", "0", "ALL_GRAPHICS"),
+            True,
+        ),
         # For what the reading pass draws to: it holds back no shader.
         (
             dependency("0", "EXTERNAL", "LATE_FRAGMENT_TESTS"),
-            dependency("EXTERNAL", "0", "COLOR_ATTACHMENT_OUTPUT", "COLOR_ATTACHMENT_OUTPUT", "COLOR_ATTACHMENT_WRITE"),
+            dependency(
+                "EXTERNAL",
+                "0",
+                "COLOR_ATTACHMENT_OUTPUT",
+                "COLOR_ATTACHMENT_OUTPUT",
+                "COLOR_ATTACHMENT_WRITE",
+            ),
             False,
         ),
-        ("", dependency("EXTERNAL", "0", "COLOR_ATTACHMENT_OUTPUT", "COLOR_ATTACHMENT_OUTPUT", "COLOR_ATTACHMENT_WRITE"), None),
+        (
+            "",
+            dependency(
+                "EXTERNAL",
+                "0",
+                "COLOR_ATTACHMENT_OUTPUT",
+                "COLOR_ATTACHMENT_OUTPUT",
+                "COLOR_ATTACHMENT_WRITE",
+            ),
+            None,
+        ),
         # For what the first pass waits for itself.
         (dependency("EXTERNAL", "0", "LATE_FRAGMENT_TESTS"), "", None),
     ],
@@ -170,12 +220,16 @@ def test_dependencies_of_both_passes(out: str, into: str, answer: bool | None, n
     )
     linted = lint(given_text(PASSES, out=out, into=into, buffers=buffers, named=named))
     codes = {found.code for found in linted.findings}
-    unknown = ("MSAA601", "renderPasses.first.subpasses[0].depthStencilResolve") in undecided(linted)
+    unknown = ("MSAA601", "renderPasses.first.subpasses[0].depthStencilResolve") in undecided(
+        linted
+    )
     assert ("MSAA601" in codes, unknown) == (answer is False, answer is None)
 
 
 def test_within_a_pass_nothing_else_can_order_them() -> None:
-    """Without commands too. The dependency between the two subpasses counts, not one into another subpass."""
+    """Without commands too. The dependency between the two subpasses counts, not one into another
+    subpass.
+    """
     linted = check("""
     renderPasses:
       main:
@@ -201,24 +255,42 @@ def test_within_a_pass_nothing_else_can_order_them() -> None:
     """)
     found = one(linted, "MSAA601")
     assert found.message == (
-        "`depth` is read after waiting for LATE_FRAGMENT_TESTS, but its resolve runs in COLOR_ATTACHMENT_OUTPUT; "
+        "`depth` is read after waiting for LATE_FRAGMENT_TESTS, but its resolve runs in "
+        "COLOR_ATTACHMENT_OUTPUT; "
         "add COLOR_ATTACHMENT_OUTPUT to srcStageMask"
     )
     assert [label.text for label in found.labels] == ["resolved here"]
 
 
 def test_a_wait_is_mended_and_nothing_else() -> None:
-    text = given_text(READ_AFTER, barriers=barrier("LATE_FRAGMENT_TESTS", access="DEPTH_STENCIL_ATTACHMENT_WRITE"), stage="FRAGMENT")
+    text = given_text(
+        READ_AFTER,
+        barriers=barrier("LATE_FRAGMENT_TESTS", access="DEPTH_STENCIL_ATTACHMENT_WRITE"),
+        stage="FRAGMENT",
+    )
     after = fixed(text, "MSAA601")
-    assert after == text.replace("[LATE_FRAGMENT_TESTS]", "[LATE_FRAGMENT_TESTS, COLOR_ATTACHMENT_OUTPUT]").replace(
-        "[DEPTH_STENCIL_ATTACHMENT_WRITE]", "[DEPTH_STENCIL_ATTACHMENT_WRITE, COLOR_ATTACHMENT_WRITE]"
+    assert after == text.replace(
+        "[LATE_FRAGMENT_TESTS]", "[LATE_FRAGMENT_TESTS, COLOR_ATTACHMENT_OUTPUT]"
+    ).replace(
+        "[DEPTH_STENCIL_ATTACHMENT_WRITE]",
+        "[DEPTH_STENCIL_ATTACHMENT_WRITE, COLOR_ATTACHMENT_WRITE]",
     )
 
 
-STAGES = ["COLOR_ATTACHMENT_OUTPUT", "LATE_FRAGMENT_TESTS", "FRAGMENT_SHADER", "TRANSFER", "COMPUTE_SHADER", "ALL_COMMANDS", "TOP_OF_PIPE"]
+STAGES = [
+    "COLOR_ATTACHMENT_OUTPUT",
+    "LATE_FRAGMENT_TESTS",
+    "FRAGMENT_SHADER",
+    "TRANSFER",
+    "COMPUTE_SHADER",
+    "ALL_COMMANDS",
+    "TOP_OF_PIPE",
+]
 BARRIERS = st.lists(
     st.builds(
-        lambda source, target, images: barrier(", ".join(source), ", ".join(target), "MEMORY_WRITE", images),
+        lambda source, target, images: barrier(
+            ", ".join(source), ", ".join(target), "MEMORY_WRITE", images
+        ),
         st.lists(st.sampled_from(STAGES), min_size=1, max_size=2),
         st.lists(st.sampled_from(STAGES), min_size=1, max_size=2),
         st.sampled_from(["depth", "", "other"]),
@@ -237,7 +309,10 @@ def test_one_more_wait_for_all_commands_is_enough(before: list[str], after: list
 @examples(0.8)
 @given(BARRIERS)
 def test_waits_without_the_stage_are_never_enough(barriers: list[str]) -> None:
-    without = [re.sub("COLOR_ATTACHMENT_OUTPUT|ALL_COMMANDS", "EARLY_FRAGMENT_TESTS", each) for each in barriers]
+    without = [
+        re.sub("COLOR_ATTACHMENT_OUTPUT|ALL_COMMANDS", "EARLY_FRAGMENT_TESTS", each)
+        for each in barriers
+    ]
     meant = any("images: [depth]" in each for each in without)
     answer = waits(*without)
     assert answer is False if meant else answer in (None, False)
@@ -276,9 +351,9 @@ BOTH = """
 
 def test_one_of_two_aspects_is_left_out() -> None:
     text = given_text(BOTH, alone="true", load="LOAD", depth="", stencil="")
-    assert fixed(text, "MSAA308") == text.replace("stencilResolveMode: SAMPLE_ZERO", "stencilResolveMode: NONE").replace(
-        "stencilStoreOp: STORE", "stencilStoreOp: DONT_CARE"
-    )
+    assert fixed(text, "MSAA308") == text.replace(
+        "stencilResolveMode: SAMPLE_ZERO", "stencilResolveMode: NONE"
+    ).replace("stencilStoreOp: STORE", "stencilStoreOp: DONT_CARE")
 
 
 def test_an_unread_depth_resolve_costs_its_write() -> None:
@@ -302,11 +377,20 @@ def test_an_unread_depth_resolve_costs_its_write() -> None:
 
 
 def test_what_takes_too_long_to_find_out_stays_undecided() -> None:
-    """Resolves to one layer each of an image: who reads which is looked for through the whole frame, each time."""
-    rendering = "{image: ms, loadOp: CLEAR, storeOp: DONT_CARE, resolveMode: MIN, resolveImage: depth}"
+    """Resolves to one layer each of an image: who reads which is looked for through the whole
+    frame, each time.
+    """
+    rendering = (
+        "{image: ms, loadOp: CLEAR, storeOp: DONT_CARE, resolveMode: MIN, resolveImage: depth}"
+    )
     passes = f"  - beginRendering: {{depthAttachment: {rendering}}}\n  - endRendering\n" * 700
-    images = "images:\n  ms: {format: D32_SFLOAT, samples: 4}\n  depth: {format: D32_SFLOAT, samples: 1, arrayLayers: 700}\n"
-    linted = ENGINE.lint(f"{images}commands:\n{passes}".encode(), "frame.yaml", LintOptions(as_written))
+    images = (
+        "images:\n  ms: {format: D32_SFLOAT, samples: 4}\n  depth: {format: D32_SFLOAT, "
+        "samples: 1, arrayLayers: 700}\n"
+    )
+    linted = ENGINE.lint(
+        f"{images}commands:\n{passes}".encode(), "frame.yaml", LintOptions(as_written)
+    )
     decided = sum(found.code == "MSAA308" for found in linted.findings)
     left = sum(each.code == "MSAA308" for each in linted.undecided)
     assert decided + left == 700
@@ -324,7 +408,9 @@ STEPS = ["clear and resolve", "load and resolve", "load", "read", "clear target"
 
 
 def played(steps: list[str]) -> tuple[set[int], set[int]]:
-    """The steps whose result nothing reads, in a loop; those that a later one repeats with more drawn, unread in between, to be read."""
+    """The steps whose result nothing reads, in a loop; those that a later one repeats with more
+    drawn, unread in between, to be read.
+    """
     written: dict[int, bool] = {}
     target: tuple[int, int] | None = None
     read: set[tuple[int, int]] = set()
@@ -351,7 +437,9 @@ def played(steps: list[str]) -> tuple[set[int], set[int]]:
 
 @examples(1.5)
 @given(st.lists(st.sampled_from(STEPS), min_size=1, max_size=7))
-def test_what_nothing_reads_is_what_nothing_read_when_the_frame_was_played(steps: list[str]) -> None:
+def test_what_nothing_reads_is_what_nothing_read_when_the_frame_was_played(
+    steps: list[str],
+) -> None:
     lines, places = [], {}
     for number, step in enumerate(steps):
         if step == "read":
@@ -362,11 +450,20 @@ def test_what_nothing_reads_is_what_nothing_read_when_the_frame_was_played(steps
             load_op = "CLEAR" if "clear" in step else "LOAD"
             resolve = ", resolveMode: MIN, resolveImage: depth" if "resolve" in step else ""
             places[f"commands[{len(lines)}]"] = number
-            lines.append(f"- beginRendering: {{depthAttachment: {{image: ms, loadOp: {load_op}, storeOp: STORE{resolve}}}}}")
+            lines.append(
+                f"- beginRendering: {{depthAttachment: {{image: ms, loadOp: {load_op}, storeOp: "
+                f"STORE{resolve}}}}}"
+            )
             lines.append("- endRendering")
-    images = "images:\n  ms: {format: D32_SFLOAT, samples: 4}\n  depth: {format: D32_SFLOAT, samples: 1}\n"
+    images = (
+        "images:\n  ms: {format: D32_SFLOAT, samples: 4}\n  depth: {format: D32_SFLOAT, "
+        "samples: 1}\n"
+    )
     linted = lint(images + "commands:\n" + "".join(f"  {line}\n" for line in lines))
-    found = {(each.code, places[re.match(r"commands\[\d+\]", each.subject)[0]]) for each in watched(linted)}  # type: ignore[index]
+    found = {
+        (each.code, places[re.match(r"commands\[\d+\]", each.subject)[0]])
+        for each in watched(linted)
+    }  # type: ignore[index]
     unread, anew = played(steps)
     # Of two rules that blame the same resolve, the more specific one is told.
     assert {number for code, number in found if code == "MSAA317"} == anew
@@ -388,7 +485,11 @@ def test_with_nothing_drawn_between() -> None:
       - readImage: {image: two, stage: FRAGMENT}
     """)
     found = one(linted, "MSAA317")
-    assert found.message == "`ms` is resolved again, to `two`, although nothing was drawn to it since the first resolve; resolve once"
+    assert (
+        found.message
+        == "`ms` is resolved again, to `two`, although nothing was drawn to it since the first "
+        "resolve; resolve once"
+    )
     assert found.fix is not None and found.fix.shown
     (label,) = found.labels
     assert linted.source is not None and linted.source.position(label.span.start).line == 6
@@ -425,8 +526,11 @@ def test_a_slot_of_a_subpass_is_emptied() -> None:
       - readImage: {image: two, stage: FRAGMENT}
       - readImage: {image: b, stage: FRAGMENT, samples: ALL}
     """)
-    assert fixed(text, "MSAA317") == text.replace("resolveAttachments: [2, 3]", "resolveAttachments: [null, 3]").replace(
-        "{image: one, loadOp: DONT_CARE, storeOp: STORE}", "{image: one, loadOp: DONT_CARE, storeOp: DONT_CARE}"
+    assert fixed(text, "MSAA317") == text.replace(
+        "resolveAttachments: [2, 3]", "resolveAttachments: [null, 3]"
+    ).replace(
+        "{image: one, loadOp: DONT_CARE, storeOp: STORE}",
+        "{image: one, loadOp: DONT_CARE, storeOp: DONT_CARE}",
     )
 
 
@@ -452,21 +556,35 @@ COLOR_MARK = "#" + " " * 122 + "^^^^^ MSAA315"
 
 def copied(mark: str = "", **values: str) -> FileResult:
     size = ", extent: {width: 64, height: 64}"
-    given = {"from": "R8G8B8A8_UNORM", "to": "R8G8B8A8_UNORM", "from_size": size, "to_size": size, "command": "copyImage"}
+    given = {
+        "from": "R8G8B8A8_UNORM",
+        "to": "R8G8B8A8_UNORM",
+        "from_size": size,
+        "to_size": size,
+        "command": "copyImage",
+    }
     empty = dict.fromkeys(("before", "after", "then"), "")
-    return check(COPIED, **{**given, **empty, **values, "mark": f"{COLOR_MARK}{mark}" if mark else ""})
+    return check(
+        COPIED, **{**given, **empty, **values, "mark": f"{COLOR_MARK}{mark}" if mark else ""}
+    )
 
 
 @pytest.mark.parametrize("command", ["copyImage", "blitImage"])
 def test_same_format_and_size(command: str) -> None:
     linted = copied(" warning high", command=command)
-    assert one(linted, "MSAA315").message == "`ms` is resolved to `color` only to be copied to `back`; resolve to `back` directly"
+    assert (
+        one(linted, "MSAA315").message
+        == "`ms` is resolved to `color` only to be copied to `back`; resolve to `back` directly"
+    )
 
 
 @pytest.mark.parametrize(
     "change",
     [
-        {"before": "- beginRendering: {colorAttachments: [{image: color, loadOp: LOAD, storeOp: STORE}]}\n      - endRendering"},
+        {
+            "before": "- beginRendering: {colorAttachments: [{image: color, loadOp: LOAD, storeOp: "
+            "STORE}]}\n      - endRendering"
+        },
         {"before": "- writeImage: {image: color, stage: COMPUTE}"},
         {"before": "- readImage: {image: color, stage: FRAGMENT}"},
         {"after": "- readImage: {image: color, stage: FRAGMENT}"},
@@ -525,8 +643,12 @@ TURNS = """
 
 
 def test_spare_images_cost_their_memory() -> None:
-    commands = "commands: [{beginRenderPass: {renderPass: scene, framebuffer: [one, two]}}, endRenderPass]"
-    text = "frame: {width: 1920, height: 1080, fps: 60}\n" + given_text(TURNS, commands=commands, load="CLEAR", count="4")
+    commands = (
+        "commands: [{beginRenderPass: {renderPass: scene, framebuffer: [one, two]}}, endRenderPass]"
+    )
+    text = "frame: {width: 1920, height: 1080, fps: 60}\n" + given_text(
+        TURNS, commands=commands, load="CLEAR", count="4"
+    )
     found = one(lint(text, prices=True), "MSAA406")
     assert found.price == pytest.approx((0.0, 0.0, 1920 * 1080 * 4 * 4 / 2**20, 0.0))
     after = fixed(text, "MSAA406")
@@ -536,11 +658,23 @@ def test_spare_images_cost_their_memory() -> None:
 
 @examples(0.4)
 @given(st.integers(2, 5), st.integers(1, 6))
-def test_as_many_as_presentable_images_and_no_other_number(presentable: int, multisampled: int) -> None:
+def test_as_many_as_presentable_images_and_no_other_number(
+    presentable: int, multisampled: int
+) -> None:
     images = [f"  ms_{n}: {{format: R8G8B8A8_UNORM, samples: 4}}" for n in range(multisampled)]
-    images += [f"  back_{n}: {{format: R8G8B8A8_UNORM, samples: 1, presentable: true}}" for n in range(presentable)]
-    rendered = "{image: ms_0, loadOp: CLEAR, storeOp: DONT_CARE, resolveMode: AVERAGE, resolveImage: back_0}"
-    commands = [f"  - beginRendering: {{colorAttachments: [{rendered}]}}", "  - endRendering", "  - present: {image: back_0}"]
+    images += [
+        f"  back_{n}: {{format: R8G8B8A8_UNORM, samples: 1, presentable: true}}"
+        for n in range(presentable)
+    ]
+    rendered = (
+        "{image: ms_0, loadOp: CLEAR, storeOp: DONT_CARE, resolveMode: AVERAGE, "
+        "resolveImage: back_0}"
+    )
+    commands = [
+        f"  - beginRendering: {{colorAttachments: [{rendered}]}}",
+        "  - endRendering",
+        "  - present: {image: back_0}",
+    ]
     linted = lint("\n".join(["images:", *images, "commands:", *commands, ""]))
     assert ("MSAA406" in {each.code for each in linted.findings}) == (presentable == multisampled)
 
@@ -558,12 +692,24 @@ UNRESOLVED = """
       - endRendering
       $readers
     """
-STORE_MARK = "#                                                                               ^^^^^ MSAA307"
+STORE_MARK = (
+    "#                                                                               ^^^^^ MSAA307"
+)
 
 
-def unresolved(mark: str, *readers: str, version: str = "1.2", format: str = "D32_SFLOAT") -> FileResult:
-    values = {"mark": f"{STORE_MARK}{mark}" if mark else "", "readers": "\n      ".join(readers), "version": version, "format": format}
+def unresolved(
+    mark: str, *readers: str, version: str = "1.2", format: str = "D32_SFLOAT"
+) -> FileResult:
+    values = {
+        "mark": f"{STORE_MARK}{mark}" if mark else "",
+        "readers": "\n      ".join(readers),
+        "version": version,
+        "format": format,
+    }
     return check(UNRESOLVED, **values)
 
 
-READ_ONE, READ_ALL = "- readImage: {image: depth_ms, samples: 1}", "- readImage: {image: depth_ms, samples: ALL}"
+READ_ONE, READ_ALL = (
+    "- readImage: {image: depth_ms, samples: 1}",
+    "- readImage: {image: depth_ms, samples: ALL}",
+)

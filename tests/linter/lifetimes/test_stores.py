@@ -1,6 +1,7 @@
 """How long contents live: who reads what a pass stored, what ends it, and which one rule says so.
 
-A line of carets under a line of input marks what must be found there, and nothing else of `WATCHED` may be found.
+A line of carets under a line of input marks what must be found there, and nothing else of `WATCHED`
+may be found.
 """
 
 from __future__ import annotations
@@ -56,13 +57,18 @@ def test_only_commands_read_where_there_are_commands() -> None:
       - readImage: {image: other, stage: FRAGMENT}
       - copyImage: {srcImage: other, dstImage: ms}
     """)
-    assert message(linted, "MSAA201") == "`color` stores 4x samples that nothing reads; set storeOp to DONT_CARE"
+    assert (
+        message(linted, "MSAA201")
+        == "`color` stores 4x samples that nothing reads; set storeOp to DONT_CARE"
+    )
 
 
 # The pass itself, in the next frame.
 
 
-@pytest.mark.parametrize("commands", ["", "commands: [{beginRenderPass: {renderPass: grow}}, endRenderPass]"])
+@pytest.mark.parametrize(
+    "commands", ["", "commands: [{beginRenderPass: {renderPass: grow}}, endRenderPass]"]
+)
 @pytest.mark.parametrize("image", ["image: ms", "format: R8G8B8A8_UNORM, samples: 4"])
 def test_a_pass_that_loads_what_it_stored_is_its_own_reader(commands: str, image: str) -> None:
     """201 is silent, 202 says what it costs; so it is for an attachment that names no image."""
@@ -84,7 +90,8 @@ def test_a_pass_that_loads_what_it_stored_is_its_own_reader(commands: str, image
     )
     assert (
         message(linted, "MSAA202")
-        == "`color` loads the 4x samples that it stored in the previous frame; clear them, or continue from the resolved image"
+        == "`color` loads the 4x samples that it stored in the previous frame; clear them, or "
+        "continue from the resolved image"
     )
 
 
@@ -101,7 +108,10 @@ def test_another_pass_between_ends_the_loop() -> None:
     #                                                                          ^^^^^ MSAA201
       - endRendering
     """)
-    assert message(linted, "MSAA202") == "`ms` loads 4x samples from memory; clear them, or draw in the pass that stored them"
+    assert (
+        message(linted, "MSAA202")
+        == "`ms` loads 4x samples from memory; clear them, or draw in the pass that stored them"
+    )
     (found,) = [finding for finding in linted.findings if finding.code == "MSAA202"]
     (label,) = [label for label in found.labels if label.text == "stored here"]
     assert linted.source is not None
@@ -121,7 +131,9 @@ def test_a_load_shows_no_store_that_something_overwrote() -> None:
     #                                                                          ^^^^^^^^^ MSAA207
       - endRendering
     """)
-    assert [label.text for found in linted.findings if found.code == "MSAA202" for label in found.labels] == ["4 samples"]
+    assert [
+        label.text for found in linted.findings if found.code == "MSAA202" for label in found.labels
+    ] == ["4 samples"]
 
 
 def test_stencil_that_is_loaded_and_stored_for_nobody_is_one_finding_at_the_load() -> None:
@@ -137,7 +149,8 @@ def test_stencil_that_is_loaded_and_stored_for_nobody_is_one_finding_at_the_load
     """)
     assert (
         message(linted, "MSAA204")
-        == "the stencil of `both_ms` loads 4x samples, and stores them although nothing reads them; draw in the pass that stored them, "
+        == "the stencil of `both_ms` loads 4x samples, and stores them although nothing reads "
+        "them; draw in the pass that stored them, "
         "and set stencilStoreOp to DONT_CARE"
     )
 
@@ -145,7 +158,9 @@ def test_stencil_that_is_loaded_and_stored_for_nobody_is_one_finding_at_the_load
 @pytest.mark.parametrize("image", ["image: ms", "format: R8G8B8A8_UNORM, samples: 4"])
 @pytest.mark.parametrize("resolved", [True, False])
 def test_unknown_readers(image: str, resolved: bool) -> None:
-    """Neither usage nor commands: colour fires with medium confidence where the pass resolves it, and is undecided where not."""
+    """Neither usage nor commands: colour fires with medium confidence where the pass resolves it,
+    and is undecided where not.
+    """
     linted = check(
         """
     images:
@@ -160,13 +175,17 @@ def test_unknown_readers(image: str, resolved: bool) -> None:
           - {colorAttachments: [color], resolveAttachments: [$target]}
     """,
         image=image,
-        mark="#                                     ^^^^^ MSAA201 warning medium" if resolved else "",
+        mark="#                                     ^^^^^ MSAA201 warning medium"
+        if resolved
+        else "",
         target="output" if resolved else "null",
     )
     subject = ("MSAA201", "renderPasses.scene.attachments.color")
     assert (subject in undecided(linted)) is not resolved
     if resolved:
-        assert message(linted, "MSAA201").endswith("unless something else reads them, set storeOp to DONT_CARE")
+        assert message(linted, "MSAA201").endswith(
+            "unless something else reads them, set storeOp to DONT_CARE"
+        )
 
 
 # Framebuffers that alternate.
@@ -191,7 +210,11 @@ def test_a_resolve_in_the_pass_is_not_a_reader() -> None:
     """)
     assert linted.source is not None
     text = linted.source.text
-    labels = {(found.code, text[label.span.start : label.span.end]) for found in linted.findings for label in found.labels}
+    labels = {
+        (found.code, text[label.span.start : label.span.end])
+        for found in linted.findings
+        for label in found.labels
+    }
     assert {("MSAA201", "single"), ("MSAA203", "depth")} <= labels
 
 
@@ -209,7 +232,8 @@ def test_a_resolve_mode_of_none_is_no_resolve() -> None:
     """)
     assert (
         message(linted, "MSAA205")
-        == "the depth of `out` is loaded, but a resolve overwrites all of it; set the load operation to DONT_CARE"
+        == "the depth of `out` is loaded, but a resolve overwrites all of it; set the load "
+        "operation to DONT_CARE"
     )
 
 
@@ -246,13 +270,20 @@ def test_a_load_from_undefined_stands_in_for_the_readback() -> None:
 
 @pytest.mark.parametrize(("begins", "followed"), [(1, True), (700, False)])
 def test_more_uses_than_are_followed_leave_readers_unknown(begins: int, followed: bool) -> None:
-    """Attachments times begins grow faster than the input does: beyond a limit nothing is claimed, and a finding says so."""
+    """Attachments times begins grow faster than the input does: beyond a limit nothing is claimed,
+    and a finding says so.
+    """
     attachments = 100
-    text = "images: {ms: {format: R8G8B8A8_UNORM, samples: 4}}\nrenderPasses:\n  scene:\n    attachments:\n"
+    text = (
+        "images: {ms: {format: R8G8B8A8_UNORM, samples: 4}}\nrenderPasses:\n  scene:\n    "
+        "attachments:\n"
+    )
     text += "      - {image: ms, loadOp: CLEAR, storeOp: STORE}\n" * attachments
     text += f"    subpasses: [{{colorAttachments: {list(range(attachments))}}}]\ncommands:\n"
     text += "  - beginRenderPass: {renderPass: scene}\n  - endRenderPass\n" * begins
-    linted = given_frames.ENGINE.lint(text.encode(), "frame.yaml", LintOptions(given_frames.as_written))
+    linted = given_frames.ENGINE.lint(
+        text.encode(), "frame.yaml", LintOptions(given_frames.as_written)
+    )
     codes = Counter(found.code for found in linted.findings)
     assert codes == ({"MSAA201": attachments} if followed else {"MSAA906": 1})
     assert (("MSAA201", "renderPasses.scene.attachments[0]") in undecided(linted)) is not followed

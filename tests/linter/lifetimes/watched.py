@@ -1,4 +1,6 @@
-"""Texts that are linted as frames, with marks: a line of carets under a line of input marks what must be found there."""
+"""Texts that are linted as frames, with marks: a line of carets under a line of input marks what
+must be found there.
+"""
 
 from __future__ import annotations
 
@@ -18,7 +20,8 @@ CATALOGUE = load()
 ENGINE = Engine(CATALOGUE)
 
 _MARK = re.compile(
-    r"^#\s*(?P<carets>\^+)\s*(?P<code>MSAA\d{3})(?: (?P<severity>error|warning|note))?(?: (?P<confidence>high|medium|low))?$"
+    r"^#\s*(?P<carets>\^+)\s*(?P<code>MSAA\d{3})(?: (?P<severity>error|warning|note))?(?: "
+    r"(?P<confidence>high|medium|low))?$"
 )
 
 
@@ -44,13 +47,18 @@ def watched(linted: FileResult, codes: Set[str]) -> list[Finding]:
 
 
 def check(text: str, codes: Set[str], prices: bool = False) -> FileResult:
-    """The rules fire at the text's marks and nowhere else, weighing what the marks say. Gives what was found."""
+    """The rules fire at the text's marks and nowhere else, weighing what the marks say. Gives what
+    was found.
+    """
     linted = lint(text, prices)
     assert linted.source is not None
     found = {}
     for finding in watched(linted, codes):
         assert finding.span is not None
-        start, end = linted.source.position(finding.span.start), linted.source.position(finding.span.end)
+        start, end = (
+            linted.source.position(finding.span.start),
+            linted.source.position(finding.span.end),
+        )
         found[finding.code, start.line, start.column, end.line, end.column] = finding
     above = 0
     expected = {}
@@ -59,7 +67,9 @@ def check(text: str, codes: Set[str], prices: bool = False) -> FileResult:
         if mark is None:
             above = number
         else:
-            expected[mark["code"], above, mark.start("carets") + 1, above, mark.end("carets") + 1] = mark
+            expected[
+                mark["code"], above, mark.start("carets") + 1, above, mark.end("carets") + 1
+            ] = mark
     assert sorted(found) == sorted(expected)
     for key, mark in expected.items():
         assert mark["severity"] in (None, found[key].severity)

@@ -41,7 +41,9 @@ def own(catalogue: Registry) -> list[str]:
 
 
 def lint(catalogue: Registry, text: str) -> FileResult:
-    return Engine(catalogue).lint(text.encode(), "frame.yaml", LintOptions(lambda rule, suggested, vendor: suggested))
+    return Engine(catalogue).lint(
+        text.encode(), "frame.yaml", LintOptions(lambda rule, suggested, vendor: suggested)
+    )
 
 
 def said(linted: FileResult) -> list[tuple[str, str, str, str]]:
@@ -49,7 +51,14 @@ def said(linted: FileResult) -> list[tuple[str, str, str, str]]:
     for found in linted.findings:
         if not found.code.startswith("MSAA"):
             assert linted.source is not None and found.span is not None
-            out.append((found.code, found.severity, found.message, linted.source.text[found.span.start : found.span.end]))
+            out.append(
+                (
+                    found.code,
+                    found.severity,
+                    found.message,
+                    linted.source.text[found.span.start : found.span.end],
+                )
+            )
     return out
 
 
@@ -58,12 +67,21 @@ def test_a_page_is_a_rule(tmp_path: Path) -> None:
     assert catalogue.problems == ()
     assert own(catalogue) == ["too-many-samples"]
     (rule,) = (rule for rule in catalogue.rules if rule.code == "ACME001")
-    assert (rule.confidence, rule.edition, rule.vendors, rule.cases, rule.fix, rule.at) == ("high", "", (), (), None, ())
+    assert (rule.confidence, rule.edition, rule.vendors, rule.cases, rule.fix, rule.at) == (
+        "high",
+        "",
+        (),
+        (),
+        None,
+        (),
+    )
     assert rule.summary == "We have at most two."
     assert markdown(rule) == "We have at most two. The rest of the page.\n"
     linted = lint(catalogue, "images: {a: {samples: 4}, b: {samples: 2}, c: {}}")
     assert said(linted) == [("ACME001", "warning", "`a` has 4 samples", "4")]
-    assert [(u.subject, u.missing) for u in linted.undecided if u.code == "ACME001"] == [("images.c", ("image.samples",))]
+    assert [(u.subject, u.missing) for u in linted.undecided if u.code == "ACME001"] == [
+        ("images.c", ("image.samples",))
+    ]
 
 
 def test_everything_that_a_page_may_have(tmp_path: Path) -> None:
@@ -88,7 +106,9 @@ message:""",
     catalogue = loaded(tmp_path, text)
     assert catalogue.problems == ()
     linted = lint(
-        catalogue, "images: {a: {format: R8_UNORM, samples: 4}, b: {format: R8_UNORM, samples: 8}, c: {format: R8_UNORM, samples: 16}}"
+        catalogue,
+        "images: {a: {format: R8_UNORM, samples: 4}, b: {format: R8_UNORM, samples: 8}, c: "
+        "{format: R8_UNORM, samples: 16}}",
     )
     found = [f for f in linted.findings if f.code == "ACME001"]
     assert [(f.severity, f.confidence, f.message) for f in found] == [
@@ -96,7 +116,10 @@ message:""",
         ("note", "medium", "`b` has 8 samples"),
         ("error", "high", "far too many"),
     ]
-    assert all(f.help == "have 2" and f.fix is not None and not f.fix.safe and f.fix.title == "two samples" for f in found)
+    assert all(
+        f.help == "have 2" and f.fix is not None and not f.fix.safe and f.fix.title == "two samples"
+        for f in found
+    )
     assert [label.text for label in found[0].labels] == ["its format is R8_UNORM"]
     # The rule that it stands for is told with it, and not by itself.
     assert found[1].notes == ("covers sample-count-above-four (MSAA101) too",)
@@ -109,20 +132,38 @@ METAL = "metal: {textures: {a: {sampleCount: 4}}}"
 
 @pytest.mark.parametrize(
     ("apis", "vulkan", "metal"),
-    [("", True, False), ("[vulkan]", True, False), ("[metal]", False, True), ("[metal, vulkan, metal]", True, True)],
+    [
+        ("", True, False),
+        ("[vulkan]", True, False),
+        ("[metal]", False, True),
+        ("[metal, vulkan, metal]", True, True),
+    ],
 )
-def test_a_rule_is_asked_of_its_apis_alone(tmp_path: Path, apis: str, vulkan: bool, metal: bool) -> None:
-    catalogue = loaded(tmp_path, PAGE.replace("subject:", f"apis: {apis}\nsubject:") if apis else PAGE)
+def test_a_rule_is_asked_of_its_apis_alone(
+    tmp_path: Path, apis: str, vulkan: bool, metal: bool
+) -> None:
+    catalogue = loaded(
+        tmp_path, PAGE.replace("subject:", f"apis: {apis}\nsubject:") if apis else PAGE
+    )
     assert catalogue.problems == ()
     # One engine for both: what it remembers of one API's frames it does not tell of the other's.
     engine = Engine(catalogue)
-    for text, asked in ((VULKAN, vulkan), (METAL, metal), (VULKAN, vulkan), ("metal: {textures: {a: {}}}", metal)):
+    for text, asked in (
+        (VULKAN, vulkan),
+        (METAL, metal),
+        (VULKAN, vulkan),
+        ("metal: {textures: {a: {}}}", metal),
+    ):
         linted = engine.lint(text.encode(), "frame.yaml", LintOptions(as_suggested))
-        told = [(found.severity, found.message) for found in linted.findings if found.code == "ACME001"]
+        told = [
+            (found.severity, found.message) for found in linted.findings if found.code == "ACME001"
+        ]
         undecided = [unknown.missing for unknown in linted.undecided if unknown.code == "ACME001"]
         stated = "4" in text
         assert told == ([("warning", "`a` has 4 samples")] if asked and stated else [])
-        assert undecided == ([("image.samples",)] if asked and not stated else []), "not asked, and so not undecided"
+        assert undecided == ([("image.samples",)] if asked and not stated else []), (
+            "not asked, and so not undecided"
+        )
 
 
 def as_suggested(rule: Rule, suggested: str, vendor: str | None) -> str:
@@ -161,12 +202,24 @@ message:""",
 
 @pytest.mark.parametrize("member", ["message", "help"])
 def test_the_texts_of_a_case_name_facts(tmp_path: Path, member: str) -> None:
-    catalogue = loaded(tmp_path, PAGE.replace("message:", f"cases: [{{when: image.samples > 4, {member}: '{{image.nmae}}'}}]\nmessage:"))
+    catalogue = loaded(
+        tmp_path,
+        PAGE.replace(
+            "message:",
+            f"cases: [{{when: image.samples > 4, {member}: '{{image.nmae}}'}}]\nmessage:",
+        ),
+    )
     (found,) = catalogue.problems
-    assert found.message == "rule page `too-many-samples`: unknown fact image.nmae of image; did you mean image.name?"
+    assert (
+        found.message
+        == "rule page `too-many-samples`: unknown fact image.nmae of image; did you mean "
+        "image.name?"
+    )
 
 
-def problem(folder: Path, marked: str, name: str = "too-many-samples.md") -> tuple[Finding, str, list[str]]:
+def problem(
+    folder: Path, marked: str, name: str = "too-many-samples.md"
+) -> tuple[Finding, str, list[str]]:
     """The one problem of a page, the text that it points at, and the marked texts."""
     # `unmarked` takes the line ends around a text away.
     text, spans = unmarked(marked)
@@ -175,7 +228,11 @@ def problem(folder: Path, marked: str, name: str = "too-many-samples.md") -> tup
     (found,) = catalogue.problems
     assert found.code == "MSAA921"
     assert found.span is not None
-    return found, text[found.span.start : found.span.end], [text[span.start : span.end] for span in spans]
+    return (
+        found,
+        text[found.span.start : found.span.end],
+        [text[span.start : span.end] for span in spans],
+    )
 
 
 CONDITION = "when: image.samples > 2"
@@ -184,30 +241,79 @@ CONDITION = "when: image.samples > 2"
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
-        (CONDITION, "when: ⟦image.sampels⟧ > 2", "unknown fact image.sampels of image; did you mean image.samples?"),
-        (CONDITION, "when: |\n  image.samples > 2 &&\n  ⟦image.sampels⟧ > 4", "unknown fact image.sampels of image; did you mean"),
-        (CONDITION, "when: >\n  image.samples > 2 &&\n  ⟦image.sampels⟧ > 4", "unknown fact image.sampels of image; did you mean"),
-        (CONDITION, "when: 'image.format == ⟦\"D17_UNORM\"⟧'", "image.format is never 'D17_UNORM'; did you mean 'D16_UNORM'?"),
+        (
+            CONDITION,
+            "when: ⟦image.sampels⟧ > 2",
+            "unknown fact image.sampels of image; did you mean image.samples?",
+        ),
+        (
+            CONDITION,
+            "when: |\n  image.samples > 2 &&\n  ⟦image.sampels⟧ > 4",
+            "unknown fact image.sampels of image; did you mean",
+        ),
+        (
+            CONDITION,
+            "when: >\n  image.samples > 2 &&\n  ⟦image.sampels⟧ > 4",
+            "unknown fact image.sampels of image; did you mean",
+        ),
+        (
+            CONDITION,
+            "when: 'image.format == ⟦\"D17_UNORM\"⟧'",
+            "image.format is never 'D17_UNORM'; did you mean 'D16_UNORM'?",
+        ),
         (CONDITION, "when: ⟦image.samples⟧", "the condition must be a boolean expression"),
         (CONDITION, "when: ⟦~⟧", "expected a string, found "),
-        (CONDITION, f"when: ⟦'{'x' * (MAX_CONDITION + 1)}'⟧", f"the condition is longer than {MAX_CONDITION} characters"),
+        (
+            CONDITION,
+            f"when: ⟦'{'x' * (MAX_CONDITION + 1)}'⟧",
+            f"the condition is longer than {MAX_CONDITION} characters",
+        ),
         (
             CONDITION,
             f"{CONDITION}\ncases: [{{when: ⟦'{'x' * (MAX_CONDITION + 1)}'⟧}}]",
             f"the condition is longer than {MAX_CONDITION} characters",
         ),
-        (CONDITION, f"{CONDITION}\ncases:\n  - when: true\n  - when: ⟦image.sample⟧ > 2", "unknown fact image.sample of image"),
+        (
+            CONDITION,
+            f"{CONDITION}\ncases:\n  - when: true\n  - when: ⟦image.sample⟧ > 2",
+            "unknown fact image.sample of image",
+        ),
         (CONDITION, f"{CONDITION}\ncases: ⟦7⟧", "expected a list, found "),
-        (CONDITION, f"{CONDITION}\ncases: [⟦7⟧]", "a case must be a mapping with `when` and what differs"),
-        (CONDITION, f"{CONDITION}\ncases: [{{when: 'true', ⟦level⟧: error}}]", "unknown key `level`"),
-        (CONDITION, f"{CONDITION}\ncases: [{{when: 'true', severity: ⟦fatal⟧}}]", "expected one of note, warning, error, found `fatal`"),
+        (
+            CONDITION,
+            f"{CONDITION}\ncases: [⟦7⟧]",
+            "a case must be a mapping with `when` and what differs",
+        ),
+        (
+            CONDITION,
+            f"{CONDITION}\ncases: [{{when: 'true', ⟦level⟧: error}}]",
+            "unknown key `level`",
+        ),
+        (
+            CONDITION,
+            f"{CONDITION}\ncases: [{{when: 'true', severity: ⟦fatal⟧}}]",
+            "expected one of note, warning, error, found `fatal`",
+        ),
         (CONDITION, f"{CONDITION}\nat: ⟦{{a: 1}}⟧", "expected a string, found "),
         (CONDITION, f"{CONDITION}\napis: ⟦metal⟧", "expected a list, found "),
-        (CONDITION, f"{CONDITION}\napis: [vulkan, ⟦directx⟧]", "expected one of vulkan, metal, found `directx`"),
-        (CONDITION, f"{CONDITION}\ncases: [{{when: 'true', help: ⟦[a]⟧}}]", "expected a string, found "),
+        (
+            CONDITION,
+            f"{CONDITION}\napis: [vulkan, ⟦directx⟧]",
+            "expected one of vulkan, metal, found `directx`",
+        ),
+        (
+            CONDITION,
+            f"{CONDITION}\ncases: [{{when: 'true', help: ⟦[a]⟧}}]",
+            "expected a string, found ",
+        ),
         (CONDITION, f"{CONDITION}\nlabels: ⟦[a]⟧", "expected a mapping, found "),
         (CONDITION, f"{CONDITION}\n⟦whn⟧: 1", "unknown key `whn`"),
-        (CONDITION, f"{CONDITION}\nfix: ⟦[]⟧", "a fix must be a mapping with `title`, `safety` (safe, unsafe, shown) and what it changes"),
+        (
+            CONDITION,
+            f"{CONDITION}\nfix: ⟦[]⟧",
+            "a fix must be a mapping with `title`, `safety` (safe, unsafe, shown) and what it "
+            "changes",
+        ),
         (
             CONDITION,
             f"{CONDITION}\nfix: {{title: x, safety: ⟦yes⟧, set: {{image.samples: 2}}}}",
@@ -216,26 +322,46 @@ CONDITION = "when: image.samples > 2"
         (
             CONDITION,
             f"{CONDITION}\nvendors: [⟦ARM⟧]",
-            "one of arm, img, amd, nvidia, qualcomm, apple, intel, broadcom, samsung, mesa, khronos",
+            "one of arm, img, amd, nvidia, qualcomm, apple, intel, broadcom, samsung, mesa, "
+            "khronos",
         ),
         (CONDITION, f"{CONDITION}\nsupersedes: [too-many-samples]", "the rule supersedes itself"),
-        ("severity: warning", "severity: ⟦fatal⟧", "expected one of note, warning, error, found `fatal`"),
+        (
+            "severity: warning",
+            "severity: ⟦fatal⟧",
+            "expected one of note, warning, error, found `fatal`",
+        ),
         (
             "subject: image",
             "subject: ⟦images⟧",
-            "expected one of image, attachment, aspect, pass, subpass, resolve, pipeline, dependency, read, copy, choice, found ",
+            "expected one of image, attachment, aspect, pass, subpass, resolve, pipeline, "
+            "dependency, read, copy, choice, found ",
         ),
-        ("code: ACME001", "code: MSAA999", "the code must be 2 to 12 capital letters other than MSAA and a number"),
-        ("code: ACME001", "code: acme", "the code must be 2 to 12 capital letters other than MSAA and a number"),
+        (
+            "code: ACME001",
+            "code: MSAA999",
+            "the code must be 2 to 12 capital letters other than MSAA and a number",
+        ),
+        (
+            "code: ACME001",
+            "code: acme",
+            "the code must be 2 to 12 capital letters other than MSAA and a number",
+        ),
         ("code: ACME001", "code: ⟦[ACME001]⟧", "expected a string, found "),
         (f"{CONDITION}\n", "", "missing `when` in the front matter"),
-        ("{image.samples} samples", "{image.sampels} samples", "unknown fact image.sampels of image"),
+        (
+            "{image.samples} samples",
+            "{image.sampels} samples",
+            "unknown fact image.sampels of image",
+        ),
         ("{image.samples} samples", "{aspect.load} samples", "unknown fact aspect.load of image"),
         ("code: ACME001", "code: ACME001\n⟦code⟧: ACME002", None),
         ("code: ACME001", "code: ⟦!!python/object:os.system⟧ ACME001", None),
     ],
 )
-def test_what_is_wrong_with_a_page_and_where(tmp_path: Path, old: str, new: str, message: str | None) -> None:
+def test_what_is_wrong_with_a_page_and_where(
+    tmp_path: Path, old: str, new: str, message: str | None
+) -> None:
     assert PAGE.count(old) == 1
     found, at, marks = problem(tmp_path, PAGE.replace(old, new))
     if message is not None:
@@ -247,9 +373,19 @@ def test_what_is_wrong_with_a_page_and_where(tmp_path: Path, old: str, new: str,
 @pytest.mark.parametrize(
     ("name", "message"),
     [
-        ("Too Many.md", "the file name must be lowercase words with hyphens; rename it to too-many.md"),
-        ("tooMany.md", "the file name must be lowercase words with hyphens; rename it to too-many.md"),
-        ("-.md", "the file name must be lowercase words with hyphens, for example no-multisampled-storage.md"),
+        (
+            "Too Many.md",
+            "the file name must be lowercase words with hyphens; rename it to too-many.md",
+        ),
+        (
+            "tooMany.md",
+            "the file name must be lowercase words with hyphens; rename it to too-many.md",
+        ),
+        (
+            "-.md",
+            "the file name must be lowercase words with hyphens, for example "
+            "no-multisampled-storage.md",
+        ),
         ("syntax.md", "the name syntax is that of a diagnostic; rename the file"),
     ],
 )
@@ -261,11 +397,14 @@ def test_names_that_no_selector_could_name(tmp_path: Path, name: str, message: s
 def test_a_code_and_a_name_are_one_rules_own(tmp_path: Path) -> None:
     (tmp_path / "one.md").write_text(PAGE, encoding="utf-8")
     (tmp_path / "two.md").write_text(PAGE, encoding="utf-8")
-    (tmp_path / "multisampled-attachment-stored.md").write_text(PAGE.replace("001", "002"), encoding="utf-8")
+    (tmp_path / "multisampled-attachment-stored.md").write_text(
+        PAGE.replace("001", "002"), encoding="utf-8"
+    )
     catalogue = load([str(tmp_path)])
     assert sorted(found.message for found in catalogue.problems) == [
         "rule page `multisampled-attachment-stored`: "
-        "the name multisampled-attachment-stored is already used by a built-in rule; rename the file",
+        "the name multisampled-attachment-stored is already used by a built-in rule; rename the "
+        "file",
         "rule page `two`: the code ACME001 is already used by `one`",
     ]
     assert own(catalogue) == ["one"]
@@ -296,7 +435,8 @@ def test_a_folder_without_pages_is_told(tmp_path: Path) -> None:
         b"---\ncode: [\n---\n",
         b"---\na: &a [*a]\n---\n",
         b"---\n" + b"[" * 5000 + b"\n---\n",
-        b"---\na: &a [x,x,x,x,x,x,x,x,x]\nb: &b [*a,*a,*a,*a,*a,*a,*a,*a,*a]\nc: &c [*b,*b,*b,*b,*b,*b,*b,*b,*b]\n---\n",
+        b"---\na: &a [x,x,x,x,x,x,x,x,x]\nb: &b [*a,*a,*a,*a,*a,*a,*a,*a,*a]\nc: &c "
+        b"[*b,*b,*b,*b,*b,*b,*b,*b,*b]\n---\n",
         b"\xff\xfe\x00",
         b"---\ncode: \x00\n---\n",
         b"---\n" + b"x" * (1 << 20) + b"\n---\n",
@@ -318,13 +458,33 @@ def test_a_page_that_is_not_there(tmp_path: Path) -> None:
 
 
 VALUES: st.SearchStrategy[Any] = st.sampled_from(
-    ["1", "~", "[]", "{}", "[a]", "{a: b}", "text", "'{'", "'{x}'", "image", "error", "[{}]", "[~]", "true", "!!str x", "*x", "&x y"]
+    [
+        "1",
+        "~",
+        "[]",
+        "{}",
+        "[a]",
+        "{a: b}",
+        "text",
+        "'{'",
+        "'{x}'",
+        "image",
+        "error",
+        "[{}]",
+        "[~]",
+        "true",
+        "!!str x",
+        "*x",
+        "&x y",
+    ]
 )
 
 
 @examples(1.5)
 @given(st.dictionaries(st.sampled_from(KEYS), VALUES, max_size=6))
-def test_garbage_in_a_page_is_told_and_never_a_failure(tmp_path_factory: pytest.TempPathFactory, given_values: dict[str, str]) -> None:
+def test_garbage_in_a_page_is_told_and_never_a_failure(
+    tmp_path_factory: pytest.TempPathFactory, given_values: dict[str, str]
+) -> None:
     lines = dict(line.split(": ", 1) for line in PAGE.split("---")[1].strip().splitlines())
     front = "\n".join(f"{key}: {value}" for key, value in {**lines, **given_values}.items())
     path = tmp_path_factory.getbasetemp() / "garbage-page.md"

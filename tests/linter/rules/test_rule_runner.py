@@ -21,7 +21,12 @@ def as_written(rule: Rule, suggested: str, vendor: str | None) -> str:
 
 
 def verdicts(engine: Engine, texts: list[bytes]) -> list[FileResult]:
-    return [engine.lint(text, "example.yaml", LintOptions(as_written))._replace(source=None, documents=()) for text in texts]
+    return [
+        engine.lint(text, "example.yaml", LintOptions(as_written))._replace(
+            source=None, documents=()
+        )
+        for text in texts
+    ]
 
 
 def test_verdicts_are_the_same_whatever_is_remembered(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -29,7 +29,9 @@ class Rule(NamedTuple):
     edition: str = "2026.1"
 
 
-quick = hypothesis_settings(deadline=None, suppress_health_check=[HealthCheck.too_slow, HealthCheck.function_scoped_fixture])
+quick = hypothesis_settings(
+    deadline=None, suppress_health_check=[HealthCheck.too_slow, HealthCheck.function_scoped_fixture]
+)
 RULES = [Rule("MSAA201", "multisampled-attachment-stored"), Rule("MSAA301", "resolve-outside-pass")]
 
 
@@ -63,11 +65,17 @@ def place(loaded: Loaded, found: Finding) -> tuple[str, int, int, int, int, str]
 def only(loaded: Loaded) -> Finding:
     assert len(loaded.findings) == 1, [each.message for each in loaded.findings]
     found = loaded.findings[0]
-    assert (found.code, found.rule, found.severity, found.fatal) == ("MSAA921", "configuration", "error", True)
+    assert (found.code, found.rule, found.severity, found.fatal) == (
+        "MSAA921",
+        "configuration",
+        "error",
+        True,
+    )
     return found
 
 
-# --- what governs ---------------------------------------------------------------------------------------------------------------
+# --- what governs
+# ---------------------------------------------------------------------------------------------------------------
 
 
 def test_without_a_file_the_defaults_hold(project: Path) -> None:
@@ -79,7 +87,11 @@ def test_the_nearest_file_governs_and_nothing_is_merged(project: Path) -> None:
     write("a/b/pyproject.toml", '[tool.msaa-lint]\nprofile = "tiler"\n')
     below = load("a/b/c/x.yaml")
     assert below.path == str(project / "a/b/pyproject.toml")
-    assert (below.settings.profile, below.settings.fail_on, below.settings.ignore) == ("tiler", "warning", ())
+    assert (below.settings.profile, below.settings.fail_on, below.settings.ignore) == (
+        "tiler",
+        "warning",
+        (),
+    )
     assert below.settings.root == str(project / "a/b")
     assert load("a/x.yaml").settings.fail_on == "error"
     Path("a/b/c").mkdir()
@@ -89,7 +101,10 @@ def test_the_nearest_file_governs_and_nothing_is_merged(project: Path) -> None:
 
 def test_a_pyproject_without_our_table_is_passed_over() -> None:
     write("msaa-lint.toml", 'fail-on = "note"\n')
-    write("a/pyproject.toml", '[project]\nname = "x"\ndependencies = ["msaa-lint"]\n[tool.other]\nx = 1\n')
+    write(
+        "a/pyproject.toml",
+        '[project]\nname = "x"\ndependencies = ["msaa-lint"]\n[tool.other]\nx = 1\n',
+    )
     write("b/pyproject.toml", "this is no TOML at all, and not ours\n")
     assert load("a/x.yaml").settings.fail_on == "note"
     assert load("b/x.yaml").settings.fail_on == "note"
@@ -125,7 +140,9 @@ def test_each_folder_is_searched_once() -> None:
     assert Configurations().load("x.yaml").settings.fail_on == "note"
 
 
-def test_an_explicit_file_and_the_variable_go_before_what_lies_around(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_an_explicit_file_and_the_variable_go_before_what_lies_around(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     write("msaa-lint.toml", 'profile = "near"\n')
     write("ci/lint.toml", 'profile = "explicit"\n')
     write("ci/env.toml", 'profile = "variable"\n')
@@ -143,12 +160,18 @@ RELATIVE = "write a path relative to the folder of the configuration"
     [
         ("none.toml", None, "cannot read the configuration: no such file"),
         (".", None, "cannot read the configuration: it is a folder, not a regular file"),
-        ("bad.toml", "x = '\ufffd'".encode("latin-1", "replace") + b"\xff", "cannot read the configuration: the input is not UTF-8"),
+        (
+            "bad.toml",
+            "x = '\ufffd'".encode("latin-1", "replace") + b"\xff",
+            "cannot read the configuration: the input is not UTF-8",
+        ),
         ("pyproject.toml", b"[project]\n", "the configuration has no table [tool.msaa-lint]"),
         ("pyproject.toml", b"[tool]\nmsaa-lint = 1\n", "[tool.msaa-lint] is not a table"),
     ],
 )
-def test_an_explicit_file_that_cannot_be_used_is_an_error(name: str, text: bytes | None, message: str) -> None:
+def test_an_explicit_file_that_cannot_be_used_is_an_error(
+    name: str, text: bytes | None, message: str
+) -> None:
     if text is not None:
         Path(name).write_bytes(text)
     loaded = load("x.yaml", explicit=name)
@@ -207,13 +230,18 @@ resolve-outside-pass = "off"
     )
 
 
-# --- mistakes, each at its place ------------------------------------------------------------------------------------------------
+# --- mistakes, each at its place
+# ------------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
     ("text", "at", "message"),
     [
-        ('selct = ["ALL"]\n', (1, 1, 1, 6, "selct"), "unknown key `selct` in msaa-lint.toml: did you mean `select`?"),
+        (
+            'selct = ["ALL"]\n',
+            (1, 1, 1, 6, "selct"),
+            "unknown key `selct` in msaa-lint.toml: did you mean `select`?",
+        ),
         (
             '# a comment\nfail-on = "warn"  # x\n',
             (2, 11, 2, 17, '"warn"'),
@@ -224,17 +252,27 @@ resolve-outside-pass = "off"
             (1, 11, 1, 15, "true"),
             "expected one of error, warning, note, found a boolean in `fail-on` of msaa-lint.toml",
         ),
-        ('select = "ALL"\n', (1, 10, 1, 15, '"ALL"'), "expected a list of rules, found a string in `select` of msaa-lint.toml"),
-        ('ignore = [\n  "ALL",\n  7,\n]\n', (3, 3, 3, 4, "7"), "expected a rule, found a number in `ignore` of msaa-lint.toml"),
+        (
+            'select = "ALL"\n',
+            (1, 10, 1, 15, '"ALL"'),
+            "expected a list of rules, found a string in `select` of msaa-lint.toml",
+        ),
+        (
+            'ignore = [\n  "ALL",\n  7,\n]\n',
+            (3, 3, 3, 4, "7"),
+            "expected a rule, found a number in `ignore` of msaa-lint.toml",
+        ),
         (
             'ignore = ["a b"]\n',
             (1, 11, 1, 16, '"a b"'),
-            "`a b` is not a rule selector in `ignore` of msaa-lint.toml: expected a rule name, a code, a code prefix such as MSAA2, or ALL",
+            "`a b` is not a rule selector in `ignore` of msaa-lint.toml: expected a rule name, a "
+            "code, a code prefix such as MSAA2, or ALL",
         ),
         (
             "edition = 2026.1\n",
             (1, 11, 1, 17, "2026.1"),
-            'expected a string, found a number in `edition` of msaa-lint.toml: write edition = "2026.1"',
+            "expected a string, found a number in `edition` of msaa-lint.toml: write edition = "
+            '"2026.1"',
         ),
         (
             'edition = "1.0"\n',
@@ -244,7 +282,8 @@ resolve-outside-pass = "off"
         (
             '[severity]\nMSAA2 = "warning"\nMSAA3 = "fatal"\n',
             (3, 9, 3, 16, '"fatal"'),
-            "unknown value `fatal` in `severity` of msaa-lint.toml: expected one of error, warning, note, off",
+            "unknown value `fatal` in `severity` of msaa-lint.toml: expected one of error, "
+            "warning, note, off",
         ),
         (
             'severity = {"a b" = "off"}\n',
@@ -261,10 +300,19 @@ resolve-outside-pass = "off"
         (
             "limits.depth = 0\n",
             (1, 16, 1, 17, "0"),
-            "`depth` must be an integer from 1 to 100, found `0` in `limits` of msaa-lint.toml: a configuration file can only lower limits",
+            "`depth` must be an integer from 1 to 100, found `0` in `limits` of msaa-lint.toml: a "
+            "configuration file can only lower limits",
         ),
-        ("limits = {dept = 5}\n", (1, 11, 1, 15, "dept"), "unknown key `dept` in `limits` of msaa-lint.toml: did you mean `depth`?"),
-        ("limits = {depth = true}\n", (1, 19, 1, 23, "true"), "expected an integer, found a boolean in `limits` of msaa-lint.toml"),
+        (
+            "limits = {dept = 5}\n",
+            (1, 11, 1, 15, "dept"),
+            "unknown key `dept` in `limits` of msaa-lint.toml: did you mean `depth`?",
+        ),
+        (
+            "limits = {depth = true}\n",
+            (1, 19, 1, 23, "true"),
+            "expected an integer, found a boolean in `limits` of msaa-lint.toml",
+        ),
         (
             'exclude = ["ok", "[a"]\n',
             (1, 18, 1, 22, '"[a"'),
@@ -278,42 +326,55 @@ resolve-outside-pass = "off"
         (
             'rules = ["none"]\n',
             (1, 10, 1, 16, '"none"'),
-            "no such file or folder `none` in `rules` of msaa-lint.toml: write a path relative to the folder of the configuration",
+            "no such file or folder `none` in `rules` of msaa-lint.toml: write a path relative to "
+            "the folder of the configuration",
         ),
         (
             'rules = ["../../etc"]\n',
             (1, 10, 1, 21, '"../../etc"'),
-            "`../../etc` is outside the project in `rules` of msaa-lint.toml: only the command line can name such a file",
+            "`../../etc` is outside the project in `rules` of msaa-lint.toml: only the command "
+            "line can name such a file",
         ),
         (
             'baseline = "/b.json"\n',
             (1, 12, 1, 21, '"/b.json"'),
-            "`/b.json` is outside the project in `baseline` of msaa-lint.toml: only the command line can name such a file",
+            "`/b.json` is outside the project in `baseline` of msaa-lint.toml: only the command "
+            "line can name such a file",
         ),
         (
             'baseline = "a.sh"\n',
             (1, 12, 1, 18, '"a.sh"'),
-            "`a.sh` is not a .json file in `baseline` of msaa-lint.toml: write a name that ends in .json",
+            "`a.sh` is not a .json file in `baseline` of msaa-lint.toml: write a name that ends in "
+            ".json",
         ),
         (
             'output = ["json=x"]\n',
             (1, 11, 1, 19, '"json=x"'),
-            "`json=x` names a file in `output` of msaa-lint.toml: only the command line can name output files",
+            "`json=x` names a file in `output` of msaa-lint.toml: only the command line can name "
+            "output files",
         ),
-        ('output = ["jsn"]\n', (1, 11, 1, 16, '"jsn"'), "unknown value `jsn` in `output` of msaa-lint.toml: did you mean `json`?"),
+        (
+            'output = ["jsn"]\n',
+            (1, 11, 1, 16, '"jsn"'),
+            "unknown value `jsn` in `output` of msaa-lint.toml: did you mean `json`?",
+        ),
         (
             'profile = " "\n',
             (1, 11, 1, 14, '" "'),
-            "expected a device class, a device name, or the path of a device report, found an empty string in `profile` of msaa-lint.toml",
+            "expected a device class, a device name, or the path of a device report, found an "
+            "empty string in `profile` of msaa-lint.toml",
         ),
         (
             '[tool.msaa-lint]\nfail-on = "note"\n',
             (1, 2, 1, 6, "tool"),
-            "unknown key `tool` in msaa-lint.toml: in this file the keys are at the top level, without [tool.msaa-lint]; remove that line",
+            "unknown key `tool` in msaa-lint.toml: in this file the keys are at the top level, "
+            "without [tool.msaa-lint]; remove that line",
         ),
     ],
 )
-def test_a_mistake_is_at_its_place(text: str, at: tuple[int, int, int, int, str], message: str) -> None:
+def test_a_mistake_is_at_its_place(
+    text: str, at: tuple[int, int, int, int, str], message: str
+) -> None:
     write("msaa-lint.toml", text)
     loaded = load("x.yaml")
     found = only(loaded)
@@ -322,22 +383,35 @@ def test_a_mistake_is_at_its_place(text: str, at: tuple[int, int, int, int, str]
 
 
 def test_the_rest_of_a_file_with_mistakes_counts() -> None:
-    write("pyproject.toml", '[tool.msaa-lint]\nselect = ["MSAA2", 3]\nnope = 1\nfail-on = "error"\n')
+    write(
+        "pyproject.toml", '[tool.msaa-lint]\nselect = ["MSAA2", 3]\nnope = 1\nfail-on = "error"\n'
+    )
     loaded = load("x.yaml")
-    assert [place(loaded, found)[1:] for found in loaded.findings] == [(2, 20, 2, 21, "3"), (3, 1, 3, 5, "nope")]
-    assert loaded.findings[1].message.startswith("unknown key `nope` in [tool.msaa-lint] of pyproject.toml: expected one of edition, ")
+    assert [place(loaded, found)[1:] for found in loaded.findings] == [
+        (2, 20, 2, 21, "3"),
+        (3, 1, 3, 5, "nope"),
+    ]
+    assert loaded.findings[1].message.startswith(
+        "unknown key `nope` in [tool.msaa-lint] of pyproject.toml: expected one of edition, "
+    )
     assert (loaded.settings.select, loaded.settings.fail_on) == (("MSAA2",), "error")
 
 
 @pytest.mark.parametrize(
     ("text", "at", "message"),
     [
-        ('a = "x"\nb = [1,,2]\n', (2, 8, 2, 9, ","), "a value is missing before `,`; remove the `,` before it, or add the value"),
+        (
+            'a = "x"\nb = [1,,2]\n',
+            (2, 8, 2, 9, ","),
+            "a value is missing before `,`; remove the `,` before it, or add the value",
+        ),
         ("a = 1\r\na = 2\r\n", (2, 1, 2, 2, "a"), "duplicate key `a`; remove one of the two"),
         ('a = "', (1, 5, 1, 6, '"'), 'the quote `"` is never closed; add the closing `"`'),
     ],
 )
-def test_broken_toml_says_where(text: str, at: tuple[int, int, int, int, str], message: str) -> None:
+def test_broken_toml_says_where(
+    text: str, at: tuple[int, int, int, int, str], message: str
+) -> None:
     write("sub/msaa-lint.toml", text)
     loaded = load("sub/x.yaml")
     found = only(loaded)
@@ -356,11 +430,23 @@ def test_a_broken_pyproject_that_names_our_table_is_an_error() -> None:
         ("a = " + "[" * 100_000, "the configuration is nested too deeply"),
         ("a = " + "9" * 5000, "the configuration is not valid TOML"),
         (".".join("a" * 100_000) + " = 1", "too many dots in one line of the configuration"),
-        ("#" * (1 << 20) + "#", "cannot read the configuration: it is larger than the limit of 1048576 bytes"),
+        (
+            "#" * (1 << 20) + "#",
+            "cannot read the configuration: it is larger than the limit of 1048576 bytes",
+        ),
         ("a = '\0'", "the configuration is not valid TOML"),
-        ("limits.depth = 0x" + "f" * 5000, "`depth` must be an integer from 1 to 100, found a longer number in `limits`"),
-        ("ignore = [" + '"x",' * 1001 + "]", "expected at most 1000 elements, found 1001 in `ignore`"),
-        ("exclude = [" + '"x",' * 201 + "]", "expected at most 200 elements, found 201 in `exclude`"),
+        (
+            "limits.depth = 0x" + "f" * 5000,
+            "`depth` must be an integer from 1 to 100, found a longer number in `limits`",
+        ),
+        (
+            "ignore = [" + '"x",' * 1001 + "]",
+            "expected at most 1000 elements, found 1001 in `ignore`",
+        ),
+        (
+            "exclude = [" + '"x",' * 201 + "]",
+            "expected at most 200 elements, found 201 in `exclude`",
+        ),
     ],
 )
 def test_hostile_files_end_in_one_error(text: str, message: str) -> None:
@@ -377,25 +463,35 @@ def test_findings_are_bounded() -> None:
     assert len(unknown_selectors(load("x.yaml").settings, lambda: RULES)) == 50
 
 
-# --- extends --------------------------------------------------------------------------------------------------------------------
+# --- extends
+# --------------------------------------------------------------------------------------------------------------------
 
 
 def test_extends_comes_first_and_its_globs_count_from_it(project: Path) -> None:
     write(
         "base/lint.toml",
-        'fail-on = "error"\nignore = ["MSAA1"]\nexclude = ["gen/"]\nseverity = {MSAA2 = "note", MSAA3 = "off"}\n'
+        'fail-on = "error"\nignore = ["MSAA1"]\nexclude = ["gen/"]\nseverity = {MSAA2 = "note", '
+        'MSAA3 = "off"}\n'
         'per-file-ignores = {"a" = ["ALL"], "b" = ["ALL"]}\n',
     )
     write(
         "frames/msaa-lint.toml",
-        'extends = "../base/lint.toml"\nignore = []\nseverity = {MSAA3 = "error"}\nper-file-ignores = {"b" = []}\n',
+        'extends = "../base/lint.toml"\nignore = []\nseverity = {MSAA3 = "error"}\n'
+        'per-file-ignores = {"b" = []}\n',
     )
     loaded = load("frames/x.yaml")
     settings = loaded.settings
     assert loaded.findings == ()
-    assert (settings.fail_on, settings.ignore, settings.severity) == ("error", (), {"MSAA2": "note", "MSAA3": "error"})
+    assert (settings.fail_on, settings.ignore, settings.severity) == (
+        "error",
+        (),
+        {"MSAA2": "note", "MSAA3": "error"},
+    )
     assert settings.exclude == (Glob("gen/", str(project / "base")),)
-    assert settings.per_file_ignores == ((Glob("a", str(project / "base")), ("ALL",)), (Glob("b", str(project / "frames")), ()))
+    assert settings.per_file_ignores == (
+        (Glob("a", str(project / "base")), ("ALL",)),
+        (Glob("b", str(project / "frames")), ()),
+    )
     assert list(loaded.sources) == ["frames/msaa-lint.toml", "base/lint.toml"]
 
 
@@ -419,7 +515,10 @@ def test_a_circle_is_reported_where_it_closes() -> None:
 
 def test_a_file_that_extends_itself() -> None:
     write("msaa-lint.toml", 'extends = "./msaa-lint.toml"\n')
-    assert only(load("x.yaml")).message == "cycle msaa-lint.toml > msaa-lint.toml in `extends` of msaa-lint.toml"
+    assert (
+        only(load("x.yaml")).message
+        == "cycle msaa-lint.toml > msaa-lint.toml in `extends` of msaa-lint.toml"
+    )
 
 
 def test_a_chain_is_bounded() -> None:
@@ -436,11 +535,23 @@ def test_a_chain_is_bounded() -> None:
         ("none.toml", f"no such file `none.toml` in `extends` of msaa-lint.toml: {RELATIVE}"),
         (
             "../other.toml",
-            "`../other.toml` is outside the project in `extends` of msaa-lint.toml: only the command line can name such a file",
+            "`../other.toml` is outside the project in `extends` of msaa-lint.toml: only the "
+            "command line can name such a file",
         ),
-        ("link.toml", "`link.toml` is outside the project in `extends` of msaa-lint.toml: only the command line can name such a file"),
-        ("/etc/passwd", "`/etc/passwd` is not a .toml file in `extends` of msaa-lint.toml: write a name that ends in .toml"),
-        ("folder.toml", "cannot read the configuration: it is a folder, not a regular file: folder.toml"),
+        (
+            "link.toml",
+            "`link.toml` is outside the project in `extends` of msaa-lint.toml: only the command "
+            "line can name such a file",
+        ),
+        (
+            "/etc/passwd",
+            "`/etc/passwd` is not a .toml file in `extends` of msaa-lint.toml: write a name that "
+            "ends in .toml",
+        ),
+        (
+            "folder.toml",
+            "cannot read the configuration: it is a folder, not a regular file: folder.toml",
+        ),
     ],
 )
 def test_what_cannot_be_extended(target: str, message: str, project: Path) -> None:
@@ -472,7 +583,9 @@ def test_a_found_file_that_links_out_of_the_project_is_not_read(project: Path) -
         None,
     )
     assert (
-        load("x.yaml", explicit="msaa-lint.toml").findings[0].message.startswith("unknown key `token` in msaa-lint.toml: expected one of ")
+        load("x.yaml", explicit="msaa-lint.toml")
+        .findings[0]
+        .message.startswith("unknown key `token` in msaa-lint.toml: expected one of ")
     )
 
 
@@ -489,7 +602,9 @@ def test_the_project_is_the_repository_or_the_outermost_configuration(project: P
         real_path(f"{project}-other/x", str(project))
 
 
-def test_paths_are_shown_from_the_current_folder(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_paths_are_shown_from_the_current_folder(
+    project: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     assert shown("./a//b.yaml") == shown(str(project / "a/b.yaml")) == "a/b.yaml"
     assert shown("/nowhere/x") == "/nowhere/x"
     Path("sub").mkdir()
@@ -497,13 +612,15 @@ def test_paths_are_shown_from_the_current_folder(project: Path, monkeypatch: pyt
     assert shown("../a.yaml") == "../a.yaml"
 
 
-# --- selectors and the command line ---------------------------------------------------------------------------------------------
+# --- selectors and the command line
+# ---------------------------------------------------------------------------------------------
 
 
 def test_unknown_selectors_are_at_their_places() -> None:
     write(
         "pyproject.toml",
-        '[tool.msaa-lint]\nselect = ["MSAA2", "ALL", "MSAA9"]\nextend-select = ["MSAA201", "MSAA8"]\n'
+        '[tool.msaa-lint]\nselect = ["MSAA2", "ALL", "MSAA9"]\nextend-select = ["MSAA201", '
+        '"MSAA8"]\n'
         'ignore = ["resolve-outside-pas"]\nper-file-ignores = {"a" = ["MS"]}\n'
         '[tool.msaa-lint.severity]\n"multisampled-atachment-stored" = "off"\n',
     )
@@ -511,18 +628,25 @@ def test_unknown_selectors_are_at_their_places() -> None:
     assert loaded.findings == ()
     found = unknown_selectors(loaded.settings, lambda: RULES)
     assert [(place(loaded, each)[1:], each.message) for each in found] == [
-        ((3, 29, 3, 36, '"MSAA8"'), "unknown rule `MSAA8` in `extend-select` of pyproject.toml: `msaa-lint rule --all` lists the rules"),
+        (
+            (3, 29, 3, 36, '"MSAA8"'),
+            "unknown rule `MSAA8` in `extend-select` of pyproject.toml: `msaa-lint rule --all` "
+            "lists the rules",
+        ),
         (
             (4, 11, 4, 32, '"resolve-outside-pas"'),
-            "unknown rule `resolve-outside-pas` in `ignore` of pyproject.toml: did you mean `resolve-outside-pass`?",
+            "unknown rule `resolve-outside-pas` in `ignore` of pyproject.toml: did you mean "
+            "`resolve-outside-pass`?",
         ),
         (
             (5, 28, 5, 32, '"MS"'),
-            "unknown rule `MS` in `per-file-ignores` of pyproject.toml: `msaa-lint rule --all` lists the rules",
+            "unknown rule `MS` in `per-file-ignores` of pyproject.toml: `msaa-lint rule --all` "
+            "lists the rules",
         ),
         (
             (7, 1, 7, 32, '"multisampled-atachment-stored"'),
-            "unknown rule `multisampled-atachment-stored` in `severity` of pyproject.toml: did you mean `multisampled-attachment-stored`?",
+            "unknown rule `multisampled-atachment-stored` in `severity` of pyproject.toml: did you "
+            "mean `multisampled-attachment-stored`?",
         ),
     ]
     assert {each.code for each in found} == {"MSAA921"}
@@ -540,15 +664,24 @@ def test_unknown_selectors_of_the_command_line_say_so() -> None:
     settings = override(Settings(), select=["MSAA201", "MSAA77"], severity={"nope": "off"})
     found = unknown_selectors(settings, lambda: RULES)
     assert [(each.file, each.span, each.message) for each in found] == [
-        ("<command line>", None, "unknown rule `MSAA77` in `--select`: `msaa-lint rule --all` lists the rules"),
-        ("<command line>", None, "unknown rule `nope` in `--severity`: `msaa-lint rule --all` lists the rules"),
+        (
+            "<command line>",
+            None,
+            "unknown rule `MSAA77` in `--select`: `msaa-lint rule --all` lists the rules",
+        ),
+        (
+            "<command line>",
+            None,
+            "unknown rule `nope` in `--severity`: `msaa-lint rule --all` lists the rules",
+        ),
     ]
 
 
 def test_the_command_line_overrides(project: Path) -> None:
     write(
         "msaa-lint.toml",
-        'fail-on = "error"\nprofile = "tiler"\nexclude = ["a"]\noutput = ["json"]\nlimits = {depth = 9}\nignore = ["MSAA2"]\n',
+        'fail-on = "error"\nprofile = "tiler"\nexclude = ["a"]\noutput = ["json"]\nlimits = {depth '
+        '= 9}\nignore = ["MSAA2"]\n',
     )
     before = load("x.yaml").settings
     Path("sub").mkdir()
@@ -563,7 +696,12 @@ def test_the_command_line_overrides(project: Path) -> None:
         ignore=["MSAA3"],
         select=["ALL"],
     )
-    assert (after.fail_on, after.profile, after.output, after.ignore) == ("note", "tiler", ("full",), ("MSAA2",))
+    assert (after.fail_on, after.profile, after.output, after.ignore) == (
+        "note",
+        "tiler",
+        ("full",),
+        ("MSAA2",),
+    )
     assert after.exclude == (Glob("a", str(project)), Glob("b", str(project)))
     assert after.limits == {"depth": 9, "nodes": 5}
     assert (after.rules, after.baseline) == ((str(project / "sub"),), str(project / "b.json"))
@@ -578,12 +716,20 @@ def test_a_value_found_wrong_later_is_at_its_place() -> None:
     loaded = load("x.yaml")
     found = loaded.settings.problem("profile", "no device `mali-g67`", "did you mean `mali-g76`?")
     assert place(loaded, found) == ("msaa-lint.toml", 1, 11, 1, 21, '"mali-g67"')
-    assert found.message == "no device `mali-g67` in `profile` of msaa-lint.toml: did you mean `mali-g76`?"
+    assert (
+        found.message
+        == "no device `mali-g67` in `profile` of msaa-lint.toml: did you mean `mali-g76`?"
+    )
     later = override(loaded.settings, profile="x").problem("profile", "no device `x`")
-    assert (later.file, later.span, later.message) == ("<command line>", None, "no device `x` in `--profile`")
+    assert (later.file, later.span, later.message) == (
+        "<command line>",
+        None,
+        "no device `x` in `--profile`",
+    )
 
 
-# --- places in TOML -------------------------------------------------------------------------------------------------------------
+# --- places in TOML
+# -------------------------------------------------------------------------------------------------------------
 
 
 def test_places_of_a_text_with_everything_in_it() -> None:
@@ -594,13 +740,19 @@ def test_places_of_a_text_with_everything_in_it() -> None:
         "k = [ 1, # ]\n  [2.5, {x = \"}\", y.z = 'a,b'}], 1979-05-27 07:32:00, ]\n"
         "[[t.w]]\r\nq = '''\n'quoted' ''''\r\n"
     )
-    found = {path: (text[p.key.start : p.key.end], text[p.value.start : p.value.end]) for path, p in places(text).items()}
+    found = {
+        path: (text[p.key.start : p.key.end], text[p.value.start : p.value.end])
+        for path, p in places(text).items()
+    }
     assert found == {
         ("a",): ("a", "a"),
         ("a", "b.c"): ('"b.c"', '"""x\n# no = "y"""""'),
         ("t",): ("t", "t"),
         ("t", "u"): ("'u'", "'u'"),
-        ("t", "u", "k"): ("k", "[ 1, # ]\n  [2.5, {x = \"}\", y.z = 'a,b'}], 1979-05-27 07:32:00, ]"),
+        ("t", "u", "k"): (
+            "k",
+            "[ 1, # ]\n  [2.5, {x = \"}\", y.z = 'a,b'}], 1979-05-27 07:32:00, ]",
+        ),
         ("t", "u", "k", 0): ("1", "1"),
         ("t", "u", "k", 1): ("[", "[2.5, {x = \"}\", y.z = 'a,b'}]"),
         ("t", "u", "k", 1, 0): ("2.5", "2.5"),
@@ -615,9 +767,18 @@ def test_places_of_a_text_with_everything_in_it() -> None:
 
 
 texts = st.text("aé𝄞\"\\\n]}#,='", max_size=6)
-scalars = st.integers(-(10**12), 10**12) | st.booleans() | st.floats(allow_nan=False, allow_infinity=False) | texts
+scalars = (
+    st.integers(-(10**12), 10**12)
+    | st.booleans()
+    | st.floats(allow_nan=False, allow_infinity=False)
+    | texts
+)
 values = st.recursive(
-    scalars, lambda inner: st.lists(inner, max_size=4) | st.dictionaries(st.text('ab."\\ #]', max_size=4), inner, max_size=3)
+    scalars,
+    lambda inner: (
+        st.lists(inner, max_size=4)
+        | st.dictionaries(st.text('ab."\\ #]', max_size=4), inner, max_size=3)
+    ),
 )
 
 
@@ -625,7 +786,16 @@ def toml(value: Any) -> str:
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, str):
-        return '"' + "".join(f"\\U{ord(char):08x}" if char in '"\\' or ord(char) < 32 or ord(char) == 127 else char for char in value) + '"'
+        return (
+            '"'
+            + "".join(
+                f"\\U{ord(char):08x}"
+                if char in '"\\' or ord(char) < 32 or ord(char) == 127
+                else char
+                for char in value
+            )
+            + '"'
+        )
     if isinstance(value, list):
         return "[" + ", # x\n ".join(map(toml, value)) + "]"
     if isinstance(value, dict):
@@ -635,15 +805,26 @@ def toml(value: Any) -> str:
 
 def each(path: tuple[str | int, ...], value: Any) -> Iterator[tuple[tuple[str | int, ...], Any]]:
     yield path, value
-    items = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
+    items = (
+        value.items()
+        if isinstance(value, dict)
+        else enumerate(value)
+        if isinstance(value, list)
+        else ()
+    )
     for key, item in items:
         yield from each((*path, key), item)
 
 
 @quick
-@given(st.dictionaries(st.text("abc-_\"'. ", max_size=5), values, max_size=4), st.sampled_from(["", "[tool.x]\n", "[[t]]\n"]))
+@given(
+    st.dictionaries(st.text("abc-_\"'. ", max_size=5), values, max_size=4),
+    st.sampled_from(["", "[tool.x]\n", "[[t]]\n"]),
+)
 def test_every_value_stands_where_it_is_said(table: dict[str, Any], header: str) -> None:
-    text = header + "".join(f" {toml(key)}\t= {toml(value)} # {key!a}\n" for key, value in table.items())
+    text = header + "".join(
+        f" {toml(key)}\t= {toml(value)} # {key!a}\n" for key, value in table.items()
+    )
     prefix = {"": (), "[tool.x]\n": ("tool", "x"), "[[t]]\n": ("t",)}[header]
     found = places(text)
     wanted = dict(pair for key, value in table.items() for pair in each((*prefix, key), value))
@@ -662,13 +843,22 @@ def test_places_of_any_text_end(text: str) -> None:
 
 def test_without_a_configuration_nothing_heavy_is_imported() -> None:
     code = (
-        "import sys; from msaa_lint.linter.settings import config, selection; from msaa_lint.input import discovery;"
+        "import sys; from msaa_lint.linter.settings import config, selection; from msaa_lint.input "
+        "import discovery;"
         "from msaa_lint.linter.suppress import baseline, suppressions;"
-        "load = config.Configurations().load; load('x.yaml'); discovery.discover(['pyproject.toml'], lambda p: load(p).settings, bool);"
-        "heavy = {'tomllib', 'pathlib', 'pathspec', 'difflib', 'json', 'inspect', 'dataclasses', 'hashlib', 'yaml', 'pydantic'};"
+        "load = config.Configurations().load; load('x.yaml'); "
+        "discovery.discover(['pyproject.toml'], lambda p: load(p).settings, bool);"
+        "heavy = {'tomllib', 'pathlib', 'pathspec', 'difflib', 'json', 'inspect', 'dataclasses', "
+        "'hashlib', 'yaml', 'pydantic'};"
         "print(sorted(heavy & set(sys.modules)))"
     )
     write("pyproject.toml", "[project]\nname = 'x'\n")
     path = str(ROOT)
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, env={**os.environ, "PYTHONPATH": path})
+    done = subprocess.run(
+        [sys.executable, "-c", code],
+        capture_output=True,
+        text=True,
+        check=True,
+        env={**os.environ, "PYTHONPATH": path},
+    )
     assert done.stdout == "[]\n"

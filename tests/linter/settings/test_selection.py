@@ -28,7 +28,13 @@ RESOLVE = Rule("MSAA301", "resolve-outside-pass", "note")
 NEWER = Rule("MSAA218", "something-new", edition="2026.10")
 OWN = Rule("ACME1", "own-rule", "error", "")
 RULES = [STORED, LOADED, RESOLVE, NEWER, OWN]
-NOT_OF_FRAMES = {"unused-suppression", "unknown-rule-in-suppression", "blanket-suppression", "unused-assumption", "hidden-character"}
+NOT_OF_FRAMES = {
+    "unused-suppression",
+    "unknown-rule-in-suppression",
+    "blanket-suppression",
+    "unused-assumption",
+    "hidden-character",
+}
 """What can be turned off that is no rule about a frame."""
 
 
@@ -77,8 +83,14 @@ def test_specificity(selector: str, rule: Rule, closeness: int) -> None:
         (Settings(edition="2026.2"), "MSAA201 MSAA202 MSAA301 ACME1"),
         (Settings(edition="2026.1", select=("ALL",)), "MSAA201 MSAA202 MSAA301 ACME1"),
         (Settings(edition="2026.1", extend_select=("MSAA21",)), "MSAA201 MSAA202 MSAA301 ACME1"),
-        (Settings(edition="2026.1", extend_select=("MSAA218",)), "MSAA201 MSAA202 MSAA301 MSAA218 ACME1"),
-        (Settings(edition="2026.1", extend_select=("something-new",)), "MSAA201 MSAA202 MSAA301 MSAA218 ACME1"),
+        (
+            Settings(edition="2026.1", extend_select=("MSAA218",)),
+            "MSAA201 MSAA202 MSAA301 MSAA218 ACME1",
+        ),
+        (
+            Settings(edition="2026.1", extend_select=("something-new",)),
+            "MSAA201 MSAA202 MSAA301 MSAA218 ACME1",
+        ),
         (Settings(select=("MSAA2",)), "MSAA201 MSAA202 MSAA218"),
         (Settings(select=()), ""),
         (Settings(select=("MSAA3",), extend_select=("ACME",)), "MSAA301 ACME1"),
@@ -89,7 +101,10 @@ def test_specificity(selector: str, rule: Rule, closeness: int) -> None:
         (Settings(extend_select=("multisampled-attachment-stored",), ignore=("ALL",)), "MSAA201"),
         (Settings(select=("MSAA201",), ignore=("multisampled-attachment-stored",)), ""),
         (Settings(select=("MSAA2",), ignore=("MSAA2",)), ""),
-        (Settings(select=("ALL",), ignore=("MSAA2",), extend_select=("MSAA20",)), "MSAA201 MSAA202 MSAA301 ACME1"),
+        (
+            Settings(select=("ALL",), ignore=("MSAA2",), extend_select=("MSAA20",)),
+            "MSAA201 MSAA202 MSAA301 ACME1",
+        ),
         (Settings(severity={"MSAA2": "off"}), "MSAA301 ACME1"),
         (Settings(severity={"MSAA2": "off", "MSAA201": "note"}), "MSAA201 MSAA301 ACME1"),
         (Settings(severity={"MSAA2": "off"}, select=("MSAA202", "ALL")), "MSAA202 MSAA301 ACME1"),
@@ -112,7 +127,12 @@ def test_the_command_line_has_the_last_word() -> None:
     assert codes(override(file, ignore=["ALL"], extend_select=["MSAA3"])) == "MSAA301"
     assert codes(override(file, select=["MSAA2"], ignore=["MSAA201"])) == "MSAA202 MSAA218"
     assert codes(override(file, severity={"MSAA218": "off"})) == ""
-    assert selected(override(Settings(severity={"MSAA201": "note"}), severity={"MSAA2": "error"})).severity(STORED) == "error"
+    assert (
+        selected(
+            override(Settings(severity={"MSAA201": "note"}), severity={"MSAA2": "error"})
+        ).severity(STORED)
+        == "error"
+    )
 
 
 @pytest.mark.parametrize(
@@ -128,7 +148,9 @@ def test_the_command_line_has_the_last_word() -> None:
         ({"MSAA201": "off", "MSAA2": "error"}, None, None),
     ],
 )
-def test_what_a_finding_weighs(severity: Mapping[str, str], suggested: str | None, weight: str | None) -> None:
+def test_what_a_finding_weighs(
+    severity: Mapping[str, str], suggested: str | None, weight: str | None
+) -> None:
     assert selected(Settings(severity=severity)).severity(STORED, None, suggested) == weight
 
 
@@ -150,17 +172,27 @@ def test_per_file_ignores_count_from_their_root() -> None:
 
 def test_what_is_not_about_frames_stays_on_unless_ignored() -> None:
     assert selected(Settings(select=("MSAA201",))).names() == {STORED.name, *NOT_OF_FRAMES}
-    assert selected(override(Settings(), select=["MSAA201"])).names() == {STORED.name, *NOT_OF_FRAMES}
+    assert selected(override(Settings(), select=["MSAA201"])).names() == {
+        STORED.name,
+        *NOT_OF_FRAMES,
+    }
     assert selected(Settings(select=(), ignore=("MSAA91",))).names() == set()
-    assert selected(Settings(select=(), severity={"unused-suppression": "off"})).names() == NOT_OF_FRAMES - {"unused-suppression"}
+    assert selected(
+        Settings(select=(), severity={"unused-suppression": "off"})
+    ).names() == NOT_OF_FRAMES - {"unused-suppression"}
 
 
 def test_settle_gives_9xx_warnings_the_configured_severity_and_leaves_the_errors() -> None:
     settings = Settings(
-        ignore=("MSAA9",), extend_select=("MSAA911",), severity={"MSAA9": "note"}, per_file_ignores=((Glob("x", os.getcwd()), ("ALL",)),)
+        ignore=("MSAA9",),
+        extend_select=("MSAA911",),
+        severity={"MSAA9": "note"},
+        per_file_ignores=((Glob("x", os.getcwd()), ("ALL",)),),
     )
     selection = selected(settings)
-    unused, blanket, syntax = (diagnostic(code, "", "a") for code in ("MSAA911", "MSAA913", "MSAA901"))
+    unused, blanket, syntax = (
+        diagnostic(code, "", "a") for code in ("MSAA911", "MSAA913", "MSAA901")
+    )
     assert selection.settle(unused) == unused._replace(severity="note")
     assert selection.settle(unused._replace(file="x")) is None
     assert selection.settle(blanket) is None
@@ -172,27 +204,61 @@ def test_settle_gives_9xx_warnings_the_configured_severity_and_leaves_the_errors
 def test_for_file_makes_a_vendors_rule_a_note_elsewhere() -> None:
     arm = Rule("MSAA201", "multisampled-attachment-stored", "warning", "2026.1", ("arm",))
     severity = selected(Settings(), arm).for_file("a.yaml")
-    assert [severity(arm, "warning", vendor) for vendor in ("arm", "img", None)] == ["warning", "note", "note"]
+    assert [severity(arm, "warning", vendor) for vendor in ("arm", "img", None)] == [
+        "warning",
+        "note",
+        "note",
+    ]
     assert selected(Settings(), arm).for_file("a.yaml", "arm")(arm, "error", None) == "error"
-    assert selected(Settings(severity={"MSAA2": "error"}), arm).for_file("a.yaml")(arm, "warning", None) == "error"
+    assert (
+        selected(Settings(severity={"MSAA2": "error"}), arm).for_file("a.yaml")(
+            arm, "warning", None
+        )
+        == "error"
+    )
     ignored = Settings(per_file_ignores=((Glob("a.yaml", os.getcwd()), ("ALL",)),))
     assert selected(ignored, arm).for_file("a.yaml")(arm, "warning", "arm") is None
 
 
 selectors = st.lists(
-    st.sampled_from(["ALL", "MSAA", "MSAA2", "MSAA20", "MSAA201", "MSAA3", "resolve-outside-pass", "ACME", "MSAA218"]),
+    st.sampled_from(
+        [
+            "ALL",
+            "MSAA",
+            "MSAA2",
+            "MSAA20",
+            "MSAA201",
+            "MSAA3",
+            "resolve-outside-pass",
+            "ACME",
+            "MSAA218",
+        ]
+    ),
     max_size=5,
     unique=True,
 )
 levels = st.dictionaries(
-    st.sampled_from(["ALL", "MSAA2", "MSAA201", "multisampled-attachment-stored"]), st.sampled_from(["note", "error", "off"])
+    st.sampled_from(["ALL", "MSAA2", "MSAA201", "multisampled-attachment-stored"]),
+    st.sampled_from(["note", "error", "off"]),
 )
 
 
 @hypothesis_settings(deadline=None, suppress_health_check=[HealthCheck.too_slow])
-@given(st.none() | selectors, selectors, selectors, levels, st.booleans(), st.randoms(use_true_random=False))
+@given(
+    st.none() | selectors,
+    selectors,
+    selectors,
+    levels,
+    st.booleans(),
+    st.randoms(use_true_random=False),
+)
 def test_the_order_of_selectors_does_not_matter(
-    select: list[str] | None, extend: list[str], ignore: list[str], severity: dict[str, str], pinned: bool, random: object
+    select: list[str] | None,
+    extend: list[str],
+    ignore: list[str],
+    severity: dict[str, str],
+    pinned: bool,
+    random: object,
 ) -> None:
     def verdicts(shuffle: bool) -> list[str | None]:
         def order(items: list[str]) -> tuple[str, ...]:

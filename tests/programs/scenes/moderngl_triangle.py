@@ -1,4 +1,6 @@
-"""A triangle in a framebuffer of four samples with ModernGL: python moderngl_triangle.py blit|shader, which is how it is resolved."""
+"""A triangle in a framebuffer of four samples with ModernGL: python moderngl_triangle.py
+blit|shader, which is how it is resolved.
+"""
 
 import struct
 import sys
@@ -35,7 +37,11 @@ def corners(fragment, *at):
 
 triangle = corners(ORANGE, -0.8, -0.8, 0.8, -0.8, 0.0, 0.8)
 everywhere = corners(AVERAGE, -1, -1, 3, -1, -1, 3)
-color = context.texture(SIZE, 4, samples=4, dtype="f2") if MODE == "shader" else context.renderbuffer(SIZE, 4, samples=4)
+color = (
+    context.texture(SIZE, 4, samples=4, dtype="f2")
+    if MODE == "shader"
+    else context.renderbuffer(SIZE, 4, samples=4)
+)
 scene = context.framebuffer([color], context.depth_renderbuffer(SIZE, samples=4))
 resolved = context.framebuffer([context.texture(SIZE, 4)])
 for _ in range(6):

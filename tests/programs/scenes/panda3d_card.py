@@ -2,7 +2,11 @@
 
 from panda3d.core import loadPrcFileData
 
-loadPrcFileData("", "framebuffer-multisample 1\nmultisamples 4\nwin-size 640 360\naudio-library-name null\nsync-video 0\nauto-flip 1")
+loadPrcFileData(
+    "",
+    "framebuffer-multisample 1\nmultisamples 4\nwin-size 640 360\naudio-library-name null\n"
+    "sync-video 0\nauto-flip 1",
+)
 from direct.showbase.ShowBase import ShowBase  # noqa: E402
 from panda3d.core import AntialiasAttrib, CardMaker  # noqa: E402
 

@@ -1,4 +1,6 @@
-"""A turning square in Qt Quick, on Vulkan in four samples, with a layer that has four samples of its own."""
+"""A turning square in Qt Quick, on Vulkan in four samples, with a layer that has four samples of
+its own.
+"""
 
 import sys
 from pathlib import Path

@@ -1,4 +1,6 @@
-"""A triangle in four samples with wgpu, offscreen: python wgpu_triangle.py discard|store|two|depth."""
+"""A triangle in four samples with wgpu, offscreen: python wgpu_triangle.py
+discard|store|two|depth.
+"""
 
 import sys
 
@@ -29,7 +31,9 @@ target, read = wgpu.TextureUsage.RENDER_ATTACHMENT, wgpu.TextureUsage.TEXTURE_BI
 
 
 def texture(label, format, samples, usage):
-    return device.create_texture(size=(WIDTH, HEIGHT, 1), format=format, sample_count=samples, usage=usage, label=label)
+    return device.create_texture(
+        size=(WIDTH, HEIGHT, 1), format=format, sample_count=samples, usage=usage, label=label
+    )
 
 
 def pipeline(code, format, **state):
@@ -55,7 +59,10 @@ triangle = pipeline(
 if MODE == "depth":
     farthest = texture("farthest depth", "r32float", 1, target | read)
     reduce = pipeline(FARTHEST, "r32float")
-    group = device.create_bind_group(layout=reduce.get_bind_group_layout(0), entries=[{"binding": 0, "resource": depth.create_view()}])
+    group = device.create_bind_group(
+        layout=reduce.get_bind_group_layout(0),
+        entries=[{"binding": 0, "resource": depth.create_view()}],
+    )
 
 
 def scene(encoder, label, load, store, depth_store, resolve=True):
@@ -72,7 +79,8 @@ def scene(encoder, label, load, store, depth_store, resolve=True):
             }
         ],
         depth_stencil_attachment={
-            "view": depth.create_view(), "depth_load_op": load, "depth_store_op": depth_store, "depth_clear_value": 1.0,
+            "view": depth.create_view(), "depth_load_op": load, "depth_store_op": depth_store,
+            "depth_clear_value": 1.0,
         },
     )  # fmt: skip
     attached.set_pipeline(triangle)
@@ -92,7 +100,10 @@ for _ in range(FRAMES):
     elif MODE == "depth":
         scene(encoder, "scene", "clear", "discard", "store")
         attached = encoder.begin_render_pass(
-            label="depth", color_attachments=[{"view": farthest.create_view(), "load_op": "clear", "store_op": "store"}]
+            label="depth",
+            color_attachments=[
+                {"view": farthest.create_view(), "load_op": "clear", "store_op": "store"}
+            ],
         )
         attached.set_pipeline(reduce)
         attached.set_bind_group(0, group)

@@ -24,7 +24,15 @@ from ..excerpt import Mark, excerpt_rows
 from ..full import elsewhere, marks, remarks
 from ..paths import display_path
 from ..place import place
-from ..summary import ON_TILER, converted_saving, files_saving, is_choice, summary, tally, usable_price
+from ..summary import (
+    ON_TILER,
+    converted_saving,
+    files_saving,
+    is_choice,
+    summary,
+    tally,
+    usable_price,
+)
 from ..undecided import explanation
 from ..words import plural
 from .diff import DiffLine, fix_diff
@@ -32,7 +40,9 @@ from .frames import frame_section
 from .page import write_page
 
 MAX_CARDS = 1000
-"""Findings with excerpt, remarks, and diff: the most severe ones, of these the ones that cost most."""
+"""Findings with excerpt, remarks, and diff: the most severe ones, of these the ones that cost
+most.
+"""
 
 MAX_FINDINGS = 10_000
 """Findings in the page at all; those without a card have a line."""
@@ -54,8 +64,9 @@ class Excerpt(NamedTuple):
 
 
 class Card(NamedTuple):
-    """A finding as the page shows it. `milliwatts` is what the page sorts and filters by, `page` the fragment of
-    its rule's page; without `full` it has no details."""
+    """A finding as the page shows it. `milliwatts` is what the page sorts and filters by, `page`
+    the fragment of its rule's page; without `full` it has no details.
+    """
 
     id: str
     finding: Finding
@@ -78,8 +89,12 @@ class Group(NamedTuple):
     cards: list[Card]
 
 
-def render(result: Result, out: Write, options: Options, frames: Sequence[CostedFrame] = ()) -> None:
-    """Writes the findings with their excerpts and fixes, and the graphs and waterfalls of the frames."""
+def render(
+    result: Result, out: Write, options: Options, frames: Sequence[CostedFrame] = ()
+) -> None:
+    """Writes the findings with their excerpts and fixes, and the graphs and waterfalls of the
+    frames.
+    """
     cards = _cards(result, options)
     anchors = _anchors(cards)
     frames = [frame for frame in frames if frame.cost.passes]
@@ -98,7 +113,11 @@ def render(result: Result, out: Write, options: Options, frames: Sequence[Costed
         "filters": _filters(result, cards, options),
         "rules": _rules(result, cards, options),
         "undecided": list(explanation(result, options)) if options.explain_undecided else [],
-        "suppressed": [line(entry.finding, result, options) for entry in result.suppressed[:MAX_CARDS]] if options.show_suppressed else [],
+        "suppressed": [
+            line(entry.finding, result, options) for entry in result.suppressed[:MAX_CARDS]
+        ]
+        if options.show_suppressed
+        else [],
     }
     write_page("check.html", context, out)
 
@@ -123,15 +142,28 @@ def _tiles(result: Result) -> list[tuple[str, str, str, str]]:
         (str(n), "", word if n == 1 else word + "s", word if n else "")
         for n, word in ((count.errors, "error"), (count.warnings, "warning"), (count.notes, "note"))
     ]
-    savings = [saving.all for saving in (files_saving(result), converted_saving(result)) if saving.all.findings]
+    savings = [
+        saving.all
+        for saving in (files_saving(result), converted_saving(result))
+        if saving.all.findings
+    ]
     prices = [saving.price for saving in savings if saving.price is not None]
     if prices:
         total = Price(*(sum(column) for column in zip(*prices, strict=True)))
-        label = "saved by fixes" + (ON_TILER if any(saving.assumes_tiler for saving in savings) else "")
+        label = "saved by fixes" + (
+            ON_TILER if any(saving.assumes_tiler for saving in savings) else ""
+        )
         tiles.append((figure(total.read_mb_per_s + total.write_mb_per_s, 0), "MB/s", label, "good"))
         tiles.append((figure(total.milliwatts, 0), "mW", label, "good"))
     if savings:
-        tiles.append((str(sum(saving.findings for saving in savings)), "", "findings that fixes remove", "good"))
+        tiles.append(
+            (
+                str(sum(saving.findings for saving in savings)),
+                "",
+                "findings that fixes remove",
+                "good",
+            )
+        )
     return tiles
 
 
@@ -143,7 +175,13 @@ def _inputs(result: Result, options: Options) -> list[dict[str, Any]]:
         {
             "file": display_path(each.file, options.root),
             "format": each.format or ("not read" if each.failed else ""),
-            "figures": [each.images, each.passes, each.pipelines, each.shaders, counts.get(each.file, 0)],
+            "figures": [
+                each.images,
+                each.passes,
+                each.pipelines,
+                each.shaders,
+                counts.get(each.file, 0),
+            ],
         }
         for each in result.inputs[:MAX_INPUTS]
     ]
@@ -151,12 +189,18 @@ def _inputs(result: Result, options: Options) -> list[dict[str, Any]]:
 
 def _cards(result: Result, options: Options) -> list[Card]:
     """The findings that the page has, in the order of the result."""
-    order = sorted(range(len(result.findings)), key=lambda number: _importance(result.findings[number]))
+    order = sorted(
+        range(len(result.findings)), key=lambda number: _importance(result.findings[number])
+    )
     full = set(order[:MAX_CARDS])
-    numbers = {file: number for number, file in enumerate(dict.fromkeys(finding.file for finding in result.findings))}
+    numbers = {
+        file: number
+        for number, file in enumerate(dict.fromkeys(finding.file for finding in result.findings))
+    }
     rules = {rule.name for rule in result.rules}
     return [
-        _card(number, result.findings[number], numbers, number in full, result, options, rules) for number in sorted(order[:MAX_FINDINGS])
+        _card(number, result.findings[number], numbers, number in full, result, options, rules)
+        for number in sorted(order[:MAX_FINDINGS])
     ]
 
 
@@ -169,7 +213,15 @@ def _milliwatts(finding: Finding) -> float:
     return price.milliwatts if price is not None and not is_choice(finding) else 0.0
 
 
-def _card(number: int, finding: Finding, inputs: Mapping[str, int], full: bool, result: Result, options: Options, rules: Set[str]) -> Card:
+def _card(
+    number: int,
+    finding: Finding,
+    inputs: Mapping[str, int],
+    full: bool,
+    result: Result,
+    options: Options,
+    rules: Set[str],
+) -> Card:
     lines = remarks(finding, rules) if full else []
     price = next((text for word, text in remarks(finding, rules) if word in ("cost", "price")), "")
     source = result.sources.get(finding.file)
@@ -186,7 +238,9 @@ def _card(number: int, finding: Finding, inputs: Mapping[str, int], full: bool, 
         full=full,
         excerpts=list(_excerpts(finding, result, options)) if full else [],
         remarks=[(word, text) for word, text in lines[1:] if word not in ("cost", "price", "docs")],
-        diff=fix_diff(source, edits) if full and edits and source is not None and source.origins is None else [],
+        diff=fix_diff(source, edits)
+        if full and edits and source is not None and source.origins is None
+        else [],
     )
 
 
@@ -199,7 +253,9 @@ def _excerpts(finding: Finding, result: Result, options: Options) -> Iterator[Ex
         other, at = result.sources.get(file), place(result, file, labels[0].span)
         if other is not None and at is not None:
             places = [Mark(*label.span, display(label.text), SECONDARY, False) for label in labels]
-            yield _excerpt(f"{display_path(file, options.root)}:{at.line}:{at.column}", other, places)
+            yield _excerpt(
+                f"{display_path(file, options.root)}:{at.line}:{at.column}", other, places
+            )
 
 
 def _excerpt(at: str, source: Source, places: Sequence[Mark]) -> Excerpt:
@@ -208,16 +264,33 @@ def _excerpt(at: str, source: Source, places: Sequence[Mark]) -> Excerpt:
 
 
 _SECTION = re.compile(r"(?:documents\[(\d+)\]\.)?(\w+)(?:\.([^.\[]+)|\[(\d+)\])?")
-_NOUNS = {"renderPasses": "render pass", "images": "image", "pipelines": "pipeline", "framebuffers": "framebuffer", "commands": "command"}
+_NOUNS = {
+    "renderPasses": "render pass",
+    "images": "image",
+    "pipelines": "pipeline",
+    "framebuffers": "framebuffer",
+    "commands": "command",
+}
 
 
-def _by_file(cards: Sequence[Card], frames: Sequence[CostedFrame], options: Options) -> list[tuple[str, list[Group]]]:
+def _by_file(
+    cards: Sequence[Card], frames: Sequence[CostedFrame], options: Options
+) -> list[tuple[str, list[Group]]]:
     """The findings by input, and there by pass or other object."""
-    names = {(frame.file, frame.number, each.path): each.name for frame in frames for each in frame.cost.passes}
+    names = {
+        (frame.file, frame.number, each.path): each.name
+        for frame in frames
+        for each in frame.cost.passes
+    }
     files: dict[str, dict[str, list[Card]]] = {}
     for card in cards:
-        files.setdefault(card.finding.file, {}).setdefault(_subject(card.finding, names), []).append(card)
-    return [(display_path(file, options.root), [Group(name, group) for name, group in groups.items()]) for file, groups in files.items()]
+        files.setdefault(card.finding.file, {}).setdefault(
+            _subject(card.finding, names), []
+        ).append(card)
+    return [
+        (display_path(file, options.root), [Group(name, group) for name, group in groups.items()])
+        for file, groups in files.items()
+    ]
 
 
 def _subject(finding: Finding, names: Mapping[tuple[str, int, str], str]) -> str:
@@ -237,7 +310,10 @@ def _subject(finding: Finding, names: Mapping[tuple[str, int, str], str]) -> str
 
 def _anchors(cards: Sequence[Card]) -> dict[tuple[str, str, str], str]:
     """The fragments of findings by file, code, and subject."""
-    return {(card.finding.file, card.finding.code, card.finding.subject): card.id for card in reversed(cards)}
+    return {
+        (card.finding.file, card.finding.code, card.finding.subject): card.id
+        for card in reversed(cards)
+    }
 
 
 def _of_frame(frame: CostedFrame, anchors: Mapping[tuple[str, str, str], str]) -> dict[int, str]:
@@ -249,28 +325,43 @@ def _of_frame(frame: CostedFrame, anchors: Mapping[tuple[str, str, str], str]) -
 def _more_frames(frames: Sequence[CostedFrame]) -> str:
     left = len(frames) - MAX_FRAMES
     return (
-        f"{left} of {len(frames)} frames are not drawn, those of which fixes save least; `msaa-lint cost` shows them." if left > 0 else ""
+        f"{left} of {len(frames)} frames are not drawn, those of which fixes save least; "
+        f"`msaa-lint cost` shows them."
+        if left > 0
+        else ""
     )
 
 
 def _left_out(count: int) -> str:
     texts = []
     if count > MAX_CARDS:
-        texts.append(f"{MAX_CARDS} findings have details: the most severe ones, of these the ones that cost most.")
+        texts.append(
+            f"{MAX_CARDS} findings have details: the most severe ones, of these the ones that cost "
+            f"most."
+        )
     if count > MAX_FINDINGS:
-        texts.append(f"{count - MAX_FINDINGS} of {count} findings are not on this page; --output json has all.")
+        texts.append(
+            f"{count - MAX_FINDINGS} of {count} findings are not on this page; --output json has "
+            f"all."
+        )
     return " ".join(texts)
 
 
 def _filters(result: Result, cards: Sequence[Card], options: Options) -> dict[str, Any]:
     """The choices of the filters, of what the findings have."""
     findings = [card.finding for card in cards]
-    severities, confidences = {finding.severity for finding in findings}, {finding.confidence for finding in findings}
+    severities, confidences = (
+        {finding.severity for finding in findings},
+        {finding.confidence for finding in findings},
+    )
     return {
         "severities": [each for each in reversed(SEVERITIES) if each in severities],
         "confidences": [each for each in reversed(CONFIDENCES) if each in confidences],
         "rules": sorted({finding.rule for finding in findings}),
-        "inputs": [(number, display_path(file, options.root)) for number, file in enumerate(dict.fromkeys(f.file for f in findings))],
+        "inputs": [
+            (number, display_path(file, options.root))
+            for number, file in enumerate(dict.fromkeys(f.file for f in findings))
+        ],
     }
 
 
@@ -296,7 +387,9 @@ def _rule_anchor(name: str) -> str:
 
 
 def _page(rule: RuleInfo) -> Markup:
-    """A rule's page as HTML: without raw HTML, and without links, which would be relative to the page's own folder, or a stranger's."""
+    """A rule's page as HTML: without raw HTML, and without links, which would be relative to the
+    page's own folder, or a stranger's.
+    """
     markdown = _markdown()
     tokens = markdown.parse(escape_lines(rule.markdown))
     for token in tokens:
@@ -307,4 +400,8 @@ def _page(rule: RuleInfo) -> Markup:
 
 @cache
 def _markdown() -> MarkdownIt:
-    return MarkdownIt("commonmark", {"html": False}).enable("table").disable(["link", "image", "autolink", "reference", "html_inline"])
+    return (
+        MarkdownIt("commonmark", {"html": False})
+        .enable("table")
+        .disable(["link", "image", "autolink", "reference", "html_inline"])
+    )

@@ -6,12 +6,29 @@ from collections.abc import Sequence
 from typing import Any
 
 from msaa_lint.core.finding import Finding
-from msaa_lint.experiments.confirm.outcome import CONFIRMED, FAILED, STATUSES, WRONG, DeviceRun, ShownImage, Verdict
+from msaa_lint.experiments.confirm.outcome import (
+    CONFIRMED,
+    FAILED,
+    STATUSES,
+    WRONG,
+    DeviceRun,
+    ShownImage,
+    Verdict,
+)
 from msaa_lint.experiments.confirm.pixels import ImageComparison
 from msaa_lint.linter.rules.reference_links import rule_address
 
 from .. import Options, Write
-from ..confirm_text import CREATED, PIXELS, agreement_of, heading, reasons, summary, time_text, times_of
+from ..confirm_text import (
+    CREATED,
+    PIXELS,
+    agreement_of,
+    heading,
+    reasons,
+    summary,
+    time_text,
+    times_of,
+)
 from ..cost_rows import LINE, Row, Table
 from .page import asset, write_page
 from .vega import data_url
@@ -23,16 +40,22 @@ SIDE = 320
 """Pictures are enlarged by whole factors until they are about as wide, in CSS pixels."""
 
 
-def render(runs: Sequence[DeviceRun], errors: Sequence[Finding], out: Write, options: Options) -> None:
+def render(
+    runs: Sequence[DeviceRun], errors: Sequence[Finding], out: Write, options: Options
+) -> None:
     """Writes the verdicts of each device, then each pass with its messages and its pictures."""
     devices = [_device(run, number, options) for number, run in enumerate(runs, 1)]
     context = {
-        "title": f"Confirmation on {runs[0].title}" if len(runs) == 1 else f"Confirmation on {len(runs)} devices",
+        "title": f"Confirmation on {runs[0].title}"
+        if len(runs) == 1
+        else f"Confirmation on {len(runs)} devices",
         "errors": [f"{error.file}: {error.message}" for error in errors],
         "comparison": _comparison([run for run in runs if not run.unusable]),
         "devices": devices,
     }
-    write_page("confirm.html", context, out, styles=[asset("confirm.css")], scripts=[asset("confirm.js")])
+    write_page(
+        "confirm.html", context, out, styles=[asset("confirm.css")], scripts=[asset("confirm.js")]
+    )
 
 
 def _comparison(runs: Sequence[DeviceRun]) -> Table | None:
@@ -47,14 +70,19 @@ def _comparison(runs: Sequence[DeviceRun]) -> Table | None:
             names[verdict.file, verdict.path] = verdict.file, verdict.name
             text = verdict.status + (f", {time_text(time)} ms" if time is not None else "")
             rows.setdefault((verdict.file, verdict.path), {})[number] = text
-    cells = [Row(LINE, (*names[key], *(texts.get(n, "-") for n in range(len(runs)))), ()) for key, texts in rows.items()]
+    cells = [
+        Row(LINE, (*names[key], *(texts.get(n, "-") for n in range(len(runs)))), ())
+        for key, texts in rows.items()
+    ]
     return Table(("file", "pass", *(run.title for run in runs)), (), cells)
 
 
 def _device(run: DeviceRun, number: int, options: Options) -> dict[str, Any]:
     if run.unusable:
         return {"id": f"device-{number}", "name": run.title, "unusable": run.unusable}
-    counts = {status: sum(verdict.status == status for verdict in run.verdicts) for status in STATUSES}
+    counts = {
+        status: sum(verdict.status == status for verdict in run.verdicts) for status in STATUSES
+    }
     is_timed = any(verdict.times is not None for verdict in run.verdicts)
     return {
         "id": f"device-{number}",
@@ -62,13 +90,25 @@ def _device(run: DeviceRun, number: int, options: Options) -> dict[str, Any]:
         "unusable": "",
         "heading": heading(run),
         "notes": run.notes,
-        "tiles": [(count, "", status, KINDS.get(status, "warning")) for status, count in counts.items() if count],
+        "tiles": [
+            (count, "", status, KINDS.get(status, "warning"))
+            for status, count in counts.items()
+            if count
+        ],
         "heads": ["pass", "status", "created", "mistakes reported by", "pixels after fixes"],
         # Of these, whether a cell is a figure.
-        "times": [("as written, ms", True), ("fixed, ms", True), ("difference here", False), ("cost model, MB/s", True)]
+        "times": [
+            ("as written, ms", True),
+            ("fixed, ms", True),
+            ("difference here", False),
+            ("cost model, MB/s", True),
+        ]
         if is_timed
         else [],
-        "passes": [_pass(verdict, f"pass-{number}-{n}", is_timed, options) for n, verdict in enumerate(run.verdicts, 1)],
+        "passes": [
+            _pass(verdict, f"pass-{number}-{n}", is_timed, options)
+            for n, verdict in enumerate(run.verdicts, 1)
+        ],
         "cannot_show": run.cannot_show if is_timed else "",
         "summary": [] if options.quiet else list(summary(run)),
     }
@@ -83,9 +123,15 @@ def _pass(verdict: Verdict, name: str, is_timed: bool, options: Options) -> dict
         "kind": KINDS.get(verdict.status, "warning"),
         "cells": [CREATED[verdict.created], agreement_of(verdict), PIXELS[verdict.pixels_equal]],
         "times": times_of(verdict) if is_timed else [],
-        "rules": [(f"{code} {rule}", rule_address(options.docs_url, code, rule)) for code, rule in verdict.rules],
+        "rules": [
+            (f"{code} {rule}", rule_address(options.docs_url, code, rule))
+            for code, rule in verdict.rules
+        ],
         "reasons": reasons(verdict, options.verbose),
-        "images": [_image(image, comparisons.get(image.image), f"{name}-{n}") for n, image in enumerate(verdict.shown, 1)],
+        "images": [
+            _image(image, comparisons.get(image.image), f"{name}-{n}")
+            for n, image in enumerate(verdict.shown, 1)
+        ],
     }
 
 
@@ -96,11 +142,14 @@ def _image(image: ShownImage, comparison: ImageComparison | None, name: str) -> 
         "name": image.image,
         "width": image.width * scale,
         "height": image.height * scale,
-        "size": f"{image.width}x{image.height}" + (f", enlarged {scale} times" if scale > 1 else ""),
+        "size": f"{image.width}x{image.height}"
+        + (f", enlarged {scale} times" if scale > 1 else ""),
         "as_written": data_url(image.as_written, "image/png"),
         "fixed": data_url(image.fixed, "image/png") if image.fixed else "",
         "difference": data_url(image.difference, "image/png") if image.difference else "",
-        "text": comparison.text if comparison is not None else "there is no fixed version to compare it with",
+        "text": comparison.text
+        if comparison is not None
+        else "there is no fixed version to compare it with",
         "scale": _scale(comparison),
     }
 
@@ -115,5 +164,6 @@ def _scale(comparison: ImageComparison | None) -> str:
         else "not a number"
     )
     return (
-        f"Difference, amplified: texels that are equal are black, and the greatest difference ({steps}) is white; the least is a dark gray"
+        f"Difference, amplified: texels that are equal are black, and the greatest difference "
+        f"({steps}) is white; the least is a dark gray"
     )

@@ -25,11 +25,33 @@ def render(summary: Summary, out: Write, options: Options) -> None:
 def render_query(result: Rows, out: Write, options: Options) -> None:
     """Writes the rows of a query."""
     table = query_table(result)
-    _write("Rows of a corpus", [], [("The rows of the query", table)] if table.rows else [], [], "No rows", out)
+    _write(
+        "Rows of a corpus",
+        [],
+        [("The rows of the query", table)] if table.rows else [],
+        [],
+        "No rows",
+        out,
+    )
 
 
 def _write(
-    title: str, lines: Sequence[str], captioned: Sequence[Captioned], noted: Sequence[tuple[str, str]], nothing: str, out: Write
+    title: str,
+    lines: Sequence[str],
+    captioned: Sequence[Captioned],
+    noted: Sequence[tuple[str, str]],
+    nothing: str,
+    out: Write,
 ) -> None:
     sections = [(caption, limited(table)) for caption, table in captioned]
-    write_page("corpus.html", {"title": title, "lines": lines, "sections": sections, "remarks": noted, "nothing": nothing}, out)
+    write_page(
+        "corpus.html",
+        {
+            "title": title,
+            "lines": lines,
+            "sections": sections,
+            "remarks": noted,
+            "nothing": nothing,
+        },
+        out,
+    )

@@ -24,11 +24,15 @@ MAX_FRAMES = 50
 
 
 def render(frames: Sequence[CostedFrame], errors: Result, out: Write, options: Options) -> None:
-    """Writes the costs of each frame, with its graph and waterfall; for several frames, their totals first."""
+    """Writes the costs of each frame, with its graph and waterfall; for several frames, their
+    totals first.
+    """
     names = [cost_rows.frame_name(frame, options) for frame in frames]
     shown = frames[:MAX_FRAMES]
     context = {
-        "title": f"Cost of {names[0]}" if len(frames) == 1 else f"Cost of {plural(len(frames), 'frame')}",
+        "title": f"Cost of {names[0]}"
+        if len(frames) == 1
+        else f"Cost of {plural(len(frames), 'frame')}",
         "errors": _errors(errors, options),
         "totals": cost_rows.limited(cost_rows.totals(frames, names)) if len(frames) > 1 else None,
         "frames": [_section(frame, options) for frame in shown],
@@ -37,7 +41,9 @@ def render(frames: Sequence[CostedFrame], errors: Result, out: Write, options: O
     write_page("cost.html", context, out)
 
 
-def render_comparison(compared: CostComparison, errors: Result, out: Write, options: Options) -> None:
+def render_comparison(
+    compared: CostComparison, errors: Result, out: Write, options: Options
+) -> None:
     """Writes what the new input costs more than the old one, and both frames side by side."""
     old, new = (display_path(file, options.root) for file in (compared.old_file, compared.new_file))
     sides = [{frame.number: frame for frame in frames} for frames in (compared.old, compared.new)]
@@ -51,7 +57,8 @@ def render_comparison(compared: CostComparison, errors: Result, out: Write, opti
             "waterfall": [(bar, "") for bar in waterfall.of_comparison(comparison)],
             "changes": cost_rows.limited(cost_rows.changes(comparison)),
             "remarks": cost_rows.comparison_remarks(compared, number),
-            "sides": [_side(side[number], name) for side, name in zip(sides, titles, strict=True) if number in side],
+            "sides": [_side(side[number], name) for side, name in zip(sides, titles,
+            strict=True) if number in side],
         })  # fmt: skip
     context = {
         "title": f"{old} → {new}",
@@ -65,15 +72,33 @@ def render_comparison(compared: CostComparison, errors: Result, out: Write, opti
 def _section(frame: CostedFrame, options: Options) -> dict[str, Any]:
     section = frame_section(frame, options)
     passes, states, images = map(cost_rows.limited, cost_rows.frame_tables(frame))
-    tables = [("What passes and attachments cost", passes), ("The frame otherwise", states), ("Memory of images", images)]
-    return {**section, "tiles": _tiles(frame.cost), "tables": [(caption, table) for caption, table in tables if table.rows]}
+    tables = [
+        ("What passes and attachments cost", passes),
+        ("The frame otherwise", states),
+        ("Memory of images", images),
+    ]
+    return {
+        **section,
+        "tiles": _tiles(frame.cost),
+        "tables": [(caption, table) for caption, table in tables if table.rows],
+    }
 
 
 def _side(frame: CostedFrame, name: str) -> dict[str, Any]:
     """A frame of a comparison."""
-    graph = graph_section(frame.graph, frame.cost.fps, "as written") if frame.graph is not None and frame.graph.passes else None
+    graph = (
+        graph_section(frame.graph, frame.cost.fps, "as written")
+        if frame.graph is not None and frame.graph.passes
+        else None
+    )
     table = cost_rows.limited(cost_rows.frame_tables(frame)[0])
-    return {"name": name, "head": cost_rows.head(frame.cost), "tiles": _tiles(frame.cost), "graph": graph, "table": table}
+    return {
+        "name": name,
+        "head": cost_rows.head(frame.cost),
+        "tiles": _tiles(frame.cost),
+        "graph": graph,
+        "table": table,
+    }
 
 
 def _tiles(cost: FrameCost) -> list[tuple[str, str, str, str]]:
@@ -81,7 +106,11 @@ def _tiles(cost: FrameCost) -> list[tuple[str, str, str, str]]:
     total = cost.total
     least = cost_rows.AT_LEAST if cost.unknown else ""
     share = cost.budget_share
-    budget = [] if share is None else [(least + figure(100 * share, 1), "%", f"of {cost.budget_milliwatts:g} mW", "")]
+    budget = (
+        []
+        if share is None
+        else [(least + figure(100 * share, 1), "%", f"of {cost.budget_milliwatts:g} mW", "")]
+    )
     return [
         (least + figure(total.read_mb_per_s, 0), "MB/s", "read from memory", "memory"),
         (least + figure(total.write_mb_per_s, 0), "MB/s", "written to memory", "memory"),
@@ -101,7 +130,12 @@ def _change_tiles(change: Change) -> list[tuple[str, str, str, str]]:
         (difference.milliwatts, 0, "mW", "power"),
     )
     return [
-        (figure(value, digits, sign=True), unit, label, "memory" if value > 0 else "good" if value < 0 else "")
+        (
+            figure(value, digits, sign=True),
+            unit,
+            label,
+            "memory" if value > 0 else "good" if value < 0 else "",
+        )
         for value, digits, unit, label in figures
     ]
 

@@ -16,7 +16,9 @@ from ..escape import clip
 MAX_EDITS = 20
 MAX_LINES = 80
 MAX_CHARACTERS = 20_000
-"""What the diff of one finding shows at most: edits, lines, and characters of the text that they change."""
+"""What the diff of one finding shows at most: edits, lines, and characters of the text that they
+change.
+"""
 
 _CONTEXT = 1
 _MAX_LINE = 500
@@ -32,13 +34,22 @@ class DiffLine(NamedTuple):
 
 
 def fix_diff(source: Source, edits: Sequence[Edit]) -> list[DiffLine]:
-    """The lines that edits change, with one around them. Its size, and the time it takes, do not depend on the size of the text."""
+    """The lines that edits change, with one around them. Its size, and the time it takes, do not
+    depend on the size of the text.
+    """
     lines = list(_lines(source, sorted(edits[:MAX_EDITS])))
     left = len(edits) - MAX_EDITS
     if len(lines) > MAX_LINES:
-        lines = [*lines[:MAX_LINES], DiffLine("hunk", "", "more lines are not shown; `msaa-lint check --diff` prints all")]
+        lines = [
+            *lines[:MAX_LINES],
+            DiffLine("hunk", "", "more lines are not shown; `msaa-lint check --diff` prints all"),
+        ]
     elif left > 0:
-        lines.append(DiffLine("hunk", "", f"{left} more edits are not shown; `msaa-lint check --diff` prints all"))
+        lines.append(
+            DiffLine(
+                "hunk", "", f"{left} more edits are not shown; `msaa-lint check --diff` prints all"
+            )
+        )
     return lines
 
 
@@ -48,11 +59,21 @@ def _lines(source: Source, edits: Sequence[Edit]) -> Iterator[DiffLine]:
         start, end = starts[first - 1], starts[last] if last < len(starts) else len(source.text)
         yield DiffLine("hunk", "", f"@@ line {first} @@")
         if end - start > MAX_CHARACTERS:
-            yield DiffLine("hunk", "", f"{last - first + 1} lines, too long to show; `msaa-lint check --diff` prints them")
+            yield DiffLine(
+                "hunk",
+                "",
+                f"{last - first + 1} lines, too long to show; `msaa-lint check --diff` prints them",
+            )
             continue
         before = source.text[start:end]
         try:
-            after = apply(before, [Edit(Span(edit.span.start - start, edit.span.end - start), edit.text) for edit in group])
+            after = apply(
+                before,
+                [
+                    Edit(Span(edit.span.start - start, edit.span.end - start), edit.text)
+                    for edit in group
+                ],
+            )
         except ValueError:
             continue  # overlapping edits, or some that are not within the text, have no diff
         changes = difflib.unified_diff(_split(before), _split(after), n=_CONTEXT, lineterm="")

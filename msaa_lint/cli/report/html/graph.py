@@ -1,7 +1,8 @@
-"""The layout of a frame's graph: passes from top to bottom, each image a line beside them from its first use to its last.
+"""The layout of a frame's graph: passes from top to bottom, each image a line beside them from its
+first use to its last.
 
-It is like a sequence diagram: a line from an image to a pass is a read, and back a write. Images of which one ends before the other begins
-share a column, so that a long frame stays narrow.
+It is like a sequence diagram: a line from an image to a pass is a read, and back a write. Images of
+which one ends before the other begins share a column, so that a long frame stays narrow.
 """
 
 from __future__ import annotations
@@ -41,7 +42,9 @@ class Box(NamedTuple):
 
 
 class Arrow(NamedTuple):
-    """A flow between a pass, whose edge is at `left`, and an image at `right`. `kind` is `read`, `write`, or `tile`."""
+    """A flow between a pass, whose edge is at `left`, and an image at `right`. `kind` is `read`,
+    `write`, or `tile`.
+    """
 
     left: int
     right: int
@@ -84,7 +87,9 @@ class FlowRow(NamedTuple):
 
 
 def drawing(graph: FrameGraph, fps: float) -> Drawing:
-    """The graph as boxes and lines, in pixels. The time it takes is proportional to the number of passes and flows."""
+    """The graph as boxes and lines, in pixels. The time it takes is proportional to the number of
+    passes and flows.
+    """
     return _Layout(graph, fps).drawing()
 
 
@@ -96,14 +101,18 @@ def flow_rows(graph: FrameGraph) -> Iterator[FlowRow]:
             path = "stays on the tile" if flow.direction == TILE else "through memory"
             action = "drawn to" if flow.direction == TILE else _action(flow)
             megabytes = "" if flow.direction == TILE else figure(flow.bytes / 1e6)
-            yield FlowRow(each.name, graph.images[flow.image].name, samples, action, path, megabytes)
+            yield FlowRow(
+                each.name, graph.images[flow.image].name, samples, action, path, megabytes
+            )
 
 
 class _Layout:
     def __init__(self, graph: FrameGraph, fps: float) -> None:
         self._graph = graph
         self._fps = fps
-        self._passes = [each._replace(flows=each.flows[:MAX_FLOWS]) for each in graph.passes[:MAX_PASSES]]
+        self._passes = [
+            each._replace(flows=each.flows[:MAX_FLOWS]) for each in graph.passes[:MAX_PASSES]
+        ]
         uses: dict[int, list[int]] = {}
         for number, each in enumerate(self._passes):
             for flow in each.flows:
@@ -111,14 +120,20 @@ class _Layout:
                     uses.setdefault(flow.image, []).append(number)
         self._uses = uses
         self._columns = _columns(uses, len(self._passes))
-        self._largest = max((flow.bytes for each in self._passes for flow in each.flows), default=0) or 1
+        self._largest = (
+            max((flow.bytes for each in self._passes for flow in each.flows), default=0) or 1
+        )
 
     def drawing(self) -> Drawing:
         passes, images, arrows = list[Box](), list[Box](), list[Arrow]()
         ends: dict[int, tuple[int, int]] = {}
         y = _MARGIN
         for number, each in enumerate(self._passes):
-            begun = [image for image, numbers in self._uses.items() if numbers[0] == number] if each.flows else []
+            begun = (
+                [image for image, numbers in self._uses.items() if numbers[0] == number]
+                if each.flows
+                else []
+            )
             if begun:
                 images += [self._image(image, y) for image in begun]
                 ends.update((image, (y + _IMAGE_HEIGHT, y + _IMAGE_HEIGHT)) for image in begun)
@@ -135,7 +150,9 @@ class _Layout:
         columns = 1 + max(self._columns.values(), default=-1)
         lifelines = [Lifeline(self._x(image), top, bottom) for image, (top, bottom) in ends.items()]
         width = _PASS_WIDTH + _LABEL_WIDTH + columns * _COLUMN + 2 * _MARGIN
-        return Drawing(width, y - _GAP + _MARGIN, passes, images, lifelines, arrows, self._left_out())
+        return Drawing(
+            width, y - _GAP + _MARGIN, passes, images, lifelines, arrows, self._left_out()
+        )
 
     def _x(self, image: int) -> int:
         """The middle of an image's column."""
@@ -150,17 +167,27 @@ class _Layout:
         return Box(*box, _cut(image.name, _IMAGE_TEXT), _cut(detail, _IMAGE_TEXT + 2), title, kind)
 
     def _arrow(self, each: GraphPass, flow: Flow, y: int) -> Arrow:
-        width = 1.5 if flow.direction == TILE else round(1.5 + 5 * sqrt(flow.bytes / self._largest), 2)
+        width = (
+            1.5 if flow.direction == TILE else round(1.5 + 5 * sqrt(flow.bytes / self._largest), 2)
+        )
         image = self._graph.images[flow.image].name
         samples = f"{flow.samples}x " if flow.samples is not None else ""
         if flow.direction == TILE:
-            label, title = f"{samples}stays on the tile", f"{each.name} draws to {image}, which stays on the tile"
+            label, title = (
+                f"{samples}stays on the tile",
+                f"{each.name} draws to {image}, which stays on the tile",
+            )
         else:
             label = f"{_action(flow, 14)} {samples}· {amount(flow.bytes)}"
             rate = figure(flow.bytes * self._fps / 1e6)
             verb = "writes" if flow.direction == WRITE else "reads"
-            title = f"{each.name} {verb} {image} ({_action(flow)}): {amount(flow.bytes)} a frame, {rate} MB/s"
-        return Arrow(_MARGIN + _PASS_WIDTH, self._x(flow.image), y, width, flow.direction, label, title)
+            title = (
+                f"{each.name} {verb} {image} ({_action(flow)}): {amount(flow.bytes)} a frame, "
+                f"{rate} MB/s"
+            )
+        return Arrow(
+            _MARGIN + _PASS_WIDTH, self._x(flow.image), y, width, flow.direction, label, title
+        )
 
     def _left_out(self) -> str:
         graph = self._graph
@@ -202,17 +229,28 @@ def _pass_box(each: GraphPass, y: int, height: int) -> Box:
     words += f", {amount(size)}" if size else ""
     title = f"{each.name}: {words}{times}"
     kind = "command" if each.kind == "command" else "pass"
-    return Box(_MARGIN, y, _PASS_WIDTH, height, _cut(each.name, _PASS_TEXT), words + times, title, kind)
+    return Box(
+        _MARGIN, y, _PASS_WIDTH, height, _cut(each.name, _PASS_TEXT), words + times, title, kind
+    )
 
 
 def _detail(image: GraphImage) -> str:
-    return " ".join([f"{image.samples}x" if image.samples is not None else "", image.format or ""]).strip() or "format unknown"
+    return (
+        " ".join(
+            [f"{image.samples}x" if image.samples is not None else "", image.format or ""]
+        ).strip()
+        or "format unknown"
+    )
 
 
 def _memory(image: GraphImage) -> str:
     if image.committed is None:
         return ""
-    return f", {figure(image.committed / 2**20)} MiB" if image.committed else ", no memory (lazily allocated)"
+    return (
+        f", {figure(image.committed / 2**20)} MiB"
+        if image.committed
+        else ", no memory (lazily allocated)"
+    )
 
 
 def _action(flow: Flow, room: int = 4096) -> str:
@@ -227,5 +265,9 @@ def amount(size: int) -> str:
     """Bytes in words: `118 MB`, `64 kB`."""
     for unit, factor in (("GB", 1e9), ("MB", 1e6), ("kB", 1e3)):
         if size >= factor:
-            return f"{size / factor:.3g} {unit}" if size < 1e3 * factor else f"{size / factor:.0f} {unit}"
+            return (
+                f"{size / factor:.3g} {unit}"
+                if size < 1e3 * factor
+                else f"{size / factor:.0f} {unit}"
+            )
     return f"{size} B"

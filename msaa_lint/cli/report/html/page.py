@@ -1,7 +1,9 @@
-"""The frame of every HTML report: one file with its style, script, and data, under a strict Content-Security-Policy.
+"""The frame of every HTML report: one file with its style, script, and data, under a strict
+Content-Security-Policy.
 
-A report is a template of `templates/` that extends `base.html` and fills its blocks. Text of an input is safe in any place of one: jinja2
-escapes HTML, and `finalize` escapes before that what `escape` does in a terminal (controls, characters that reorder a line).
+A report is a template of `templates/` that extends `base.html` and fills its blocks. Text of an
+input is safe in any place of one: jinja2 escapes HTML, and `finalize` escapes before that what
+`escape` does in a terminal (controls, characters that reorder a line).
 """
 
 from __future__ import annotations
@@ -39,8 +41,9 @@ def write_page(
 ) -> None:
     """Writes a page.
 
-    `context` has `title` and what the template uses. `data` is what scripts read from the JSON of the element `data`. `styles` and
-    `scripts` are texts that follow those of all reports; they must be the package's own, because the policy of the page allows them.
+    `context` has `title` and what the template uses. `data` is what scripts read from the JSON of
+    the element `data`. `styles` and `scripts` are texts that follow those of all reports; they must
+    be the package's own, because the policy of the page allows them.
     """
     styles, scripts = [asset("style.css"), *styles], [asset("report.js"), *scripts]
     for script in scripts:
@@ -59,7 +62,9 @@ def write_page(
 
 
 def policy(styles: Sequence[str], scripts: Sequence[str]) -> str:
-    """The Content-Security-Policy of a page: nothing but these texts, by their hashes, and pictures inside the page."""
+    """The Content-Security-Policy of a page: nothing but these texts, by their hashes, and pictures
+    inside the page.
+    """
     return "; ".join((
         "default-src 'none'",
         f"script-src {' '.join(map(_hash, scripts))}",
@@ -101,5 +106,9 @@ def _environment() -> jinja2.Environment:
 
 
 def _visible(value: object) -> object:
-    """What a template prints for a value: text on one line, with characters that cannot be seen escaped."""
-    return escape(clip(value)) if isinstance(value, str) and not isinstance(value, Markup) else value
+    """What a template prints for a value: text on one line, with characters that cannot be seen
+    escaped.
+    """
+    return (
+        escape(clip(value)) if isinstance(value, str) and not isinstance(value, Markup) else value
+    )

@@ -1,4 +1,6 @@
-"""The figure of a study whose points, front, and recommendation follow a slider for the cost of shading."""
+"""The figure of a study whose points, front, and recommendation follow a slider for the cost of
+shading.
+"""
 
 from __future__ import annotations
 
@@ -19,22 +21,33 @@ WIDTH, HEIGHT, REACH = 560.0, 330.0, 120.0
 
 
 def slider(study: Study, scene: SceneSummary, figures: PageFigures) -> dict[str, Any] | None:
-    """Adds the figure of a scene, with what it shows at each cost; None where no model of times was fitted."""
+    """Adds the figure of a scene, with what it shows at each cost; None where no model of times was
+    fitted.
+    """
     costs = predictions(study, scene.name)
     drawn = [(cost, row[0]) for cost in costs for row in panels(cost.study)[:1]]
     if len(drawn) < 2:
         return None
     axes = axes_of([panel for _, panel in drawn], WIDTH, HEIGHT)
     labels = [labels_of(panel, axes, REACH) for _, panel in drawn]
-    # The script begins where the slider does, at the cost in the middle of those that were measured.
+    # The script begins where the slider does, at the cost in the middle of those that were
+    # measured.
     measured = [number for number, (cost, _) in enumerate(drawn) if cost.is_measured]
     start = measured[len(measured) // 2]
     spec = _spec(drawn[start][1], axes, labels[start], study)
     states = [
-        {**_state(cost, panel), "rows": [columns(rows) for rows in layer_rows(panel, axes, of_panel)]}
+        {
+            **_state(cost, panel),
+            "rows": [columns(rows) for rows in layer_rows(panel, axes, of_panel)],
+        }
         for (cost, panel), of_panel in zip(drawn, labels, strict=True)
     ]
-    figure = figures.add_moving(spec, f"Error against time by cost of shading: {scene.name}", data=data_names(spec), states=states)
+    figure = figures.add_moving(
+        spec,
+        f"Error against time by cost of shading: {scene.name}",
+        data=data_names(spec),
+        states=states,
+    )
     model = next(model for model in study.models if model.scene == scene.name)
     return {
         "figure": figure,
@@ -53,7 +66,12 @@ def _spec(panel: Panel, axes: Any, labels: Sequence[Any], study: Study) -> Any:
     # What the title of a panel says changes with the cost; the page says it.
     chart = chart_of(panel, axes, labels, figure, first=True)
     chart.title = altair.Undefined
-    heading = title(f"Error against {'added ' if panel.base is not None else ''}time: {display(study.device)}", [], WIDTH, size=13)
+    heading = title(
+        f"Error against {'added ' if panel.base is not None else ''}time: {display(study.device)}",
+        [],
+        WIDTH,
+        size=13,
+    )
     figure.add([chart], heading)
     return figure.spec()
 

@@ -1,4 +1,6 @@
-"""Figures in a page: an SVG picture that needs no script, and the specification and the scripts with which Vega draws it there."""
+"""Figures in a page: an SVG picture that needs no script, and the specification and the scripts
+with which Vega draws it there.
+"""
 
 from __future__ import annotations
 
@@ -18,14 +20,19 @@ DIGITS = 5
 
 
 class PageFigures:
-    """The figures of a page. Templates draw them by number; `data` is what the script `vega.js` reads."""
+    """The figures of a page. Templates draw them by number; `data` is what the script `vega.js`
+    reads.
+    """
 
     def __init__(self) -> None:
         self.data: list[dict[str, Any]] = []
 
     def add(self, spec: Spec, name: str) -> dict[str, Any]:
         """Adds a figure; returns what the template `figure` of `figures.html` takes."""
-        return {**self.add_moving(spec, name), "picture": data_url(draw(spec, "svg"), "image/svg+xml")}
+        return {
+            **self.add_moving(spec, name),
+            "picture": data_url(draw(spec, "svg"), "image/svg+xml"),
+        }
 
     def add_moving(self, spec: Spec, name: str, **states: Any) -> dict[str, Any]:
         """Adds a figure without a picture: `states` are what its slider shows."""

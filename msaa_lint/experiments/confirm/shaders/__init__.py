@@ -1,1 +1,3 @@
-"""Shaders: GLSL, and the SPIR-V made from it by `python -m tests.experiments.confirm.generate_shaders`."""
+"""Shaders: GLSL, and the SPIR-V made from it by `python -m
+tests.experiments.confirm.generate_shaders`.
+"""

@@ -7,7 +7,16 @@ import os
 import sys
 from collections.abc import Iterator, Sequence
 
-from msaa_lint.frame.spirv.words import HEADER, OP_DECORATE, OP_ENTRY_POINT, OP_NAME, OP_STORE, OP_VARIABLE, instructions, words_of
+from msaa_lint.frame.spirv.words import (
+    HEADER,
+    OP_DECORATE,
+    OP_ENTRY_POINT,
+    OP_NAME,
+    OP_STORE,
+    OP_VARIABLE,
+    instructions,
+    words_of,
+)
 
 FOLDER = os.path.dirname(os.path.abspath(__file__))
 OUTPUTS = {"float": 0, "sint": 8, "uint": 16}
@@ -20,15 +29,18 @@ DECORATION_LOCATION, OUTPUT = 30, 3
 
 
 def read(shader: str, outputs: Sequence[str] | None = None) -> bytes:
-    """The SPIR-V of a built-in shader (`scene.frag`). `outputs` are the kinds of outputs by attachment, empty for none; None leaves the
-    shader unchanged."""
+    """The SPIR-V of a built-in shader (`scene.frag`). `outputs` are the kinds of outputs by
+    attachment, empty for none; None leaves the shader unchanged.
+    """
     with open(os.path.join(FOLDER, f"{shader}.spv"), "rb") as file:
         code = file.read()
     return code if outputs is None else with_outputs(code, outputs)
 
 
 def with_outputs(code: bytes, outputs: Sequence[str]) -> bytes:
-    """SPIR-V with the requested outputs at the locations of their attachments, and without the others."""
+    """SPIR-V with the requested outputs at the locations of their attachments, and without the
+    others.
+    """
     words = words_of(code)
     written = {i[2] for op, i in instructions(words) if op == OP_VARIABLE and i[3] == OUTPUT}
     if len(outputs) > SLOTS:
@@ -40,7 +52,9 @@ def with_outputs(code: bytes, outputs: Sequence[str]) -> bytes:
     for op, each in instructions(words):
         if op == OP_ENTRY_POINT:
             each = _without(each, dropped)
-        elif (op in (OP_NAME, OP_DECORATE, OP_STORE) and each[1] in dropped) or (op == OP_VARIABLE and each[2] in dropped):
+        elif (op in (OP_NAME, OP_DECORATE, OP_STORE) and each[1] in dropped) or (
+            op == OP_VARIABLE and each[2] in dropped
+        ):
             continue
         elif op == OP_DECORATE and each[2] == DECORATION_LOCATION and each[1] in locations:
             each = each[:3] + array.array("I", [kept[locations[each[1]]]])
@@ -50,7 +64,11 @@ def with_outputs(code: bytes, outputs: Sequence[str]) -> bytes:
 
 def _located(words: array.array[int]) -> Iterator[array.array[int]]:
     """The location decorations."""
-    return (i for op, i in instructions(words) if op == OP_DECORATE and i[2] == DECORATION_LOCATION and len(i) > 3)
+    return (
+        i
+        for op, i in instructions(words)
+        if op == OP_DECORATE and i[2] == DECORATION_LOCATION and len(i) > 3
+    )
 
 
 def _without(entry: array.array[int], dropped: set[int]) -> array.array[int]:
@@ -61,6 +79,8 @@ def _without(entry: array.array[int], dropped: set[int]) -> array.array[int]:
         name += 1
     if name == len(entry):
         raise ValueError("not SPIR-V: the name of an entry point does not end")
-    made = entry[: name + 1] + array.array("I", [each for each in entry[name + 1 :] if each not in dropped])
+    made = entry[: name + 1] + array.array(
+        "I", [each for each in entry[name + 1 :] if each not in dropped]
+    )
     made[0] = len(made) << 16 | OP_ENTRY_POINT
     return made

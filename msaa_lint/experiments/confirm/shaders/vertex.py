@@ -1,8 +1,9 @@
 """SPIR-V of a vertex shader that draws the scene and writes the inputs of a given fragment shader.
 
-Positions are those of scene.vert; the instance's index stands for the number of the draw. With u and v from 0 to 1 across and down the
-picture and w from 0.5 to 1 by depth, a float is u or v, a vec2 (u, v) or (v, u), a vec3 a rotation of (u, v, w), a vec4 the same with 1,
-by location, so that vectors differ; integers are 0 and 1 for every other triangle.
+Positions are those of scene.vert; the instance's index stands for the number of the draw. With u
+and v from 0 to 1 across and down the picture and w from 0.5 to 1 by depth, a float is u or v, a
+vec2 (u, v) or (v, u), a vec3 a rotation of (u, v, w), a vec4 the same with 1, by location, so that
+vectors differ; integers are 0 and 1 for every other triangle.
 """
 
 from __future__ import annotations
@@ -27,7 +28,17 @@ POSITION, VERTEX_INDEX, INSTANCE_INDEX = 0, 42, 43
 """BuiltIn."""
 
 MEMORY_MODEL, FUNCTION_TYPE = 14, 33
-NEGATE, SDIV, FADD, FMUL, BITCAST, AND, EQUAL, GREATER, LOGICAL_AND = 127, 135, 129, 133, 124, 199, 170, 173, 167
+NEGATE, SDIV, FADD, FMUL, BITCAST, AND, EQUAL, GREATER, LOGICAL_AND = (
+    127,
+    135,
+    129,
+    133,
+    124,
+    199,
+    170,
+    173,
+    167,
+)
 
 
 class _Words:
@@ -79,7 +90,9 @@ def _add(words: array.array[int], number: int, *operands: int) -> None:
 
 
 def vertex_shader(interface: Interface, layouts: Layouts) -> bytes:
-    """The SPIR-V, version 1.0. Raises SpirvError, with the input by location, for one that cannot be written."""
+    """The SPIR-V, version 1.0. Raises SpirvError, with the input by location, for one that cannot
+    be written.
+    """
     shader = _Vertex(layouts)
     for built_in, capability in DISTANCES.items():
         if built_in in interface.built_ins:
@@ -90,7 +103,10 @@ def vertex_shader(interface: Interface, layouts: Layouts) -> bytes:
         try:
             shader.write(varying)
         except SpirvError as error:
-            raise SpirvError(f"the input at location {varying.location}, of type {varying.type}, cannot be written: {error}") from None
+            raise SpirvError(
+                f"the input at location {varying.location}, of type {varying.type}, cannot be "
+                f"written: {error}"
+            ) from None
     return shader.code()
 
 
@@ -133,33 +149,56 @@ class _Vertex:
         position = words.variable(triple, op.INPUT)
         words.decorate(position, op.LOCATION, 0)
         self.interface.append(position)
-        index, draw = (self._built_in(self.int, op.INPUT, number) for number in (VERTEX_INDEX, INSTANCE_INDEX))
+        index, draw = (
+            self._built_in(self.int, op.INPUT, number) for number in (VERTEX_INDEX, INSTANCE_INDEX)
+        )
         clip = self._built_in(self._vector(4), op.OUTPUT, POSITION)
         stated = words.value(op.LOAD, triple, position)
-        x, y, z = (words.value(op.COMPOSITE_EXTRACT, self.float, stated, number) for number in range(3))
-        triangle = words.value(SDIV, self.int, words.value(op.LOAD, self.int, index), self._integer(3))
+        x, y, z = (
+            words.value(op.COMPOSITE_EXTRACT, self.float, stated, number) for number in range(3)
+        )
+        triangle = words.value(
+            SDIV, self.int, words.value(op.LOAD, self.int, index), self._integer(3)
+        )
         odd = words.value(AND, self.int, words.value(op.LOAD, self.int, draw), self._integer(1))
         later = words.value(GREATER, self.bool, triangle, self._integer(0))
-        turns = words.value(LOGICAL_AND, self.bool, later, words.value(EQUAL, self.bool, odd, self._integer(1)))
+        turns = words.value(
+            LOGICAL_AND, self.bool, later, words.value(EQUAL, self.bool, odd, self._integer(1))
+        )
         x, y = (
             words.value(op.SELECT, self.float, turns, words.value(NEGATE, self.float, y), x),
             words.value(op.SELECT, self.float, turns, x, y),
         )
-        _add(words.body, op.STORE, clip, words.value(op.COMPOSITE_CONSTRUCT, self._vector(4), x, y, z, self._number(1.0)))
+        _add(
+            words.body,
+            op.STORE,
+            clip,
+            words.value(op.COMPOSITE_CONSTRUCT, self._vector(4), x, y, z, self._number(1.0)),
+        )
         half = self._number(0.5)
-        self.values = [words.value(FADD, self.float, words.value(FMUL, self.float, each, half), half) for each in (x, y, z)]
+        self.values = [
+            words.value(FADD, self.float, words.value(FMUL, self.float, each, half), half)
+            for each in (x, y, z)
+        ]
         self.parity = words.value(AND, self.int, triangle, self._integer(1))
         self.unsigned_parity = words.value(BITCAST, self.uint, self.parity)
 
     def distances(self, built_in: int, capability: int, length: int) -> None:
         """Adds distances to planes that cut nothing off."""
         if length > MAX_DISTANCES:
-            raise SpirvError(f"it reads {length} distances to planes, of which there are at most {MAX_DISTANCES}")
+            raise SpirvError(
+                f"it reads {length} distances to planes, of which there are at most {MAX_DISTANCES}"
+            )
         words, one = self.words, self._number(1.0)
         self.capabilities.append(capability)
         kind = words.type(op.TYPE_ARRAY, self.float, words.constant(self.uint, length))
         variable = self._built_in(kind, op.OUTPUT, built_in)
-        _add(words.body, op.STORE, variable, words.value(op.COMPOSITE_CONSTRUCT, kind, *[one] * length))
+        _add(
+            words.body,
+            op.STORE,
+            variable,
+            words.value(op.COMPOSITE_CONSTRUCT, kind, *[one] * length),
+        )
 
     def write(self, varying: Varying) -> None:
         """Adds an output that matches an input."""
@@ -178,13 +217,23 @@ class _Vertex:
 
     def _kind(self, type_id: int, depth: int) -> tuple[int, ...]:
         kind = self.layouts.kind(type_id)
-        lengths = {op.TYPE_INT: 3, op.TYPE_FLOAT: 2, op.TYPE_VECTOR: 3, op.TYPE_MATRIX: 3, op.TYPE_ARRAY: 3, op.TYPE_STRUCT: 2}
+        lengths = {
+            op.TYPE_INT: 3,
+            op.TYPE_FLOAT: 2,
+            op.TYPE_VECTOR: 3,
+            op.TYPE_MATRIX: 3,
+            op.TYPE_ARRAY: 3,
+            op.TYPE_STRUCT: 2,
+        }
         if depth > MAX_DEPTH or len(kind) < lengths.get(kind[0], 1 << 16):
             raise SpirvError("its type is not one of an input")
         if kind[0] in (op.TYPE_INT, op.TYPE_FLOAT) and kind[1] != 32:
             raise SpirvError(f"only components of 32 bits are supported, not {kind[1]}")
         if kind[0] in (op.TYPE_VECTOR, op.TYPE_MATRIX) and not 2 <= kind[2] <= 4:
-            raise SpirvError(f"a {'vector' if kind[0] == op.TYPE_VECTOR else 'matrix'} does not have {kind[2]} parts")
+            raise SpirvError(
+                f"a {'vector' if kind[0] == op.TYPE_VECTOR else 'matrix'} does not have {kind[2]} "
+                f"parts"
+            )
         return kind
 
     def _elements(self, kind: tuple[int, ...]) -> list[int]:
@@ -247,7 +296,9 @@ class _Vertex:
         if kind[0] in (op.TYPE_INT, op.TYPE_FLOAT):
             return self._scalar(kind, location)
         if kind[0] == op.TYPE_VECTOR:
-            return self.words.value(op.COMPOSITE_CONSTRUCT, self._type(type_id), *self._components(kind, location))
+            return self.words.value(
+                op.COMPOSITE_CONSTRUCT, self._type(type_id), *self._components(kind, location)
+            )
         members = self.module.members.get(type_id, {}) if kind[0] == op.TYPE_STRUCT else {}
         parts = []
         for number, element in enumerate(self._elements(kind)):
@@ -283,5 +334,12 @@ class _Vertex:
         for capability in self.capabilities:
             _add(head, op.CAPABILITY, capability)
         _add(head, MEMORY_MODEL, 0, 1)
-        _add(head, op.ENTRY_POINT, 0, self.main, *struct.unpack("=2I", b"main\0\0\0\0"), *self.interface)
+        _add(
+            head,
+            op.ENTRY_POINT,
+            0,
+            self.main,
+            *struct.unpack("=2I", b"main\0\0\0\0"),
+            *self.interface,
+        )
         return (head + words.decorations + words.declarations + function).tobytes()

@@ -1,4 +1,6 @@
-"""The exact picture of triangles that do not overlap: their areas within each pixel times their colors."""
+"""The exact picture of triangles that do not overlap: their areas within each pixel times their
+colors.
+"""
 
 from __future__ import annotations
 
@@ -16,9 +18,11 @@ TOLERANCE = 1e-9
 
 
 def disjoint(colors: Floats, *, covered: bool = True) -> Callable[[View], Truth]:
-    """A function from triangles that do not overlap, each in its color, to their exact picture on black.
+    """A function from triangles that do not overlap, each in its color, to their exact picture on
+    black.
 
-    Edge pixels are those with an alpha between 0 and 1, or without `covered` those that neither a single color nor the background fills.
+    Edge pixels are those with an alpha between 0 and 1, or without `covered` those that neither a
+    single color nor the background fills.
     """
     distinct, index = np.unique(colors, axis=0, return_inverse=True)
     index = index.reshape(-1)
@@ -33,7 +37,9 @@ def disjoint(colors: Floats, *, covered: bool = True) -> Callable[[View], Truth]
             picture += area[..., None] * distinct[number]
             total += area
             whole |= area > 1 - TOLERANCE
-        return Truth(picture, partly_covered(picture[..., 3]) if covered else ~whole & (total > TOLERANCE))
+        return Truth(
+            picture, partly_covered(picture[..., 3]) if covered else ~whole & (total > TOLERANCE)
+        )
 
     return exact
 

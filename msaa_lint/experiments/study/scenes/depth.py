@@ -14,11 +14,17 @@ NEAR: RGBA = (0.9, 0.35, 0.05, 1.0)
 FAR: RGBA = (0.05, 0.3, 0.8, 1.0)
 
 
-def _intersecting(width: int, height: int, depths: tuple[float, float], greater: bool, display: Display | None = None) -> Scene:
+def _intersecting(
+    width: int,
+    height: int,
+    depths: tuple[float, float],
+    greater: bool,
+    display: Display | None = None,
+) -> Scene:
     """Two sheets of 8 strips each that intersect along lines at many angles.
 
-    With reversed depth, depth is `depths[0]` at the intersection and differs from it by at most `depths[1]`; standard depth is 1 minus
-    that.
+    With reversed depth, depth is `depths[0]` at the intersection and differs from it by at most
+    `depths[1]`; standard depth is 1 minus that.
     """
     count = 8
     strips, offsets, colors = [], [], []
@@ -31,7 +37,12 @@ def _intersecting(width: int, height: int, depths: tuple[float, float], greater:
             corners = shapes.rectangle(left, 0, right, height)
             strips.append(corners)
             # A plane that is 0 along a line through the center of the strip, at the strip's angle.
-            tilt = [side * ((x - middle) * math.sin(angle) - (y - height / 2) * math.cos(angle)) / (2 * reach) for x, y in corners]
+            tilt = [
+                side
+                * ((x - middle) * math.sin(angle) - (y - height / 2) * math.cos(angle))
+                / (2 * reach)
+                for x, y in corners
+            ]
             offsets += [[tilt[0], tilt[1], tilt[2]], [tilt[0], tilt[2], tilt[3]]]
             colors += [color, color]
     triangles = shapes.triangles(strips)
@@ -39,11 +50,33 @@ def _intersecting(width: int, height: int, depths: tuple[float, float], greater:
     corner_colors = np.array(colors)
     depths_stored = nearness_values if greater else 1 - nearness_values
     comparison = "GREATER" if greater else "LESS"
-    # The exact picture has the intersection itself, before any rounding of depth: it uses the nearness.
-    exact = visible.overlapping(corner_colors, nearness_values, width, height, visible.Visibility(depth=True, reversed=True), display)
-    why = {"depth-test": f"surfaces intersect; {'reversed' if greater else 'standard'} depth, {comparison}"}
+    # The exact picture has the intersection itself, before any rounding of depth: it uses the
+    # nearness.
+    exact = visible.overlapping(
+        corner_colors,
+        nearness_values,
+        width,
+        height,
+        visible.Visibility(depth=True, reversed=True),
+        display,
+    )
+    why = {
+        "depth-test": f"surfaces intersect; {'reversed' if greater else 'standard'} depth, "
+        f"{comparison}"
+    }
     settings = {"depth-test": comparison}
-    return Scene(width, height, triangles, corner_colors, exact, False, depths_stored, ("depth-test",), why, settings)
+    return Scene(
+        width,
+        height,
+        triangles,
+        corner_colors,
+        exact,
+        False,
+        depths_stored,
+        ("depth-test",),
+        why,
+        settings,
+    )
 
 
 def intersecting(width: int, height: int, display: Display | None = None) -> Scene:
@@ -57,7 +90,9 @@ def intersecting_reversed(width: int, height: int, display: Display | None = Non
 
 
 def intersecting_far(width: int, height: int) -> Scene:
-    """Surfaces a thousand times as far away as the near plane, where standard depth has few distinct values."""
+    """Surfaces a thousand times as far away as the near plane, where standard depth has few
+    distinct values.
+    """
     return _intersecting(width, height, (1e-3, 1e-6), False)
 
 
@@ -69,7 +104,10 @@ def intersecting_far_reversed(width: int, height: int) -> Scene:
 def silhouette(width: int, height: int) -> Scene:
     """A near disc in front of a far wall, whose depth a later pass reads."""
     side = min(width, height)
-    disc = [shapes.polar((width / 2, height / 2), side * 0.4, 2 * math.pi * (n + shapes.GOLDEN) / 64) for n in range(64)]
+    disc = [
+        shapes.polar((width / 2, height / 2), side * 0.4, 2 * math.pi * (n + shapes.GOLDEN) / 64)
+        for n in range(64)
+    ]
     triangles = shapes.triangles([shapes.rectangle(0, 0, width, height), disc])
     depths = np.full((len(triangles), 3), 0.25)
     depths[:2] = 0.75
@@ -78,19 +116,36 @@ def silhouette(width: int, height: int) -> Scene:
     exact = area.disjoint(colors, covered=False)
     why = {
         "depth-test": "the disc is in front of the wall",
-        "depth-resolve": "a later pass reads one depth per pixel and needs that of a surface: SAMPLE_ZERO",
+        "depth-resolve": "a later pass reads one depth per pixel and needs that of a surface: "
+        "SAMPLE_ZERO",
     }
     settings = {"depth-test": "LESS", "depth-resolve": "SAMPLE_ZERO"}
     return Scene(
-        width, height, triangles, colors, lambda view: exact(view.only(view.triangle >= 2)), False, depths, tuple(why), why, settings
+        width,
+        height,
+        triangles,
+        colors,
+        lambda view: exact(view.only(view.triangle >= 2)),
+        False,
+        depths,
+        tuple(why),
+        why,
+        settings,
     )
 
 
 def portal(width: int, height: int) -> Scene:
-    """A window that is marked in stencil, and a wall drawn only through it, so that the edge exists in stencil alone."""
+    """A window that is marked in stencil, and a wall drawn only through it, so that the edge exists
+    in stencil alone.
+    """
     side = min(width, height)
     window = [
-        shapes.polar((width / 2, height / 2), side * (0.45 if n % 2 else 0.36), 2 * math.pi * (n + shapes.GOLDEN) / 24) for n in range(24)
+        shapes.polar(
+            (width / 2, height / 2),
+            side * (0.45 if n % 2 else 0.36),
+            2 * math.pi * (n + shapes.GOLDEN) / 24,
+        )
+        for n in range(24)
     ]
     middle = (width / 2, height / 2)
     marks = shapes.triangles([[middle, window[n], window[(n + 1) % 24]] for n in range(24)])
@@ -100,5 +155,7 @@ def portal(width: int, height: int) -> Scene:
     exact = area.disjoint(colors)
     why = {"stencil": "the wall is drawn only on the samples that a window marked"}
     settings = {"stencil": (0, count, len(triangles))}
-    scene = Scene(width, height, triangles, colors, lambda view: exact(view.only(view.triangle < count)))
+    scene = Scene(
+        width, height, triangles, colors, lambda view: exact(view.only(view.triangle < count))
+    )
     return scene._replace(effects=("stencil",), why=why, settings=settings)

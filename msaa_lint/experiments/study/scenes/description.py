@@ -1,4 +1,5 @@
-"""A scene of what a description contains: its `scene` section, its pipelines, and the formats and resolves of its passes.
+"""A scene of what a description contains: its `scene` section, its pipelines, and the formats and
+resolves of its passes.
 
 Each thing that the description calls for has a part of the picture, side by side, with its effects.
 """
@@ -23,11 +24,15 @@ from .side_by_side import side_by_side
 from .view import Truth, View
 
 SMALL = 256.0
-"""Triangles of at most so many pixels are shown as a mesh of them: their inner edges are everywhere."""
+"""Triangles of at most so many pixels are shown as a mesh of them: their inner edges are
+everywhere.
+"""
 
 
 ASSUMED_PEAK = 4.0
-"""The brightest light of floating-point images of which nothing else is stated, in units of display white."""
+"""The brightest light of floating-point images of which nothing else is stated, in units of display
+white.
+"""
 
 
 class _GlobalEffects(NamedTuple):
@@ -38,8 +43,10 @@ class _GlobalEffects(NamedTuple):
 
 
 class _Content(NamedTuple):
-    """What the passes draw whose samples a study compares: their pipelines, the mean area of their triangles in pixels (None if unknown),
-    the color images with light above display white, and whether there is color at all."""
+    """What the passes draw whose samples a study compares: their pipelines, the mean area of their
+    triangles in pixels (None if unknown), the color images with light above display white, and
+    whether there is color at all.
+    """
 
     frame: Frame
     pipelines: list[Pipeline]
@@ -49,20 +56,27 @@ class _Content(NamedTuple):
 
 
 def from_description(frame: Frame, width: int, height: int) -> Scene:
-    """The scene of a description, named after its file. ValueError where the picture is too small for all its parts."""
+    """The scene of a description, named after its file. ValueError where the picture is too small
+    for all its parts.
+    """
     content = _content(frame, (width, height))
     names = _parts(content)
     part_width = width // len(names)
     if part_width < MIN_SIZE or height < MIN_SIZE:
         parts = ", ".join(names)
-        raise ValueError(f"{width}x{height} pixels are too few for {parts} side by side: each needs at least {MIN_SIZE}x{MIN_SIZE}")
+        raise ValueError(
+            f"{width}x{height} pixels are too few for {parts} side by side: each needs at least "
+            f"{MIN_SIZE}x{MIN_SIZE}"
+        )
     effects = _GlobalEffects({}, {})
     _add_light(content, effects)
     if "intersecting" in names:
         _add_depth_resolve(content, effects)
     _add_coverage(content, effects)
     display = light.display if "tone-mapping" in effects.why else None
-    scene = side_by_side([_part(name, content, part_width, height, display) for name in names], width, height)
+    scene = side_by_side(
+        [_part(name, content, part_width, height, display) for name in names], width, height
+    )
     reasons = "; ".join(f"{name} ({reason})" for name, reason in names.items())
     return scene._replace(
         name=frame.document.source.name,
@@ -78,15 +92,24 @@ def _content(frame: Frame, size: tuple[int, int]) -> _Content:
     passes = [plans.base.passes[number] for number in sorted(plans.passes)]
     names = {pipeline.name for each in passes for pipeline in each.pipelines}
     pipelines = [pipeline for pipeline, _ in frame.pipelines if not passes or pipeline.key in names]
-    targets = [attached(each, framebuffer) for each in passes for framebuffer in range(len(each.framebuffers))]
-    images = [plans.base.images[number] for number in sorted({image for colors, _ in targets for image in colors})]
+    targets = [
+        attached(each, framebuffer)
+        for each in passes
+        for framebuffer in range(len(each.framebuffers))
+    ]
+    images = [
+        plans.base.images[number]
+        for number in sorted({image for colors, _ in targets for image in colors})
+    ]
     depth_alone = not images and any(depths for _, depths in targets)
     bright = [image for image in images if image.numeric in ("SFLOAT", "UFLOAT")]
     return _Content(frame, pipelines, plans.triangle_area, bright, not depth_alone)
 
 
 def _parts(content: _Content) -> dict[str, str]:
-    """The names of the scenes that get a part of the picture, each with the reason; edges alone where nothing is called for."""
+    """The names of the scenes that get a part of the picture, each with the reason; edges alone
+    where nothing is called for.
+    """
     stated = content.frame.description.scene
     names = {}
     tested = next((pipeline for pipeline in content.pipelines if _depth_test(pipeline)), None)
@@ -110,7 +133,11 @@ def _parts(content: _Content) -> dict[str, str]:
     if stencil is not None:
         names["portal"] = f"{stencil.key} tests stencil"
     only_cut = bool(cut) and len(cut) == len(content.pipelines)
-    has_edges = stated.edges if stated is not None and stated.edges is not None else content.has_color and not only_cut
+    has_edges = (
+        stated.edges
+        if stated is not None and stated.edges is not None
+        else content.has_color and not only_cut
+    )
     return {**_edges(content), **names} if has_edges or not names else names
 
 
@@ -120,23 +147,33 @@ def _edges(content: _Content) -> dict[str, str]:
     if area is not None and area <= SMALL:
         return {"mesh": f"triangles have {area:.3g} pixels on average"}
     stated = content.frame.description.scene
-    return {"edge-fan": "scene.edges" if stated is not None and stated.edges else "triangles have edges"}
+    return {
+        "edge-fan": "scene.edges" if stated is not None and stated.edges else "triangles have edges"
+    }
 
 
 def _depth_test(pipeline: Pipeline) -> bool:
-    return pipeline.depthStencilState is not None and bool(pipeline.depthStencilState.depthTestEnable)
+    return pipeline.depthStencilState is not None and bool(
+        pipeline.depthStencilState.depthTestEnable
+    )
 
 
 def _stencil_test(pipeline: Pipeline) -> bool:
-    return pipeline.depthStencilState is not None and bool(pipeline.depthStencilState.stencilTestEnable)
+    return pipeline.depthStencilState is not None and bool(
+        pipeline.depthStencilState.stencilTestEnable
+    )
 
 
 def _covers_by_alpha(pipeline: Pipeline) -> bool:
-    return pipeline.multisampleState is not None and bool(pipeline.multisampleState.alphaToCoverageEnable)
+    return pipeline.multisampleState is not None and bool(
+        pipeline.multisampleState.alphaToCoverageEnable
+    )
 
 
 def _blends(pipeline: Pipeline) -> bool:
-    return pipeline.colorBlendState is not None and any(blend.blendEnable for blend in pipeline.colorBlendState.attachments)
+    return pipeline.colorBlendState is not None and any(
+        blend.blendEnable for blend in pipeline.colorBlendState.attachments
+    )
 
 
 def _add_light(content: _Content, effects: _GlobalEffects) -> None:
@@ -148,29 +185,43 @@ def _add_light(content: _Content, effects: _GlobalEffects) -> None:
         if not stated_hdr:
             image = content.light[0]
             format = format_name(image.format)
-            why = f"{image.name} is {format}, which holds light above display white: {ASSUMED_PEAK:g} times is assumed without scene.peak"
+            why = (
+                f"{image.name} is {format}, which holds light above display white: "
+                f"{ASSUMED_PEAK:g} times is assumed without scene.peak"
+            )
         effects.why["hdr"] = why
         mapping = stated.toneMapping if stated is not None else None
-        setting = {"AFTER_RESOLVE": "after-resolve", "IN_PASS": "before-resolve"}.get(mapping or "AFTER_RESOLVE")
+        setting = {"AFTER_RESOLVE": "after-resolve", "IN_PASS": "before-resolve"}.get(
+            mapping or "AFTER_RESOLVE"
+        )
         if setting is not None:
-            effects.why["tone-mapping"] = f"scene.toneMapping is {mapping or 'not stated: after the resolve'}"
+            effects.why["tone-mapping"] = (
+                f"scene.toneMapping is {mapping or 'not stated: after the resolve'}"
+            )
             effects.settings["tone-mapping"] = setting
         return
     for target in content.frame.all_targets:
         if "COLOR_ATTACHMENT" not in _usage(target.record):
             continue
         if target.format is not None and target.format.is_srgb:
-            effects.why["srgb"] = f"{target.title} is {target.format.name}: the resolve averages light"
+            effects.why["srgb"] = (
+                f"{target.title} is {target.format.name}: the resolve averages light"
+            )
             effects.settings["srgb"] = "linear-light"
             return
         if target.image is not None and target.image.encoding == "GAMMA":
-            effects.why["srgb"] = f"{target.title} holds encoded values in a format without sRGB: the resolve averages codes"
+            effects.why["srgb"] = (
+                f"{target.title} holds encoded values in a format without sRGB: the resolve "
+                f"averages codes"
+            )
             effects.settings["srgb"] = "encoded"
             return
 
 
 def _usage(record: object) -> tuple[str, ...]:
-    """The usages of an image; an unstated usage, or an attachment without an image, may be a color attachment."""
+    """The usages of an image; an unstated usage, or an attachment without an image, may be a color
+    attachment.
+    """
     usage = getattr(record, "usage", None)
     return ("COLOR_ATTACHMENT",) if usage is None else tuple(usage)
 
@@ -178,7 +229,11 @@ def _usage(record: object) -> tuple[str, ...]:
 def _is_hdr(content: _Content) -> bool:
     """Whether color is HDR: as stated, otherwise if it is drawn to floating-point images."""
     stated = content.frame.description.scene
-    return stated.color == "HDR" if stated is not None and stated.color is not None else bool(content.light)
+    return (
+        stated.color == "HDR"
+        if stated is not None and stated.color is not None
+        else bool(content.light)
+    )
 
 
 def _peak(content: _Content) -> float:
@@ -194,15 +249,26 @@ def _is_reversed(content: _Content) -> bool:
     stated = content.frame.description.scene
     if stated is not None and stated.depth is not None:
         return stated.depth == "REVERSED"
-    states = [pipeline.depthStencilState for pipeline in content.pipelines if pipeline.depthStencilState is not None]
+    states = [
+        pipeline.depthStencilState
+        for pipeline in content.pipelines
+        if pipeline.depthStencilState is not None
+    ]
     return any((state.depthCompareOp or "").startswith("GREATER") for state in states)
 
 
 def _add_depth_resolve(content: _Content, effects: _GlobalEffects) -> None:
     stated = content.frame.description.scene
-    for subpass in (subpass for render_pass in content.frame.passes for subpass in render_pass.subpasses):
+    for subpass in (
+        subpass for render_pass in content.frame.passes for subpass in render_pass.subpasses
+    ):
         for resolve in subpass.resolves:
-            if resolve.aspect == "depth" and resolve.mode in ("SAMPLE_ZERO", "AVERAGE", "MIN", "MAX"):
+            if resolve.aspect == "depth" and resolve.mode in (
+                "SAMPLE_ZERO",
+                "AVERAGE",
+                "MIN",
+                "MAX",
+            ):
                 effects.why["depth-resolve"] = f"{resolve.path} resolves depth with {resolve.mode}"
                 effects.settings["depth-resolve"] = resolve.mode
                 return
@@ -221,14 +287,18 @@ def _add_coverage(content: _Content, effects: _GlobalEffects) -> None:
             continue
         every_sample = (1 << min(state.rasterizationSamples or 16, 16)) - 1
         if state.sampleMask and state.sampleMask[0] & every_sample != every_sample:
-            effects.why["sample-mask"] = f"{pipeline.path}.multisampleState.sampleMask is {state.sampleMask[0]:#x}"
+            effects.why["sample-mask"] = (
+                f"{pipeline.path}.multisampleState.sampleMask is {state.sampleMask[0]:#x}"
+            )
             effects.settings["sample-mask"] = state.sampleMask[0]
         if state.alphaToCoverageEnable:
             effects.why["alpha-to-coverage"] = "a pipeline sets alphaToCoverageEnable"
             effects.settings["alpha-to-coverage"] = "dithered"
 
 
-def _part(name: str, content: _Content, width: int, height: int, display: light.Display | None) -> Scene:
+def _part(
+    name: str, content: _Content, width: int, height: int, display: light.Display | None
+) -> Scene:
     stated = content.frame.description.scene
     if name == "edge-fan":
         return _with_peak(edges.edge_fan(width, height), _peak(content), display)
@@ -236,7 +306,9 @@ def _part(name: str, content: _Content, width: int, height: int, display: light.
         side = max(math.sqrt(2 * (content.triangle_area or SMALL)), edges.MIN_SIDE)
         return _colored(edges.mesh(width, height, side), _peak(content), display)
     if name == "intersecting":
-        return (depth.intersecting_reversed if _is_reversed(content) else depth.intersecting)(width, height, display)
+        return (depth.intersecting_reversed if _is_reversed(content) else depth.intersecting)(
+            width, height, display
+        )
     if name == "zone-plate":
         return detail.zone_plate(width, height, display)
     if name == "glass":
@@ -256,7 +328,10 @@ def _with_peak(scene: Scene, peak: float, display: light.Display | None) -> Scen
 
     def exact(view: View) -> Truth:
         truth = scene.exact(view)
-        return Truth(truth.image[..., 3:] * displayed, area.partly_covered(truth.image[..., 3] * displayed[3]))
+        return Truth(
+            truth.image[..., 3:] * displayed,
+            area.partly_covered(truth.image[..., 3] * displayed[3]),
+        )
 
     return scene._replace(colors=scene.colors * color, exact=exact)
 

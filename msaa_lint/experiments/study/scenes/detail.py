@@ -20,8 +20,9 @@ Floats = NDArray[np.float64]
 def zone_plate(width: int, height: int, display: Display | None = None) -> Scene:
     """Rings (1 + cos(k r^2)) / 2 on two triangles that cover the picture.
 
-    At half the shorter side from the center the rings reach the finest detail that pixels can show (half a cycle per pixel); beyond that
-    they are finer. With `display` there is no closed form, and the exact picture uses Gauss-Legendre quadrature of 12 x 12 points.
+    At half the shorter side from the center the rings reach the finest detail that pixels can show
+    (half a cycle per pixel); beyond that they are finer. With `display` there is no closed form,
+    and the exact picture uses Gauss-Legendre quadrature of 12 x 12 points.
     """
     x0, y0 = width / 2, height / 2
     k = math.pi / min(width, height)
@@ -34,10 +35,15 @@ def zone_plate(width: int, height: int, display: Display | None = None) -> Scene
         return np.moveaxis(color, 0, -1)
 
     def exact(view: View) -> Truth:
-        across, wave_x = _wave(k, [(part.left, part.dx) for part in view.parts], view.parts[0].width, width)
-        down, wave_y = _wave(k, [(part.top, part.dy) for part in view.parts], view.parts[0].height, height)
+        across, wave_x = _wave(
+            k, [(part.left, part.dx) for part in view.parts], view.parts[0].width, width
+        )
+        down, wave_y = _wave(
+            k, [(part.top, part.dy) for part in view.parts], view.parts[0].height, height
+        )
         area = down[:, :, None] * across[:, None, :]
-        # cos(k (x^2 + y^2)) is the real part of the product of a function of x and one of y, and so is its integral over a pixel.
+        # cos(k (x^2 + y^2)) is the real part of the product of a function of x and one of y, and so
+        # is its integral over a pixel.
         waves = wave_y[:, :, None] * wave_x[:, None, :]
         picture = np.empty((*area.shape, 4))
         picture[..., :3] = (0.5 * area + 0.5 * waves.real)[..., None]
@@ -48,7 +54,10 @@ def zone_plate(width: int, height: int, display: Display | None = None) -> Scene
         nodes, weights = np.polynomial.legendre.leggauss(12)
         pictures = []
         for left, top, columns, rows, dx, dy in view.parts:
-            (x, widths), (y, heights) = _clipped(left - dx, columns, width), _clipped(top - dy, rows, height)
+            (x, widths), (y, heights) = (
+                _clipped(left - dx, columns, width),
+                _clipped(top - dy, rows, height),
+            )
             picture = np.zeros((rows, columns, 4))
             for offset_y, weight_y in zip((nodes + 1) / 2, weights / 2, strict=True):
                 for offset_x, weight_x in zip((nodes + 1) / 2, weights / 2, strict=True):
@@ -60,21 +69,34 @@ def zone_plate(width: int, height: int, display: Display | None = None) -> Scene
         return Truth(image, image[..., 3] > 0)
 
     colors = shapes.uniform_colors(len(triangles), WHITE)
-    return Scene(width, height, triangles, colors, exact if display is None else displayed, False, shade=shade)
+    return Scene(
+        width,
+        height,
+        triangles,
+        colors,
+        exact if display is None else displayed,
+        False,
+        shade=shade,
+    )
 
 
 def _clipped(start: float, count: int, end: int) -> tuple[Floats, Floats]:
-    """The begin and the length of the part of each of `count` pixels from `start` on that lies between 0 and `end`."""
+    """The begin and the length of the part of each of `count` pixels from `start` on that lies
+    between 0 and `end`.
+    """
     edges = np.clip(start + np.arange(count + 1), 0, end)
     return edges[:-1], np.diff(edges)
 
 
-def _wave(k: float, starts: Sequence[tuple[int, float]], count: int, end: int) -> tuple[Floats, NDArray[np.complex128]]:
-    """Of `count` pixels from each start on (a column, and how far the picture has moved): the length that lies between 0 and `end`, and the
-    integral of exp(i k (t - end / 2)^2) over it, each (P, count).
+def _wave(
+    k: float, starts: Sequence[tuple[int, float]], count: int, end: int
+) -> tuple[Floats, NDArray[np.complex128]]:
+    """Of `count` pixels from each start on (a column, and how far the picture has moved): the
+    length that lies between 0 and `end`, and the integral of exp(i k (t - end / 2)^2) over it, each
+    (P, count).
 
-    By Gauss-Legendre quadrature of 24 points: the phase makes fewer than 4 turns within a pixel, so that the result is accurate to double
-    precision.
+    By Gauss-Legendre quadrature of 24 points: the phase makes fewer than 4 turns within a pixel, so
+    that the result is accurate to double precision.
     """
     nodes, weights = np.polynomial.legendre.leggauss(24)
     clipped = [_clipped(start - moved, count, end) for start, moved in starts]
@@ -97,10 +119,16 @@ def _leaves(width: int, height: int) -> list[list[shapes.Point]]:
     for row in range(int(height // side)):
         for column in range(int(width // side)):
             number = row * int(width // side) + column
-            center = ((column + 0.45 + 0.1 * shapes.spread(number, 0.2)) * side, (row + 0.45 + 0.1 * shapes.spread(number, 0.7)) * side)
+            center = (
+                (column + 0.45 + 0.1 * shapes.spread(number, 0.2)) * side,
+                (row + 0.45 + 0.1 * shapes.spread(number, 0.7)) * side,
+            )
             turn = 2 * math.pi * shapes.spread(number)
             leaves.append(
-                [shapes.polar(center, 0.4 * side * length, turn + math.radians(angle)) for angle, length in zip(LEAF, LENGTHS, strict=True)]
+                [
+                    shapes.polar(center, 0.4 * side * length, turn + math.radians(angle))
+                    for angle, length in zip(LEAF, LENGTHS, strict=True)
+                ]
             )
     return leaves
 
@@ -114,8 +142,11 @@ def _foliage(width: int, height: int, effect: str, why: str, settings: dict[str,
     card_triangles = shapes.triangles(cards)
     corners = np.array(leaves)
     directions = np.roll(corners, -1, axis=1) - corners
-    # The sides of leaves: x and y of the direction and of the corner, and the length, each by side and leaf.
-    sides = np.ascontiguousarray(np.concatenate([directions, corners, np.hypot(*directions.T).T[..., None]], axis=-1).T)
+    # The sides of leaves: x and y of the direction and of the corner, and the length, each by side
+    # and leaf.
+    sides = np.ascontiguousarray(
+        np.concatenate([directions, corners, np.hypot(*directions.T).T[..., None]], axis=-1).T
+    )
 
     def shade(triangle: NDArray[np.int32], x: Floats, y: Floats) -> Floats:
         leaf = triangle // 2
@@ -143,9 +174,16 @@ def _foliage(width: int, height: int, effect: str, why: str, settings: dict[str,
 
 
 def foliage(width: int, height: int) -> Scene:
-    """Leaves cut out of rectangles by alpha: a texture of the distance to the leaf's edge, 0.5 at the edge, going from 0 to 1 over one
-    pixel."""
-    return _foliage(width, height, "alpha-test", "leaves are cut out of their triangles by discarding where alpha is below 0.5", {})
+    """Leaves cut out of rectangles by alpha: a texture of the distance to the leaf's edge, 0.5 at
+    the edge, going from 0 to 1 over one pixel.
+    """
+    return _foliage(
+        width,
+        height,
+        "alpha-test",
+        "leaves are cut out of their triangles by discarding where alpha is below 0.5",
+        {},
+    )
 
 
 def foliage_to_coverage(width: int, height: int) -> Scene:

@@ -22,7 +22,9 @@ EMITTER: RGBA = (50.0, 30.0, 12.0, 1.0)
 
 
 def display(color: Floats) -> Floats:
-    """A color after Reinhard's tone mapping, in double precision: what the exact picture averages."""
+    """A color after Reinhard's tone mapping, in double precision: what the exact picture
+    averages.
+    """
     mapped = np.array(color, np.float64)
     mapped[..., :3] = mapped[..., :3] / (1 + mapped[..., :3])
     return mapped
@@ -37,20 +39,35 @@ def _emitter(width: int, height: int, place: str) -> Scene:
             number = row * 8 + column
             center = ((column + 0.5) * side, (row + 0.5) * side)
             rotation = 2 * math.pi * shapes.spread(number)
-            points = [shapes.polar(center, side * (0.46 if n % 2 else 0.24), rotation + n * math.pi / 7) for n in range(14)]
+            points = [
+                shapes.polar(center, side * (0.46 if n % 2 else 0.24), rotation + n * math.pi / 7)
+                for n in range(14)
+            ]
             stars += [[center, points[n], points[(n + 1) % 14]] for n in range(14)]
     triangles = shapes.triangles(stars)
     colors = shapes.uniform_colors(len(triangles), EMITTER)
     why = {
         "hdr": f"its light is {EMITTER[0]:g} times display white, which 8-bit formats clip",
         "tone-mapping": {
-            "after-resolve": "light is mapped to the display after the resolve, as a later pass does",
+            "after-resolve": "light is mapped to the display after the resolve, as a later pass "
+            "does",
             "before-resolve": "samples are mapped to the display before they are averaged",
             "weighted": "samples are averaged with weights of 1 / (1 + luma), then mapped",
         }[place],
     }
     exact = area.disjoint(display(colors), covered=False)
-    return Scene(width, height, triangles, colors, exact, False, None, tuple(why), why, {"tone-mapping": place})
+    return Scene(
+        width,
+        height,
+        triangles,
+        colors,
+        exact,
+        False,
+        None,
+        tuple(why),
+        why,
+        {"tone-mapping": place},
+    )
 
 
 def emitter(width: int, height: int) -> Scene:
@@ -76,12 +93,31 @@ def glass(width: int, height: int, display: Display | None = None) -> Scene:
     side = min(width, height)
     panes, tints = [shapes.rectangle(0, 0, width, height)], [WALL] * 2
     for number in range(9):
-        center = (width * (0.3 + 0.4 * shapes.spread(number, 0.1)), height * (0.3 + 0.4 * shapes.spread(2 * number, 0.3)))
+        center = (
+            width * (0.3 + 0.4 * shapes.spread(number, 0.1)),
+            height * (0.3 + 0.4 * shapes.spread(2 * number, 0.3)),
+        )
         rotation = 2 * math.pi * shapes.spread(number, 0.4)
-        panes.append([shapes.polar(center, side * (0.16 + 0.03 * (number % 4)), rotation + n * 2 * math.pi / 5) for n in range(5)])
+        panes.append(
+            [
+                shapes.polar(
+                    center, side * (0.16 + 0.03 * (number % 4)), rotation + n * 2 * math.pi / 5
+                )
+                for n in range(5)
+            ]
+        )
         alpha = 0.25 + 0.5 * shapes.spread(number, 0.8)
-        tints += [(shapes.spread(number, 0.9), shapes.spread(number, 0.2), shapes.spread(number, 0.6), alpha)] * 3
+        tints += [
+            (
+                shapes.spread(number, 0.9),
+                shapes.spread(number, 0.2),
+                shapes.spread(number, 0.6),
+                alpha,
+            )
+        ] * 3
     triangles, colors = shapes.triangles(panes), np.array(tints)
-    exact = visible.overlapping(colors, None, width, height, visible.Visibility(blended=True), display)
+    exact = visible.overlapping(
+        colors, None, width, height, visible.Visibility(blended=True), display
+    )
     why = {"blending": "the panes are transparent"}
     return Scene(width, height, triangles, colors, exact, False, None, ("blending",), why)

@@ -1,7 +1,7 @@
 """A user's triangles from an OBJ or PLY file, seen along z, with y up and greater z nearer.
 
-trimesh reads both formats, text and binary, needs only NumPy, and is maintained; meshio, the other small reader, has had no release since
-January 2024, and plyfile reads only PLY.
+trimesh reads both formats, text and binary, needs only NumPy, and is maintained; meshio, the other
+small reader, has had no release since January 2024, and plyfile reads only PLY.
 """
 
 from __future__ import annotations
@@ -39,9 +39,10 @@ FORMATS = {".obj": "obj", ".ply": "ply"}
 def from_mesh(path: str, width: int, height: int) -> Scene:
     """The triangles of a file, scaled to fill the picture with a margin of one pixel.
 
-    Flat meshes (all z equal) without colors are white on black, a scene of coverage; others have the colors of their faces or vertices
-    (taken as sRGB), or a gray by how much a triangle faces the viewer. OSError where the file cannot be read, ValueError where it is not
-    such a mesh, too large, or with too many triangles over the same pixels, ModuleNotFoundError without trimesh.
+    Flat meshes (all z equal) without colors are white on black, a scene of coverage; others have
+    the colors of their faces or vertices (taken as sRGB), or a gray by how much a triangle faces
+    the viewer. OSError where the file cannot be read, ValueError where it is not such a mesh, too
+    large, or with too many triangles over the same pixels, ModuleNotFoundError without trimesh.
     """
     check_size(width, height)
     corners, mesh_colors = _read(path)
@@ -54,7 +55,11 @@ def from_mesh(path: str, width: int, height: int) -> Scene:
     if not size[:2].any():
         raise ValueError("the mesh has no visible extent")
     with np.errstate(over="ignore", invalid="ignore"):
-        scale = min((side - 2) / side_length for side, side_length in zip((width, height), size[:2], strict=True) if side_length > 0)
+        scale = min(
+            (side - 2) / side_length
+            for side, side_length in zip((width, height), size[:2], strict=True)
+            if side_length > 0
+        )
         center = low + size / 2
         triangles = np.empty((len(corners), 3, 2))
         triangles[..., 0] = (corners[..., 0] - center[0]) * scale + width / 2
@@ -62,14 +67,29 @@ def from_mesh(path: str, width: int, height: int) -> Scene:
     if not np.all(np.isfinite(triangles)):
         raise ValueError("the mesh is too small: its extent is not a normal number")
     name, description = os.path.basename(path), f"{len(triangles)} triangles from a file"
-    if flat and mesh_colors is None and areas_of(triangles, width, height).max() <= 1 + area.TOLERANCE:
+    if (
+        flat
+        and mesh_colors is None
+        and areas_of(triangles, width, height).max() <= 1 + area.TOLERANCE
+    ):
         colors = shapes.uniform_colors(len(triangles), WHITE)
-        return Scene(width, height, triangles, colors, area.disjoint(colors), name=name, description=description)
+        return Scene(
+            width,
+            height,
+            triangles,
+            colors,
+            area.disjoint(colors),
+            name=name,
+            description=description,
+        )
     colors = mesh_colors if mesh_colors is not None else _grays(corners)
     depths = 0.01 + 0.98 * (high[2] - corners[..., 2]) / size[2] if not flat else None
     exact = visible.overlapping(colors, depths, width, height, visible.Visibility(depth=not flat))
-    scene = Scene(width, height, triangles, colors, exact, False, depths, name=name, description=description)
-    # The picture that the points are compared with is computed now, so that its limit is an error of the mesh, not of each point.
+    scene = Scene(
+        width, height, triangles, colors, exact, False, depths, name=name, description=description
+    )
+    # The picture that the points are compared with is computed now, so that its limit is an error
+    # of the mesh, not of each point.
     exact(whole(snapped(triangles) / SUBPIXELS, width, height))
     if flat:
         return scene
@@ -96,8 +116,11 @@ def _read(path: str) -> tuple[Floats, Floats | None]:
     if problem:
         raise ValueError(f"{not_valid}: {problem}")
     try:
-        # Bytes have no folder in which trimesh would look for other files that the mesh names (materials, textures).
-        mesh = trimesh.load_mesh(io.BytesIO(data), file_type=format, process=False, skip_materials=True)
+        # Bytes have no folder in which trimesh would look for other files that the mesh names
+        # (materials, textures).
+        mesh = trimesh.load_mesh(
+            io.BytesIO(data), file_type=format, process=False, skip_materials=True
+        )
         problem = _broken_faces(mesh)
         corners = np.asarray(mesh.triangles, np.float64) if not problem else np.empty((0, 3, 3))
         colors = _colors(mesh) if not problem else None
@@ -110,14 +133,17 @@ def _read(path: str) -> tuple[Floats, Floats | None]:
     if not len(corners):
         raise ValueError("the file has no triangles")
     if len(corners) > MAX_TRIANGLES:
-        raise ValueError(f"the file has {len(corners)} triangles; at most {MAX_TRIANGLES} are supported")
+        raise ValueError(
+            f"the file has {len(corners)} triangles; at most {MAX_TRIANGLES} are supported"
+        )
     if not np.all(np.isfinite(corners)):
         raise ValueError("a vertex has a coordinate that is not finite")
     return corners, colors
 
 
 def _broken_obj(data: bytes) -> str:
-    """What is wrong with the vertices and faces of an OBJ file, at the first line with a mistake; empty if nothing is.
+    """What is wrong with the vertices and faces of an OBJ file, at the first line with a mistake;
+    empty if nothing is.
 
     trimesh renumbers vertices, so that index 0 becomes another one.
     """
@@ -140,15 +166,24 @@ def _broken_obj(data: bytes) -> str:
             if max(indices) > greatest:
                 greatest, line_of_greatest = max(indices), number
     if greatest > vertices:
-        return f"line {line_of_greatest}: a face refers to vertex {greatest}, but the file has {vertices}"
+        return (
+            f"line {line_of_greatest}: a face refers to vertex {greatest}, but the file has "
+            f"{vertices}"
+        )
     return ""
 
 
 def _broken_faces(mesh: Any) -> str:
-    """What is wrong with the faces of a mesh; empty if nothing is. NumPy counts negative indices from the end."""
+    """What is wrong with the faces of a mesh; empty if nothing is. NumPy counts negative indices
+    from the end.
+    """
     faces, count = np.asarray(getattr(mesh, "faces", ())), len(getattr(mesh, "vertices", ()))
     wrong = faces[(faces < 0) | (faces >= count)]
-    return f"a face refers to vertex {wrong[0]} (counting from 0), but the file has {count}" if len(wrong) else ""
+    return (
+        f"a face refers to vertex {wrong[0]} (counting from 0), but the file has {count}"
+        if len(wrong)
+        else ""
+    )
 
 
 def _colors(mesh: Any) -> Floats | None:

@@ -4,8 +4,10 @@ from typing import NamedTuple
 
 
 class Part(NamedTuple):
-    """A window of a picture: its left column, its top row, its width and its height in pixels, where the scene has moved by (dx, dy)
-    pixels. What belongs to the screen (sample locations, dithering) has not moved."""
+    """A window of a picture: its left column, its top row, its width and its height in pixels,
+    where the scene has moved by (dx, dy) pixels. What belongs to the screen (sample locations,
+    dithering) has not moved.
+    """
 
     left: int
     top: int

@@ -1,4 +1,6 @@
-"""A scene: triangles, the effects it needs, and its exact picture. Importing this needs no NumPy."""
+"""A scene: triangles, the effects it needs, and its exact picture. Importing this needs no
+NumPy.
+"""
 
 from __future__ import annotations
 
@@ -27,13 +29,15 @@ MIN_SIZE = 32
 
 
 class Scene(NamedTuple):
-    """A picture to render. Coordinates are pixels, x to the right and y down; colors are linear, 1.0 is display white.
+    """A picture to render. Coordinates are pixels, x to the right and y down; colors are linear,
+    1.0 is display white.
 
-    `depths` are those of the triangles' corners, in [0, 1]; None without depth. `effects` names the stages that the scene needs
-    (study/effects.py), `why` gives the reason for each, and `settings` the choices. `shade` gives the color at a point; None where each
-    triangle has a single color. `exact` gives parts of the picture without sampling error, as an infinite number of samples would, after
-    any tone mapping, and the pixels that an edge crosses. With `coverage_matter` its alpha is the exact coverage and errors are of
-    coverage, otherwise of color.
+    `depths` are those of the triangles' corners, in [0, 1]; None without depth. `effects` names the
+    stages that the scene needs (study/effects.py), `why` gives the reason for each, and `settings`
+    the choices. `shade` gives the color at a point; None where each triangle has a single color.
+    `exact` gives parts of the picture without sampling error, as an infinite number of samples
+    would, after any tone mapping, and the pixels that an edge crosses. With `coverage_matter` its
+    alpha is the exact coverage and errors are of coverage, otherwise of color.
     """
 
     width: int
@@ -55,4 +59,6 @@ class Scene(NamedTuple):
 def check_size(width: int, height: int) -> None:
     """ValueError where a picture is too small for a scene."""
     if width < MIN_SIZE or height < MIN_SIZE:
-        raise ValueError(f"a scene must be at least {MIN_SIZE}x{MIN_SIZE} pixels, found {width}x{height}")
+        raise ValueError(
+            f"a scene must be at least {MIN_SIZE}x{MIN_SIZE} pixels, found {width}x{height}"
+        )

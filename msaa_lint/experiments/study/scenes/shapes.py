@@ -12,7 +12,9 @@ Floats = NDArray[np.float64]
 Point = tuple[float, float]
 
 GOLDEN = (math.sqrt(5) - 1) / 2
-"""The fractional parts of its multiples are spread evenly over [0, 1) and look random, but are the same everywhere."""
+"""The fractional parts of its multiples are spread evenly over [0, 1) and look random, but are the
+same everywhere.
+"""
 
 
 def spread(number: int, start: float = 0.5) -> float:
@@ -27,7 +29,9 @@ def fan(polygon: Sequence[Point]) -> list[list[Point]]:
 
 def triangles(polygons: Iterable[Sequence[Point]]) -> Floats:
     """The triangles (T, 3, 2) of convex polygons."""
-    return np.array([triangle for polygon in polygons for triangle in fan(polygon)], np.float64).reshape(-1, 3, 2)
+    return np.array(
+        [triangle for polygon in polygons for triangle in fan(polygon)], np.float64
+    ).reshape(-1, 3, 2)
 
 
 def bar(start: Point, end: Point, width: float) -> list[Point]:
@@ -53,8 +57,9 @@ def uniform_colors(count: int, color: Sequence[float]) -> Floats:
 
 
 def depth_planes(corners: Floats, depths: Floats) -> Floats:
-    """Each triangle's depth as a plane a*x + b*y + c in pixels (T, 3), from corners (T, 3, 2) and their depths (T, 3); a and b are 0 for a
-    triangle without area."""
+    """Each triangle's depth as a plane a*x + b*y + c in pixels (T, 3), from corners (T, 3, 2) and
+    their depths (T, 3); a and b are 0 for a triangle without area.
+    """
     (x0, y0), (x1, y1), (x2, y2) = (corners[:, n].T for n in range(3))
     z0, z1, z2 = depths.T
     area = (x1 - x0) * (y2 - y0) - (x2 - x0) * (y1 - y0)

@@ -14,14 +14,17 @@ Floats = NDArray[np.float64]
 
 
 def side_by_side(parts: Sequence[Scene], width: int, height: int) -> Scene:
-    """One scene of several, from the left, with black in what remains at the right; each part is `height` pixels high.
+    """One scene of several, from the left, with black in what remains at the right; each part is
+    `height` pixels high.
 
-    The effects and settings are those of all parts. With a depth test, a part without depths gets some with which triangles drawn later are
-    nearer.
+    The effects and settings are those of all parts. With a depth test, a part without depths gets
+    some with which triangles drawn later are nearer.
     """
     lefts = np.cumsum([0, *(part.width for part in parts)])
     firsts = [int(first) for first in np.cumsum([0, *(len(part.triangles) for part in parts)])]
-    triangles = np.concatenate([part.triangles + np.array((left, 0)) for part, left in zip(parts, lefts, strict=False)])
+    triangles = np.concatenate(
+        [part.triangles + np.array((left, 0)) for part, left in zip(parts, lefts, strict=False)]
+    )
     colors = np.concatenate([part.colors for part in parts])
     effects = tuple(dict.fromkeys(name for part in parts for name in part.effects))
     why = {name: reason for part in parts for name, reason in part.why.items()}
@@ -32,7 +35,12 @@ def side_by_side(parts: Sequence[Scene], width: int, height: int) -> Scene:
     depths = None
     if "depth-test" in effects:
         greater = str(settings.get("depth-test", "LESS")).startswith("GREATER")
-        depths = np.concatenate([_depths_in_order(part, greater) if part.depths is None else part.depths for part in parts])
+        depths = np.concatenate(
+            [
+                _depths_in_order(part, greater) if part.depths is None else part.depths
+                for part in parts
+            ]
+        )
 
     def exact(view: View) -> Truth:
         window = view.parts[0]
@@ -49,12 +57,18 @@ def side_by_side(parts: Sequence[Scene], width: int, height: int) -> Scene:
         for number, part in enumerate(parts):
             if part.shade is not None:
                 inside = (triangle >= firsts[number]) & (triangle < firsts[number + 1])
-                shaded[inside] = part.shade(triangle[inside] - np.int32(firsts[number]), x[inside] - lefts[number], y[inside])
+                shaded[inside] = part.shade(
+                    triangle[inside] - np.int32(firsts[number]),
+                    x[inside] - lefts[number],
+                    y[inside],
+                )
         return shaded
 
     shader = shade if any(part.shade is not None for part in parts) else None
     coverage = all(part.coverage_matter for part in parts)
-    return Scene(width, height, triangles, colors, exact, coverage, depths, effects, why, settings, shader)
+    return Scene(
+        width, height, triangles, colors, exact, coverage, depths, effects, why, settings, shader
+    )
 
 
 def _depths_in_order(part: Scene, greater: bool) -> Floats:
@@ -64,8 +78,9 @@ def _depths_in_order(part: Scene, greater: bool) -> Floats:
 
 
 def _add(truth: Truth, scene: Scene, view: View, first: int, left: int) -> None:
-    """Adds one of the scenes to the exact picture of some parts; its first triangle is `first`, and it begins at column `left`. What of it
-    moves beyond its columns is added to what is there."""
+    """Adds one of the scenes to the exact picture of some parts; its first triangle is `first`, and
+    it begins at column `left`. What of it moves beyond its columns is added to what is there.
+    """
     parts = [part._replace(left=part.left - left) for part in view.parts]
     exact = scene.exact(View(parts, view.triangle - first, view.part, view.corners - (left, 0)))
     truth.image[...] += exact.image

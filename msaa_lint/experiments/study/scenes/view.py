@@ -20,8 +20,9 @@ Floats = NDArray[np.float64]
 class View(NamedTuple):
     """The triangles near some parts of a picture; the parts are all of one size.
 
-    `triangle` (S,) are the scene's numbers of the triangles, in order within each part, `part` (S,) the parts that they are near, and
-    `corners` (S, 3, 2) their snapped corners in pixels of the picture, moved as the scene is in that part.
+    `triangle` (S,) are the scene's numbers of the triangles, in order within each part, `part` (S,)
+    the parts that they are near, and `corners` (S, 3, 2) their snapped corners in pixels of the
+    picture, moved as the scene is in that part.
     """
 
     parts: Sequence[Part]
@@ -31,23 +32,31 @@ class View(NamedTuple):
 
     def only(self, which: NDArray[np.bool_]) -> View:
         """The same parts with some of the triangles."""
-        return self._replace(triangle=self.triangle[which], part=self.part[which], corners=self.corners[which])
+        return self._replace(
+            triangle=self.triangle[which], part=self.part[which], corners=self.corners[which]
+        )
 
     def areas(self) -> Floats:
-        """The total area of the triangles, which do not overlap, within every pixel of the parts: (P, H, W)."""
+        """The total area of the triangles, which do not overlap, within every pixel of the parts:
+        (P, H, W).
+        """
         return areas_in(self.parts, self.part, self.corners)
 
 
 class Truth(NamedTuple):
-    """The exact picture (..., H, W, 4) in linear color, and the pixels (..., H, W) that an edge crosses."""
+    """The exact picture (..., H, W, 4) in linear color, and the pixels (..., H, W) that an edge
+    crosses.
+    """
 
     image: Floats
     edge_pixels: NDArray[np.bool_]
 
 
 class Snapped(NamedTuple):
-    """The triangles near some parts as a technique renders them: as in View, with corners (S, 3, 2) in subpixels of the rendered picture,
-    which is `grid` times as wide and as high as the scene's."""
+    """The triangles near some parts as a technique renders them: as in View, with corners (S, 3,
+    2) in subpixels of the rendered picture, which is `grid` times as wide and as high as the
+    scene's.
+    """
 
     parts: Sequence[Part]
     triangle: NDArray[np.intp]
@@ -61,8 +70,10 @@ class Snapped(NamedTuple):
 
 
 def snapped(triangles: Floats, parts: Sequence[Part], grid: int = 1, bits: int = 8) -> Snapped:
-    """Those of a scene's triangles (T, 3, 2) that are near parts of one size, snapped to 2^-bits pixels of a picture rendered `grid` times
-    as wide and as high. A moved scene is snapped after it has moved, as on a device."""
+    """Those of a scene's triangles (T, 3, 2) that are near parts of one size, snapped to 2^-bits
+    pixels of a picture rendered `grid` times as wide and as high. A moved scene is snapped after it
+    has moved, as on a device.
+    """
     low, high = _bounds(triangles)
     motion = np.array([(part.dx, part.dy) for part in parts])
     # Snapping moves corners by at most half a pixel.
@@ -71,7 +82,9 @@ def snapped(triangles: Floats, parts: Sequence[Part], grid: int = 1, bits: int =
     for left, top, width, height, _, _ in parts:
         if (left, top) not in near:
             across = (low[0] < left + width + margin) & (high[0] > left - margin)
-            near[left, top] = np.flatnonzero(across & (low[1] < top + height + margin) & (high[1] > top - margin))
+            near[left, top] = np.flatnonzero(
+                across & (low[1] < top + height + margin) & (high[1] > top - margin)
+            )
     lists = [near[part.left, part.top] for part in parts]
     triangle = np.concatenate(lists)
     number = np.repeat(np.arange(len(parts)), [len(each) for each in lists])
@@ -82,7 +95,9 @@ def snapped(triangles: Floats, parts: Sequence[Part], grid: int = 1, bits: int =
 
 
 def _bounds(triangles: Floats) -> tuple[Floats, Floats]:
-    """The least and the greatest coordinates of triangles (T, 3, 2), each (2, T). The last ones are cached, for all parts of a scene."""
+    """The least and the greatest coordinates of triangles (T, 3, 2), each (2, T). The last ones are
+    cached, for all parts of a scene.
+    """
     for cached, low, high in _BOUNDS:
         if cached is triangles:
             return low, high
@@ -102,13 +117,22 @@ def whole(triangles: Floats, width: int, height: int) -> View:
 
 
 def offsets(parts: Sequence[Part]) -> NDArray[np.int64]:
-    """How far each part is moved, in pixels (P, 2), to stand below the one before it, where the first one stays where it is."""
+    """How far each part is moved, in pixels (P, 2), to stand below the one before it, where the
+    first one stays where it is.
+    """
     first = parts[0]
-    return np.array([(first.left - part.left, first.top + number * first.height - part.top) for number, part in enumerate(parts)])
+    return np.array(
+        [
+            (first.left - part.left, first.top + number * first.height - part.top)
+            for number, part in enumerate(parts)
+        ]
+    )
 
 
 def areas_in(parts: Sequence[Part], part: NDArray[np.intp], corners: Floats) -> Floats:
-    """The total area of disjoint triangles (S, 3, 2), each near a part (S,), within every pixel of the parts: (P, H, W)."""
+    """The total area of disjoint triangles (S, 3, 2), each near a part (S,), within every pixel of
+    the parts: (P, H, W).
+    """
     first = parts[0]
     top = first.top + part * first.height
     areas = areas_of(

@@ -39,7 +39,9 @@ class Rect(Record):
 
 
 class BeginRenderPass(Record):
-    """VkRenderPassBeginInfo; a list of framebuffers alternates from frame to frame. `label` is the debug labels around it."""
+    """VkRenderPassBeginInfo; a list of framebuffers alternates from frame to frame. `label` is the
+    debug labels around it.
+    """
 
     renderPass: RenderPassName | None = None
     framebuffer: FramebufferName | tuple[FramebufferName, ...] | None = None
@@ -77,7 +79,9 @@ class FragmentShadingRateAttachment(Record):
 
 
 class BeginRendering(Record):
-    """VkRenderingInfo; null is an unused color attachment. `label` is the debug labels around it; several of one that is begun again."""
+    """VkRenderingInfo; null is an unused color attachment. `label` is the debug labels around it;
+    several of one that is begun again.
+    """
 
     flags: RenderingFlags = ()
     renderArea: Rect | None = None
@@ -94,7 +98,9 @@ class BeginRendering(Record):
 
 
 class Draw(Record):
-    """vkCmdDraw, vkCmdDrawIndexed; or `drawCount` such draws with one pipeline, whose counts are these on average."""
+    """vkCmdDraw, vkCmdDrawIndexed; or `drawCount` such draws with one pipeline, whose counts are
+    these on average.
+    """
 
     pipeline: PipelineName | None = None
     vertexCount: Index | None = None
@@ -162,7 +168,9 @@ class WriteImage(Record):
 
 
 class ReadImage(Record):
-    """A shader reads the image; for a multisampled one, the samples that it fetches and how it combines them."""
+    """A shader reads the image; for a multisampled one, the samples that it fetches and how it
+    combines them.
+    """
 
     image: ImageName | None = None
     stage: Stage | None = None
@@ -197,9 +205,11 @@ NoParameters = Annotated[Nothing | None, ("null", ("record", Nothing))]
 
 
 class Command(Record):
-    """A recorded command: a mapping with one key. A command without parameters may be written as a bare word.
+    """A recorded command: a mapping with one key. A command without parameters may be written as a
+    bare word.
 
-    `kind` is the key, `body` the parameters (None where there are none). SHAPE has the commands and the shapes of their parameters.
+    `kind` is the key, `body` the parameters (None where there are none). SHAPE has the commands and
+    the shapes of their parameters.
     """
 
     SHAPE = shapes_of(

@@ -4,13 +4,36 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from ..members import NO_ENTRIES, Format, MemoryProperties, PositiveNumber, ResolveModes, Samples, ShadingCost, Share, Size
+from ..members import (
+    NO_ENTRIES,
+    Format,
+    MemoryProperties,
+    PositiveNumber,
+    ResolveModes,
+    Samples,
+    ShadingCost,
+    Share,
+    Size,
+)
 from ..record import Record
 from .commands import RecordedCommand
 from .metal import Metal
 from .vulkan import Framebuffer, Image, Pipeline, RenderPass
 
-VENDORS = ("arm", "img", "amd", "nvidia", "qualcomm", "apple", "intel", "broadcom", "samsung", "mesa", "khronos", "huawei")
+VENDORS = (
+    "arm",
+    "img",
+    "amd",
+    "nvidia",
+    "qualcomm",
+    "apple",
+    "intel",
+    "broadcom",
+    "samsung",
+    "mesa",
+    "khronos",
+    "huawei",
+)
 Vendor = Annotated[str, ("caseless", VENDORS)]
 
 
@@ -49,7 +72,9 @@ class Device(Record):
 
 
 class Enabled(Record):
-    """What the application enables: VkApplicationInfo::apiVersion, VkDeviceCreateInfo's extensions and features."""
+    """What the application enables: VkApplicationInfo::apiVersion, VkDeviceCreateInfo's extensions
+    and features.
+    """
 
     apiVersion: str | None = None
     extensions: tuple[str, ...] | None = None
@@ -74,7 +99,23 @@ ImpellerColorFormat = Literal[
     "kB10G10R10A10XR",
 ]
 ImpellerDepthFormat = Literal["kS8UInt", "kD24UnormS8Uint", "kD32FloatS8UInt"]
-ImpellerSampleCount = Literal[1, 2, 4, 8, 16, "kCount1", "kCount2", "kCount4", "kCount8", "kCount16", "k1", "k2", "k4", "k8", "k16"]
+ImpellerSampleCount = Literal[
+    1,
+    2,
+    4,
+    8,
+    16,
+    "kCount1",
+    "kCount2",
+    "kCount4",
+    "kCount8",
+    "kCount16",
+    "k1",
+    "k2",
+    "k4",
+    "k8",
+    "k16",
+]
 
 
 class AttachmentConfig(Record):
@@ -87,7 +128,9 @@ class AttachmentConfig(Record):
 
 
 class AttachmentConfigMSAA(Record):
-    """Impeller's RenderTarget::AttachmentConfigMSAA. With one sample per pixel, `resolveStorageMode` is unused."""
+    """Impeller's RenderTarget::AttachmentConfigMSAA. With one sample per pixel,
+    `resolveStorageMode` is unused.
+    """
 
     storageMode: ImpellerStorage | None = None
     resolveStorageMode: ImpellerStorage | None = None
@@ -112,9 +155,11 @@ class RenderTarget(Record):
 
 
 class FrameSize(Record):
-    """The frame size in pixels (by default that of the framebuffers) and the frame rate in frames per second, for cost estimates.
+    """The frame size in pixels (by default that of the framebuffers) and the frame rate in frames
+    per second, for cost estimates.
 
-    `share` is the fraction of a program's frames that are like this one, if the documents of a file are the kinds of frame of one program.
+    `share` is the fraction of a program's frames that are like this one, if the documents of a file
+    are the kinds of frame of one program.
     """
 
     width: Size | None = None
@@ -161,7 +206,9 @@ class SampleCountTest(Record):
 
 
 class SampleCountChoice(Record):
-    """How a program selects its sample count: from which masks of VkPhysicalDeviceLimits, how combined, and which bit it takes."""
+    """How a program selects its sample count: from which masks of VkPhysicalDeviceLimits, how
+    combined, and which bit it takes.
+    """
 
     limits: tuple[SampleCountLimit, ...] | None = None
     combined: Literal["AND", "OR", "MIN", "MAX", "LOGICAL_AND", "LOGICAL_OR", "NONE"] | None = None

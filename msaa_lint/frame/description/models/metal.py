@@ -1,7 +1,8 @@
 """The frame in Metal's terms: the section `metal` of a description.
 
-The members are those of Metal's descriptors in Swift, with the names of textures and passes in place of objects. As everywhere in a
-description, an absent member is unknown and does not stand for Metal's default; only an absent `resolveTexture` means that there is none.
+The members are those of Metal's descriptors in Swift, with the names of textures and passes in
+place of objects. As everywhere in a description, an absent member is unknown and does not stand for
+Metal's default; only an absent `resolveTexture` means that there is none.
 """
 
 from __future__ import annotations
@@ -46,7 +47,9 @@ class MetalRecord(Record):
 
 
 class MetalTexture(MetalRecord):
-    """MTLTextureDescriptor; `drawable` marks a texture of a CAMetalLayer, `encoding` says what the values encode."""
+    """MTLTextureDescriptor; `drawable` marks a texture of a CAMetalLayer, `encoding` says what the
+    values encode.
+    """
 
     pixelFormat: PixelFormat | None = None
     width: Size | None = None
@@ -91,12 +94,15 @@ class MetalStencilAttachment(MetalRecord):
 
 
 MetalPassColors = Annotated[
-    dict[str, MetalColorAttachment | None] | tuple[MetalColorAttachment | None, ...], _by_color(MetalColorAttachment)
+    dict[str, MetalColorAttachment | None] | tuple[MetalColorAttachment | None, ...],
+    _by_color(MetalColorAttachment),
 ]
 
 
 class MetalRenderPass(MetalRecord):
-    """MTLRenderPassDescriptor; `colorAttachments` is a list, or a mapping by index; null is an unused attachment."""
+    """MTLRenderPassDescriptor; `colorAttachments` is a list, or a mapping by index; null is an
+    unused attachment.
+    """
 
     colorAttachments: MetalPassColors = ()
     depthAttachment: MetalDepthAttachment | None = None
@@ -111,11 +117,16 @@ class MetalPipelineColor(MetalRecord):
     blendingEnabled: bool | None = None
 
 
-MetalPipelineColors = Annotated[dict[str, MetalPipelineColor | None] | tuple[MetalPipelineColor | None, ...], _by_color(MetalPipelineColor)]
+MetalPipelineColors = Annotated[
+    dict[str, MetalPipelineColor | None] | tuple[MetalPipelineColor | None, ...],
+    _by_color(MetalPipelineColor),
+]
 
 
 class MetalRenderPipeline(MetalRecord):
-    """MTLRenderPipelineDescriptor; Objective-C's and deprecated names of a property are accepted."""
+    """MTLRenderPipelineDescriptor; Objective-C's and deprecated names of a property are
+    accepted.
+    """
 
     renderPass: MetalPassName | None = None
     rasterSampleCount: Samples | None = None
@@ -132,7 +143,9 @@ class MetalRenderPipeline(MetalRecord):
 
 
 class MetalRead(MetalRecord):
-    """A shader reads the texture; for a multisampled one, the samples that it reads and how it combines them."""
+    """A shader reads the texture; for a multisampled one, the samples that it reads and how it
+    combines them.
+    """
 
     texture: TextureName | None = None
     stage: MetalStage | None = None
@@ -155,7 +168,9 @@ class MetalCopy(MetalRecord):
 
 
 class MetalCommand(Command, MetalRecord):
-    """What a command buffer encodes: a whole render pass, a read or a write by a shader, a copy, the presentation of a drawable."""
+    """What a command buffer encodes: a whole render pass, a read or a write by a shader, a copy,
+    the presentation of a drawable.
+    """
 
     SHAPE = shapes_of(
         renderPass=MetalPassName,
@@ -167,7 +182,9 @@ class MetalCommand(Command, MetalRecord):
 
 
 class Metal(MetalRecord):
-    """A frame in Metal's terms, and what the GPU supports: its family, and the counts for which supportsTextureSampleCount is true."""
+    """A frame in Metal's terms, and what the GPU supports: its family, and the counts for which
+    supportsTextureSampleCount is true.
+    """
 
     family: GPUFamily | None = None
     supportedSampleCounts: tuple[Samples, ...] | None = None

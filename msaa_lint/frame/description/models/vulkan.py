@@ -61,11 +61,15 @@ class Extent2D(Record):
 
 
 UnreadStructures = tuple[str, ...]
-"""The structures of a pNext chain, by sType, that a description has no keys for: what they do is unknown."""
+"""The structures of a pNext chain, by sType, that a description has no keys for: what they do is
+unknown.
+"""
 
 
 class Image(Record):
-    """VkImageCreateInfo, the memory it is bound to, what its values encode, and whether something that is not described may read it."""
+    """VkImageCreateInfo, the memory it is bound to, what its values encode, and whether something
+    that is not described may read it.
+    """
 
     format: Format | None = None
     samples: Samples | None = None
@@ -86,7 +90,9 @@ class Image(Record):
 
 
 class AttachmentDescription(Record):
-    """VkAttachmentDescription, VkAttachmentDescription2. `image` binds an image without a framebuffer."""
+    """VkAttachmentDescription, VkAttachmentDescription2. `image` binds an image without a
+    framebuffer.
+    """
 
     image: ImageName | None = None
     format: Format | None = None
@@ -106,7 +112,9 @@ class AttachmentDescription(Record):
 class AttachmentReference(Record):
     """VkAttachmentReference: a name, an index, or null for VK_ATTACHMENT_UNUSED."""
 
-    attachment: Annotated[str | int | None, ("null", ("either", ("text",), ("int", 0, MAX_UINT32)))] = None
+    attachment: Annotated[
+        str | int | None, ("null", ("either", ("text",), ("int", 0, MAX_UINT32)))
+    ] = None
     layout: Layout | None = None
 
 
@@ -161,10 +169,14 @@ class SubpassDependency(Record):
 
 
 class RenderPass(Record):
-    """VkRenderPassCreateInfo, VkRenderPassCreateInfo2, VkRenderPassFragmentDensityMapCreateInfoEXT."""
+    """VkRenderPassCreateInfo, VkRenderPassCreateInfo2,
+    VkRenderPassFragmentDensityMapCreateInfoEXT.
+    """
 
     flags: RenderPassFlags = ()
-    attachments: Annotated[tuple[AttachmentDescription, ...], ("counted", ("record", AttachmentDescription))] = ()
+    attachments: Annotated[
+        tuple[AttachmentDescription, ...], ("counted", ("record", AttachmentDescription))
+    ] = ()
     subpasses: tuple[Subpass, ...] = ()
     dependencies: tuple[SubpassDependency, ...] = ()
     fragmentDensityMapAttachment: AttachmentSlot | None = None
@@ -262,11 +274,15 @@ class RasterizationState(Record):
     depthBiasEnable: bool | None = None
 
 
-Specialization = Annotated[dict[str, float | bool], ("numbered", ("either", ("number", False), ("bool",)))]
+Specialization = Annotated[
+    dict[str, float | bool], ("numbered", ("either", ("number", False), ("bool",)))
+]
 
 
 class ShaderStage(Record):
-    """VkPipelineShaderStageCreateInfo; `module` is the path of a SPIR-V file, relative to the description."""
+    """VkPipelineShaderStageCreateInfo; `module` is the path of a SPIR-V file, relative to the
+    description.
+    """
 
     stage: ShaderStageName | None = None
     module: str | None = None

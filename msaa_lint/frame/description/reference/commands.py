@@ -17,10 +17,18 @@ COMMAND_STRUCTURES = {
         "VkRect2D",
         "renderpass-commands",
         {
-            "x": Key("Left edge", "The first column of the rectangle.", "pixels", source="VkOffset2D::x"),
-            "y": Key("Top edge", "The first row of the rectangle.", "pixels", source="VkOffset2D::y"),
-            "width": Key("Width", "The width of the rectangle.", "pixels", source="VkExtent2D::width"),
-            "height": Key("Height", "The height of the rectangle.", "pixels", source="VkExtent2D::height"),
+            "x": Key(
+                "Left edge", "The first column of the rectangle.", "pixels", source="VkOffset2D::x"
+            ),
+            "y": Key(
+                "Top edge", "The first row of the rectangle.", "pixels", source="VkOffset2D::y"
+            ),
+            "width": Key(
+                "Width", "The width of the rectangle.", "pixels", source="VkExtent2D::width"
+            ),
+            "height": Key(
+                "Height", "The height of the rectangle.", "pixels", source="VkExtent2D::height"
+            ),
         },
     ),
     "BeginRenderPass": Structure(
@@ -28,17 +36,27 @@ COMMAND_STRUCTURES = {
         "VkRenderPassBeginInfo",
         "renderpass-commands",
         {
-            "renderPass": Key("Render pass", "The name in `renderPasses` of the render pass that begins."),
+            "renderPass": Key(
+                "Render pass", "The name in `renderPasses` of the render pass that begins."
+            ),
             "framebuffer": Key(
                 "Framebuffer",
-                "The name in `framebuffers` of the framebuffer that binds the images; a list alternates from frame to frame.",
+                "The name in `framebuffers` of the framebuffer that binds the images; a list "
+                "alternates from frame to frame.",
                 absent="the images that the attachments name",
             ),
-            "renderArea": Key("Render area", "The pixels that the pass loads, draws, resolves and stores."),
-            "clearValueCount": Key("Number of clear values", "How many attachments have a clear value, from index 0.", "attachments"),
+            "renderArea": Key(
+                "Render area", "The pixels that the pass loads, draws, resolves and stores."
+            ),
+            "clearValueCount": Key(
+                "Number of clear values",
+                "How many attachments have a clear value, from index 0.",
+                "attachments",
+            ),
             "label": Key(
                 "Debug label",
-                "What the application calls this part of the frame. Findings about the pass begin with it.",
+                "What the application calls this part of the frame. Findings about the pass begin "
+                "with it.",
                 source="VkDebugUtilsLabelEXT::pLabelName",
             ),
         },
@@ -49,12 +67,20 @@ COMMAND_STRUCTURES = {
         "renderpass",
         {
             "image": Key(
-                "Image", "The name of the image in `images`.", absent="no attachment", source="VkRenderingAttachmentInfo::imageView"
+                "Image",
+                "The name of the image in `images`.",
+                absent="no attachment",
+                source="VkRenderingAttachmentInfo::imageView",
             ),
-            "imageLayout": Key("Layout", "The layout of the image while rendering.", section="resources-image-layouts"),
+            "imageLayout": Key(
+                "Layout",
+                "The layout of the image while rendering.",
+                section="resources-image-layouts",
+            ),
             "resolveMode": Key(
                 "Resolve mode",
-                "How the samples of a pixel become one value in `resolveImage`: AVERAGE for color, mostly SAMPLE_ZERO for depth.",
+                "How the samples of a pixel become one value in `resolveImage`: AVERAGE for color, "
+                "mostly SAMPLE_ZERO for depth.",
                 section="renderpass-resolve-operations",
             ),
             "resolveImage": Key(
@@ -65,17 +91,21 @@ COMMAND_STRUCTURES = {
                 section="renderpass-resolve-operations",
             ),
             "resolveImageLayout": Key(
-                "Layout of the resolve image", "The layout of the resolve image while rendering.", section="resources-image-layouts"
+                "Layout of the resolve image",
+                "The layout of the resolve image while rendering.",
+                section="resources-image-layouts",
             ),
             "loadOp": Key(
                 "Load operation",
-                "What happens to the image when rendering begins. LOAD reads every sample from memory; CLEAR and DONT_CARE cost no "
+                "What happens to the image when rendering begins. LOAD reads every sample from "
+                "memory; CLEAR and DONT_CARE cost no "
                 "bandwidth on a tile-based GPU.",
                 section="renderpass-load-operations",
             ),
             "storeOp": Key(
                 "Store operation",
-                "What happens to the image when rendering ends. STORE writes every sample to memory; DONT_CARE discards them, which is "
+                "What happens to the image when rendering ends. STORE writes every sample to "
+                "memory; DONT_CARE discards them, which is "
                 "right if nothing reads them later.",
                 section="renderpass-store-operations",
             ),
@@ -93,7 +123,11 @@ COMMAND_STRUCTURES = {
                 absent="no attachment",
                 source="VkRenderingFragmentDensityMapAttachmentInfoEXT::imageView",
             ),
-            "imageLayout": Key("Layout", "The layout of the image while rendering.", section="resources-image-layouts"),
+            "imageLayout": Key(
+                "Layout",
+                "The layout of the image while rendering.",
+                section="resources-image-layouts",
+            ),
         },
     ),
     "FragmentShadingRateAttachment": Structure(
@@ -107,8 +141,14 @@ COMMAND_STRUCTURES = {
                 absent="no attachment",
                 source="VkRenderingFragmentShadingRateAttachmentInfoKHR::imageView",
             ),
-            "imageLayout": Key("Layout", "The layout of the image while rendering.", section="resources-image-layouts"),
-            "shadingRateAttachmentTexelSize": Key("Texel size", "The pixels that a texel of the attachment is for."),
+            "imageLayout": Key(
+                "Layout",
+                "The layout of the image while rendering.",
+                section="resources-image-layouts",
+            ),
+            "shadingRateAttachmentTexelSize": Key(
+                "Texel size", "The pixels that a texel of the attachment is for."
+            ),
         },
     ),
     "BeginRendering": Structure(
@@ -117,23 +157,42 @@ COMMAND_STRUCTURES = {
         "renderpass",
         {
             "flags": Key(
-                "Rendering flags", "SUSPENDING and RESUMING continue one rendering in several parts, without loads and stores between them."
+                "Rendering flags",
+                "SUSPENDING and RESUMING continue one rendering in several parts, without loads "
+                "and stores between them.",
             ),
-            "renderArea": Key("Render area", "The pixels that are loaded, drawn, resolved and stored."),
-            "layerCount": Key("Layers", "The layers that are rendered to, without a view mask.", "layers"),
-            "viewMask": Key("View mask", "The views that are rendered to, a bit for each; 0 without multiview.", "bit mask of views"),
-            "colorAttachments": Key("Color attachments", "The color attachments in order of location; null for an unused one."),
-            "depthAttachment": Key("Depth attachment", "The attachment of the depth test.", absent="none"),
-            "stencilAttachment": Key("Stencil attachment", "The attachment of the stencil test.", absent="none"),
+            "renderArea": Key(
+                "Render area", "The pixels that are loaded, drawn, resolved and stored."
+            ),
+            "layerCount": Key(
+                "Layers", "The layers that are rendered to, without a view mask.", "layers"
+            ),
+            "viewMask": Key(
+                "View mask",
+                "The views that are rendered to, a bit for each; 0 without multiview.",
+                "bit mask of views",
+            ),
+            "colorAttachments": Key(
+                "Color attachments",
+                "The color attachments in order of location; null for an unused one.",
+            ),
+            "depthAttachment": Key(
+                "Depth attachment", "The attachment of the depth test.", absent="none"
+            ),
+            "stencilAttachment": Key(
+                "Stencil attachment", "The attachment of the stencil test.", absent="none"
+            ),
             "multisampledRenderToSingleSampled": Key(
                 "Multisampled rendering to single-sampled images",
-                "Renders with several samples to attachments of one sample. The samples exist only on the tile.",
+                "Renders with several samples to attachments of one sample. The samples exist only "
+                "on the tile.",
                 absent="not used",
                 source="VkMultisampledRenderToSingleSampledInfoEXT",
             ),
             "fragmentDensityMapAttachment": Key(
                 "Fragment density map",
-                "The image that says for each block of pixels how densely it is shaded, such as for a foveated eye buffer. It is read.",
+                "The image that says for each block of pixels how densely it is shaded, such as "
+                "for a foveated eye buffer. It is read.",
                 absent="none",
                 source="VkRenderingFragmentDensityMapAttachmentInfoEXT",
             ),
@@ -145,7 +204,8 @@ COMMAND_STRUCTURES = {
             ),
             "label": Key(
                 "Debug label",
-                "What the application calls this part of the frame; a list for a rendering that is begun again. Findings begin with it.",
+                "What the application calls this part of the frame; a list for a rendering that is "
+                "begun again. Findings begin with it.",
                 source="VkDebugUtilsLabelEXT::pLabelName",
             ),
             "pNext": UNREAD,
@@ -156,22 +216,47 @@ COMMAND_STRUCTURES = {
         "",
         "drawing-primitive-shading",
         {
-            "pipeline": Key("Pipeline", "The name in `pipelines` of the bound pipeline.", source="vkCmdBindPipeline"),
+            "pipeline": Key(
+                "Pipeline",
+                "The name in `pipelines` of the bound pipeline.",
+                source="vkCmdBindPipeline",
+            ),
             "vertexCount": Key(
-                "Vertex count", "The number of vertices, without an index buffer.", "vertices", source="VkDrawIndirectCommand::vertexCount"
+                "Vertex count",
+                "The number of vertices, without an index buffer.",
+                "vertices",
+                source="VkDrawIndirectCommand::vertexCount",
             ),
             "indexCount": Key(
-                "Index count", "The number of vertices, with an index buffer.", "indices", source="VkDrawIndexedIndirectCommand::indexCount"
+                "Index count",
+                "The number of vertices, with an index buffer.",
+                "indices",
+                source="VkDrawIndexedIndirectCommand::indexCount",
             ),
-            "instanceCount": Key("Instance count", "The number of instances.", "instances", source="VkDrawIndirectCommand::instanceCount"),
+            "instanceCount": Key(
+                "Instance count",
+                "The number of instances.",
+                "instances",
+                source="VkDrawIndirectCommand::instanceCount",
+            ),
             "firstVertex": Key(
-                "First vertex", "The index of the first vertex.", "index from 0", source="VkDrawIndirectCommand::firstVertex"
+                "First vertex",
+                "The index of the first vertex.",
+                "index from 0",
+                source="VkDrawIndirectCommand::firstVertex",
             ),
             "firstInstance": Key(
-                "First instance", "The ID of the first instance.", "index from 0", source="VkDrawIndirectCommand::firstInstance"
+                "First instance",
+                "The ID of the first instance.",
+                "index from 0",
+                source="VkDrawIndirectCommand::firstInstance",
             ),
             "drawCount": Key(
-                "Number of draws", "How many such draws follow each other; the other counts are their averages.", "draws", "1", ""
+                "Number of draws",
+                "How many such draws follow each other; the other counts are their averages.",
+                "draws",
+                "1",
+                "",
             ),
         },
     ),
@@ -180,8 +265,12 @@ COMMAND_STRUCTURES = {
         "VkClearAttachment",
         "clears-inside",
         {
-            "aspect": Key("Aspects", "The aspects that are cleared.", source="VkClearAttachment::aspectMask"),
-            "colorAttachment": Key("Color attachment", "The color attachment that is cleared.", "index from 0"),
+            "aspect": Key(
+                "Aspects", "The aspects that are cleared.", source="VkClearAttachment::aspectMask"
+            ),
+            "colorAttachment": Key(
+                "Color attachment", "The color attachment that is cleared.", "index from 0"
+            ),
         },
     ),
     "ClearAttachments": Structure(
@@ -190,7 +279,9 @@ COMMAND_STRUCTURES = {
         "clears-inside",
         {
             "attachments": Key("Attachments", "What is cleared.", source="vkCmdClearAttachments"),
-            "rects": Key("Rectangles", "The pixels that are cleared.", source="vkCmdClearAttachments"),
+            "rects": Key(
+                "Rectangles", "The pixels that are cleared.", source="vkCmdClearAttachments"
+            ),
         },
     ),
     "OneImage": Structure("Command on an image", "", "", {"image": _ONE_IMAGE}),
@@ -199,9 +290,15 @@ COMMAND_STRUCTURES = {
         "",
         "",
         {
-            "srcImage": Key("Source image", "The name in `images` of the image that is read.", source="VkResolveImageInfo2::srcImage"),
+            "srcImage": Key(
+                "Source image",
+                "The name in `images` of the image that is read.",
+                source="VkResolveImageInfo2::srcImage",
+            ),
             "dstImage": Key(
-                "Destination image", "The name in `images` of the image that is written.", source="VkResolveImageInfo2::dstImage"
+                "Destination image",
+                "The name in `images` of the image that is written.",
+                source="VkResolveImageInfo2::dstImage",
             ),
         },
     ),
@@ -210,13 +307,20 @@ COMMAND_STRUCTURES = {
         "VkResolveImageInfo2",
         "copies-resolve",
         {
-            "srcImage": Key("Source image", "The name in `images` of the image that is read.", source="VkResolveImageInfo2::srcImage"),
+            "srcImage": Key(
+                "Source image",
+                "The name in `images` of the image that is read.",
+                source="VkResolveImageInfo2::srcImage",
+            ),
             "dstImage": Key(
-                "Destination image", "The name in `images` of the image that is written.", source="VkResolveImageInfo2::dstImage"
+                "Destination image",
+                "The name in `images` of the image that is written.",
+                source="VkResolveImageInfo2::dstImage",
             ),
             "resolveMode": Key(
                 "Resolve mode",
-                "How the samples of color or depth become one value. Without a mode, there is no VkResolveImageModeInfoKHR, and the "
+                "How the samples of color or depth become one value. Without a mode, there is no "
+                "VkResolveImageModeInfoKHR, and the "
                 "device chooses.",
                 source="VkResolveImageModeInfoKHR::resolveMode",
             ),
@@ -237,7 +341,11 @@ COMMAND_STRUCTURES = {
         "Copy a buffer to an image",
         "VkCopyBufferToImageInfo2",
         "copies-buffers-images",
-        {"dstImage": Key("Destination image", "The name in `images` of the image that is written.")},
+        {
+            "dstImage": Key(
+                "Destination image", "The name in `images` of the image that is written."
+            )
+        },
     ),
     "WriteImage": Structure(
         "Write an image in a shader",
@@ -257,16 +365,22 @@ COMMAND_STRUCTURES = {
             "image": _ONE_IMAGE,
             "stage": _STAGE,
             "access": Key(
-                "Access", "The kind of read: SHADER_READ, or an access of no shader.", absent="a read that may not happen", source=""
+                "Access",
+                "The kind of read: SHADER_READ, or an access of no shader.",
+                absent="a read that may not happen",
+                source="",
             ),
             "samples": Key(
                 "Samples read",
-                "Of a multisampled image: 1 if only one sample of a texel is fetched, ALL if every one is.",
+                "Of a multisampled image: 1 if only one sample of a texel is fetched, ALL if every "
+                "one is.",
                 "samples per texel",
                 source="",
             ),
             "resolves": Key(
-                "Combination of samples", "What the shader does with the samples of a texel: AVERAGE, MIN, MAX, or OTHER.", source=""
+                "Combination of samples",
+                "What the shader does with the samples of a texel: AVERAGE, MIN, MAX, or OTHER.",
+                source="",
             ),
         },
     ),
@@ -276,7 +390,10 @@ COMMAND_STRUCTURES = {
         "synchronization-image-memory-barriers",
         {
             "image": Key("Image", "The name of the image in `images`."),
-            "oldLayout": Key("Old layout", "The layout before the barrier. From UNDEFINED, the contents are lost."),
+            "oldLayout": Key(
+                "Old layout",
+                "The layout before the barrier. From UNDEFINED, the contents are lost.",
+            ),
             "newLayout": Key("New layout", "The layout after the barrier."),
         },
     ),
@@ -285,13 +402,25 @@ COMMAND_STRUCTURES = {
         "VkImageMemoryBarrier2",
         "synchronization-pipeline-barriers",
         {
-            "srcStageMask": Key("Source stages", "The pipeline stages that must have finished.", section="synchronization-pipeline-stages"),
-            "dstStageMask": Key("Destination stages", "The pipeline stages that wait.", section="synchronization-pipeline-stages"),
+            "srcStageMask": Key(
+                "Source stages",
+                "The pipeline stages that must have finished.",
+                section="synchronization-pipeline-stages",
+            ),
+            "dstStageMask": Key(
+                "Destination stages",
+                "The pipeline stages that wait.",
+                section="synchronization-pipeline-stages",
+            ),
             "srcAccessMask": Key(
-                "Source accesses", "The accesses whose writes are made available.", section="synchronization-access-types"
+                "Source accesses",
+                "The accesses whose writes are made available.",
+                section="synchronization-access-types",
             ),
             "dstAccessMask": Key(
-                "Destination accesses", "The accesses to which the writes are made visible.", section="synchronization-access-types"
+                "Destination accesses",
+                "The accesses to which the writes are made visible.",
+                section="synchronization-access-types",
             ),
             "images": Key(
                 "Images",
@@ -314,7 +443,10 @@ COMMAND_STRUCTURES = {
                 section="renderpass-commands",
             ),
             "nextSubpass": Key(
-                "Next subpass", "Begins the next subpass of the render pass.", source="vkCmdNextSubpass2", section="renderpass-commands"
+                "Next subpass",
+                "Begins the next subpass of the render pass.",
+                source="vkCmdNextSubpass2",
+                section="renderpass-commands",
             ),
             "endRenderPass": Key(
                 "End the render pass",
@@ -341,7 +473,10 @@ COMMAND_STRUCTURES = {
                 section="primsrast-multisampling",
             ),
             "draw": Key(
-                "Draw", "Draws with a pipeline, with or without an index buffer.", source="vkCmdDraw", section="drawing-primitive-shading"
+                "Draw",
+                "Draws with a pipeline, with or without an index buffer.",
+                source="vkCmdDraw",
+                section="drawing-primitive-shading",
             ),
             "clearAttachments": Key(
                 "Clear attachments within a pass",
@@ -363,12 +498,16 @@ COMMAND_STRUCTURES = {
             ),
             "resolveImage": Key(
                 "Resolve an image outside a pass",
-                "Resolves a multisampled color image in memory: all samples are written and read again, which a resolve attachment avoids.",
+                "Resolves a multisampled color image in memory: all samples are written and read "
+                "again, which a resolve attachment avoids.",
                 source="vkCmdResolveImage2",
                 section="copies-resolve",
             ),
             "copyImage": Key(
-                "Copy an image", "Copies texels, all of their samples included.", source="vkCmdCopyImage2", section="copies-images"
+                "Copy an image",
+                "Copies texels, all of their samples included.",
+                source="vkCmdCopyImage2",
+                section="copies-images",
             ),
             "blitImage": Key(
                 "Blit an image",
@@ -406,7 +545,12 @@ COMMAND_STRUCTURES = {
                 source="vkCmdPipelineBarrier2",
                 section="synchronization-pipeline-barriers",
             ),
-            "present": Key("Present an image", "Shows a swapchain image.", source="vkQueuePresentKHR", section="wsi-swapchain"),
+            "present": Key(
+                "Present an image",
+                "Shows a swapchain image.",
+                source="vkQueuePresentKHR",
+                section="wsi-swapchain",
+            ),
         },
     ),
 }

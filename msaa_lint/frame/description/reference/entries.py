@@ -6,9 +6,11 @@ from typing import NamedTuple
 class Key(NamedTuple):
     """What one key means.
 
-    `meaning` consists of sentences. `unit` is the unit of a number, or of the numbers in a list. `absent` is what holds without the key, if
-    that is not what its type implies: none for a list, unknown for a value. `source` is the specification's term, if it is not the member
-    with the key's name of the structure; an empty one says that the key is msaa-lint's own. `section` is an anchor in `SECTIONS`.
+    `meaning` consists of sentences. `unit` is the unit of a number, or of the numbers in a list.
+    `absent` is what holds without the key, if that is not what its type implies: none for a list,
+    unknown for a value. `source` is the specification's term, if it is not the member with the
+    key's name of the structure; an empty one says that the key is msaa-lint's own. `section` is an
+    anchor in `SECTIONS`.
     """
 
     title: str
@@ -20,7 +22,9 @@ class Key(NamedTuple):
 
 
 class Structure(NamedTuple):
-    """A structure and its keys. `source` is the structure in the specification that members of the same name belong to."""
+    """A structure and its keys. `source` is the structure in the specification that members of the
+    same name belong to.
+    """
 
     title: str
     source: str

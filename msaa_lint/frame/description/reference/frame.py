@@ -44,17 +44,30 @@ FRAME_STRUCTURES = {
         {
             "captured": Key(
                 "Captured",
-                "True if the frame was captured on this device, as `convert` writes it. `--profile` then replaces the device.",
+                "True if the frame was captured on this device, as `convert` writes it. "
+                "`--profile` then replaces the device.",
                 absent="false",
             ),
-            "name": Key("Device name", "The name of the device, for messages.", source="VkPhysicalDeviceProperties::deviceName"),
-            "vendor": Key("Vendor", "The vendor of the GPU, in any case.", source="VkPhysicalDeviceProperties::vendorID"),
+            "name": Key(
+                "Device name",
+                "The name of the device, for messages.",
+                source="VkPhysicalDeviceProperties::deviceName",
+            ),
+            "vendor": Key(
+                "Vendor",
+                "The vendor of the GPU, in any case.",
+                source="VkPhysicalDeviceProperties::vendorID",
+            ),
             "tiler": Key(
                 "Tile-based",
-                "Whether the GPU renders tile by tile in memory on the chip, where samples cost no bandwidth until they are stored.",
+                "Whether the GPU renders tile by tile in memory on the chip, where samples cost no "
+                "bandwidth until they are stored.",
             ),
             "sampleCounts": Key(
-                "Supported sample counts", "The sample counts of attachments, by aspect.", source="VkPhysicalDeviceLimits", section="limits"
+                "Supported sample counts",
+                "The sample counts of attachments, by aspect.",
+                source="VkPhysicalDeviceLimits",
+                section="limits",
             ),
             "memoryTypes": Key(
                 "Memory types",
@@ -93,7 +106,10 @@ FRAME_STRUCTURES = {
                 section="features",
             ),
             "extensions": Key(
-                "Extensions", "The extensions that the device supports.", source="VkExtensionProperties::extensionName", section=_EXTENSIONS
+                "Extensions",
+                "The extensions that the device supports.",
+                source="VkExtensionProperties::extensionName",
+                section=_EXTENSIONS,
             ),
             "apiVersion": Key(
                 "Vulkan version",
@@ -102,21 +118,28 @@ FRAME_STRUCTURES = {
             ),
             "maxEfficientSamples": Key(
                 "Highest efficient sample count",
-                "The samples of a pixel up to which the vendor recommends the device, which may support more.",
+                "The samples of a pixel up to which the vendor recommends the device, which may "
+                "support more.",
             ),
             "tile": Key(
                 "Tile memory",
-                "The memory of a tile, for costs: a `model` that msaa-lint knows, or a `kind` with its budgets.",
-                "bytes (`colorBytes`, `depthBytes`, `limitBytes`, `gmemBytes`) and pixels (`maxPixels`)",
+                "The memory of a tile, for costs: a `model` that msaa-lint knows, or a `kind` with "
+                "its budgets.",
+                "bytes (`colorBytes`, `depthBytes`, `limitBytes`, `gmemBytes`) and pixels "
+                "(`maxPixels`)",
             ),
             "compression": Key(
                 "Framebuffer compression",
-                "The measured traffic of images that the device may compress, divided by the arithmetic one, by sample count, such as"
-                " `{1 read: 0.48, 1 write: 0.46, 4: 1.0}`; `most read` and `most write` beside them make a range.",
+                "The measured traffic of images that the device may compress, divided by the "
+                "arithmetic one, by sample count, such as"
+                " `{1 read: 0.48, 1 write: 0.46, 4: 1.0}`; `most read` and `most write` beside "
+                "them make a range.",
                 "ratio of bytes",
             ),
             "milliwattsPerGBps": Key(
-                "Power of memory traffic", "The power that a gigabyte per second of memory traffic takes.", "mW per GB/s"
+                "Power of memory traffic",
+                "The power that a gigabyte per second of memory traffic takes.",
+                "mW per GB/s",
             ),
         },
     ),
@@ -146,32 +169,61 @@ FRAME_STRUCTURES = {
             ),
         },
     ),
-    "AttachmentConfig": Structure("Attachment of an Impeller render target", "RenderTarget::AttachmentConfig", "", {}),
-    "AttachmentConfigMSAA": Structure("Multisampled attachment of an Impeller render target", "RenderTarget::AttachmentConfigMSAA", "", {}),
+    "AttachmentConfig": Structure(
+        "Attachment of an Impeller render target", "RenderTarget::AttachmentConfig", "", {}
+    ),
+    "AttachmentConfigMSAA": Structure(
+        "Multisampled attachment of an Impeller render target",
+        "RenderTarget::AttachmentConfigMSAA",
+        "",
+        {},
+    ),
     "RenderTarget": Structure(
         "Impeller render target",
         "RenderTarget",
         "",
         {
-            "api": Key("Graphics API", "Whether the target expands to Vulkan or to Metal.", absent="an error; it is required"),
+            "api": Key(
+                "Graphics API",
+                "Whether the target expands to Vulkan or to Metal.",
+                absent="an error; it is required",
+            ),
             "onscreen": Key(
-                "On screen", "Whether the target resolves to a swapchain image or a drawable instead of a texture.", absent="false"
+                "On screen",
+                "Whether the target resolves to a swapchain image or a drawable instead of a "
+                "texture.",
+                absent="false",
             ),
             "width": Key("Width", "The width of the target.", "pixels", "the frame's"),
             "height": Key("Height", "The height of the target.", "pixels", "the frame's"),
             "colorFormat": Key(
-                "Color format", "Impeller's PixelFormat of color.", absent="kR8G8B8A8UNormInt on Vulkan, kB8G8R8A8UNormInt on Metal"
+                "Color format",
+                "Impeller's PixelFormat of color.",
+                absent="kR8G8B8A8UNormInt on Vulkan, kB8G8R8A8UNormInt on Metal",
             ),
             "depthFormat": Key(
-                "Depth-stencil format", "Impeller's PixelFormat of depth and stencil.", absent="kD32FloatS8UInt on Metal, unknown on Vulkan"
+                "Depth-stencil format",
+                "Impeller's PixelFormat of depth and stencil.",
+                absent="kD32FloatS8UInt on Metal, unknown on Vulkan",
             ),
             "sampleCount": Key(
-                "Sample count", "Impeller's SampleCount; the engine itself has kCount1 and kCount4.", "samples per pixel", "kCount1"
+                "Sample count",
+                "Impeller's SampleCount; the engine itself has kCount1 and kCount4.",
+                "samples per pixel",
+                "kCount1",
             ),
-            "enableStencil": Key("Stencil", "Whether the target has depth and stencil.", absent="true"),
-            "colorAttachmentConfig": Key("Color attachment", "Storage, load and store of color.", absent="the engine's default"),
+            "enableStencil": Key(
+                "Stencil", "Whether the target has depth and stencil.", absent="true"
+            ),
+            "colorAttachmentConfig": Key(
+                "Color attachment",
+                "Storage, load and store of color.",
+                absent="the engine's default",
+            ),
             "stencilAttachmentConfig": Key(
-                "Depth and stencil attachment", "Storage, load and store of depth and stencil.", absent="the engine's default"
+                "Depth and stencil attachment",
+                "Storage, load and store of depth and stencil.",
+                absent="the engine's default",
             ),
         },
     ),
@@ -180,12 +232,28 @@ FRAME_STRUCTURES = {
         "",
         "",
         {
-            "width": Key("Width", "The width of the frame, for costs.", "pixels", "the width of the framebuffers"),
-            "height": Key("Height", "The height of the frame, for costs.", "pixels", "the height of the framebuffers"),
-            "fps": Key("Frame rate", "The frames shown in a second. It turns bytes per frame into MB/s.", "frames per second", "60"),
+            "width": Key(
+                "Width",
+                "The width of the frame, for costs.",
+                "pixels",
+                "the width of the framebuffers",
+            ),
+            "height": Key(
+                "Height",
+                "The height of the frame, for costs.",
+                "pixels",
+                "the height of the framebuffers",
+            ),
+            "fps": Key(
+                "Frame rate",
+                "The frames shown in a second. It turns bytes per frame into MB/s.",
+                "frames per second",
+                "60",
+            ),
             "share": Key(
                 "Share of frames",
-                "How often this kind of frame occurs, in a file with one document for each kind of a program.",
+                "How often this kind of frame occurs, in a file with one document for each kind of "
+                "a program.",
                 "fraction above 0, up to 1",
             ),
         },
@@ -195,23 +263,54 @@ FRAME_STRUCTURES = {
         "",
         "",
         {
-            "edges": Key("Edges", "Whether the picture shows edges of geometry, which multisampling smooths."),
-            "depth": Key("Depth direction", "STANDARD if near is 0, REVERSED if near is 1."),
-            "color": Key("Dynamic range", "LDR if color is at most display white, HDR if it may be brighter."),
-            "peak": Key("Peak brightness", "The brightest value, in units of display white.", "multiples of display white"),
-            "depthResolveWants": Key(
-                "Depth to resolve to", "Which depth the reader of resolved depth needs: ANY sample, the NEAREST, or the FARTHEST."
+            "edges": Key(
+                "Edges", "Whether the picture shows edges of geometry, which multisampling smooths."
             ),
-            "toneMapping": Key("Tone mapping", "Whether tone mapping comes AFTER_RESOLVE, IN_PASS before it, or not at all (NONE)."),
-            "alphaTest": Key("Alpha test", "Whether fragments are discarded by alpha, whose edges multisampling does not smooth."),
-            "textureDetail": Key("Texture detail", "Whether textures have detail finer than a pixel, which multisampling does not smooth."),
-            "overdraw": Key("Overdraw", "How many triangles of a pass cover a pixel, on average.", "triangles per pixel", "1"),
+            "depth": Key("Depth direction", "STANDARD if near is 0, REVERSED if near is 1."),
+            "color": Key(
+                "Dynamic range", "LDR if color is at most display white, HDR if it may be brighter."
+            ),
+            "peak": Key(
+                "Peak brightness",
+                "The brightest value, in units of display white.",
+                "multiples of display white",
+            ),
+            "depthResolveWants": Key(
+                "Depth to resolve to",
+                "Which depth the reader of resolved depth needs: ANY sample, the NEAREST, or the "
+                "FARTHEST.",
+            ),
+            "toneMapping": Key(
+                "Tone mapping",
+                "Whether tone mapping comes AFTER_RESOLVE, IN_PASS before it, or not at all "
+                "(NONE).",
+            ),
+            "alphaTest": Key(
+                "Alpha test",
+                "Whether fragments are discarded by alpha, whose edges multisampling does not "
+                "smooth.",
+            ),
+            "textureDetail": Key(
+                "Texture detail",
+                "Whether textures have detail finer than a pixel, which multisampling does not "
+                "smooth.",
+            ),
+            "overdraw": Key(
+                "Overdraw",
+                "How many triangles of a pass cover a pixel, on average.",
+                "triangles per pixel",
+                "1",
+            ),
             "triangleSize": Key(
-                "Triangle size", "The longest side of a triangle, on average.", "pixels", "what the number of vertices implies"
+                "Triangle size",
+                "The longest side of a triangle, on average.",
+                "pixels",
+                "what the number of vertices implies",
             ),
             "shading": Key(
                 "Shading cost",
-                "What a fragment shader invocation costs: none, light, medium or heavy, operations (200ops), "
+                "What a fragment shader invocation costs: none, light, medium or heavy, operations "
+                "(200ops), "
                 "the time of a million (500000ns), "
                 "or of a screen (4.2ms).",
                 "operations, ns per million invocations, or ms per screen",
@@ -223,8 +322,16 @@ FRAME_STRUCTURES = {
         "",
         "capabilities",
         {
-            "tests": Key("Tested sample count", "The sample count whose bit is tested.", source="VkSampleCountFlagBits"),
-            "gives": Key("Selected sample count", "The sample count that is selected if the bit is set.", source="VkSampleCountFlagBits"),
+            "tests": Key(
+                "Tested sample count",
+                "The sample count whose bit is tested.",
+                source="VkSampleCountFlagBits",
+            ),
+            "gives": Key(
+                "Selected sample count",
+                "The sample count that is selected if the bit is set.",
+                source="VkSampleCountFlagBits",
+            ),
         },
     ),
     "SampleCountChoice": Structure(
@@ -232,16 +339,31 @@ FRAME_STRUCTURES = {
         "",
         "limits",
         {
-            "limits": Key("Limits", "The masks of sample counts that the choice uses.", absent="unknown", source="VkPhysicalDeviceLimits"),
+            "limits": Key(
+                "Limits",
+                "The masks of sample counts that the choice uses.",
+                absent="unknown",
+                source="VkPhysicalDeviceLimits",
+            ),
             "combined": Key(
                 "Combination of masks",
-                "How the masks are combined: AND is right, as every attachment must support the count; NONE for one mask.",
+                "How the masks are combined: AND is right, as every attachment must support the "
+                "count; NONE for one mask.",
             ),
-            "chosen": Key("Selected bit", "MAXIMUM for the highest supported count, ATMOST for the highest up to `atMost`."),
+            "chosen": Key(
+                "Selected bit",
+                "MAXIMUM for the highest supported count, ATMOST for the highest up to `atMost`.",
+            ),
             "atMost": Key("Highest sample count", "The highest count that the choice can return."),
-            "tests": Key("Tests in order", "The tests of the combined mask. The first bit that is set decides."),
+            "tests": Key(
+                "Tests in order",
+                "The tests of the combined mask. The first bit that is set decides.",
+            ),
             "formats": Key(
-                "Formats", "The formats of the images that get the sample count.", absent="unknown", section="formats-definition"
+                "Formats",
+                "The formats of the images that get the sample count.",
+                absent="unknown",
+                section="formats-definition",
             ),
         },
     ),
@@ -250,7 +372,11 @@ FRAME_STRUCTURES = {
         "",
         "",
         {
-            "frame": Key("Frame", "The frame's size and rate, for costs.", absent="the sizes of framebuffers, and 60 frames per second"),
+            "frame": Key(
+                "Frame",
+                "The frame's size and rate, for costs.",
+                absent="the sizes of framebuffers, and 60 frames per second",
+            ),
             "device": Key(
                 "Device",
                 "The name of a built-in profile, or what the device supports.",
@@ -263,32 +389,54 @@ FRAME_STRUCTURES = {
                 source="VkDeviceCreateInfo",
                 section="devsandqueues-device-creation",
             ),
-            "images": Key("Images", "The images of the frame, by name.", source="VkImageCreateInfo", section="resources-images"),
+            "images": Key(
+                "Images",
+                "The images of the frame, by name.",
+                source="VkImageCreateInfo",
+                section="resources-images",
+            ),
             "renderPasses": Key(
-                "Render passes", "The render passes, by name.", source="VkRenderPassCreateInfo2", section="renderpass-creation"
+                "Render passes",
+                "The render passes, by name.",
+                source="VkRenderPassCreateInfo2",
+                section="renderpass-creation",
             ),
             "framebuffers": Key(
                 "Framebuffers",
-                "The framebuffers, by name; needed only if a render pass is used with several sets of images.",
+                "The framebuffers, by name; needed only if a render pass is used with several sets "
+                "of images.",
                 source="VkFramebufferCreateInfo",
                 section="renderpass-creation",
             ),
             "pipelines": Key(
-                "Pipelines", "The graphics pipelines, by name.", source="VkGraphicsPipelineCreateInfo", section="pipelines-graphics"
+                "Pipelines",
+                "The graphics pipelines, by name.",
+                source="VkGraphicsPipelineCreateInfo",
+                section="pipelines-graphics",
             ),
             "commands": Key(
-                "Commands", "What every frame records, in order.", absent="every pass once, in order", section="renderpass-commands"
+                "Commands",
+                "What every frame records, in order.",
+                absent="every pass once, in order",
+                section="renderpass-commands",
             ),
             "scene": Key("Scene", "What the picture needs, for `study` and some rules."),
-            "metal": Key("Metal frame", "The frame in Metal's terms, in place of Vulkan's sections.", absent="a Vulkan frame"),
+            "metal": Key(
+                "Metal frame",
+                "The frame in Metal's terms, in place of Vulkan's sections.",
+                absent="a Vulkan frame",
+            ),
             "sampleCountChoices": Key(
                 "Choices of sample counts",
-                "How the program selects sample counts, by the function or variable that holds the count.",
+                "How the program selects sample counts, by the function or variable that holds the "
+                "count.",
                 source="VkPhysicalDeviceLimits",
                 section="limits",
             ),
             "renderTargets": Key(
-                "Impeller render targets", "Render targets of Flutter's engine, by name. They expand to what the engine creates from them."
+                "Impeller render targets",
+                "Render targets of Flutter's engine, by name. They expand to what the engine "
+                "creates from them.",
             ),
         },
     ),
@@ -302,18 +450,27 @@ _CONFIG = {
         "kDevicePrivate for memory of the GPU, kHostVisible for memory of the CPU.",
         absent=_ENGINE,
     ),
-    "loadAction": Key("Load action", "kLoad reads every sample from memory; kClear and kDontCare do not.", absent=_ENGINE),
-    "storeAction": Key(
-        "Store action",
-        "kMultisampleResolve stores the resolved image alone, kStoreAndMultisampleResolve the samples as well.",
+    "loadAction": Key(
+        "Load action",
+        "kLoad reads every sample from memory; kClear and kDontCare do not.",
         absent=_ENGINE,
     ),
-    "clearColor": Key("Clear color", "Red, green, blue and alpha for kClear.", "1.0 for full intensity", _ENGINE),
+    "storeAction": Key(
+        "Store action",
+        "kMultisampleResolve stores the resolved image alone, kStoreAndMultisampleResolve the "
+        "samples as well.",
+        absent=_ENGINE,
+    ),
+    "clearColor": Key(
+        "Clear color", "Red, green, blue and alpha for kClear.", "1.0 for full intensity", _ENGINE
+    ),
 }
 FRAME_STRUCTURES["AttachmentConfig"].keys.update(_CONFIG)
 FRAME_STRUCTURES["AttachmentConfigMSAA"].keys.update(
     _CONFIG,
     resolveStorageMode=Key(
-        "Storage mode of the resolve texture", "Where the resolved image is stored; unused with one sample per pixel.", absent=_ENGINE
+        "Storage mode of the resolve texture",
+        "Where the resolved image is stored; unused with one sample per pixel.",
+        absent=_ENGINE,
     ),
 )

@@ -1,4 +1,5 @@
-"""What a key of a description, or the value of an enumerant, means: the texts of the JSON Schema and of editors.
+"""What a key of a description, or the value of an enumerant, means: the texts of the JSON Schema
+and of editors.
 
 Nothing on the path of `check` imports this module.
 """
@@ -21,7 +22,8 @@ from .pipelines import PIPELINE_STRUCTURES
 from .render_passes import RENDER_PASS_STRUCTURES
 
 STRUCTURES: dict[str, Structure] = {
-    **RENDER_PASS_STRUCTURES, **PIPELINE_STRUCTURES, **COMMAND_STRUCTURES, **FRAME_STRUCTURES, **METAL_STRUCTURES
+    **RENDER_PASS_STRUCTURES, **PIPELINE_STRUCTURES, **COMMAND_STRUCTURES, **FRAME_STRUCTURES,
+    **METAL_STRUCTURES
 }  # fmt: skip
 """By the name of the record class."""
 
@@ -30,11 +32,15 @@ REFERENCE_PAGES = "https://docs.vulkan.org/refpages/latest/refpages/source"
 METAL_REFERENCE = "https://developer.apple.com/documentation/metal"
 
 _BY_VALUE = frozenset({"extent", "renderArea", "shadingRateAttachmentTexelSize"})
-"""The members of the specification's structures that are structures themselves; others are pointers to them."""
+"""The members of the specification's structures that are structures themselves; others are pointers
+to them.
+"""
 
 
 class KeyText(NamedTuple):
-    """A key's title and description; `markdown` is the description with links to the specification."""
+    """A key's title and description; `markdown` is the description with links to the
+    specification.
+    """
 
     title: str
     description: str
@@ -42,7 +48,9 @@ class KeyText(NamedTuple):
 
 
 class KeyParts(NamedTuple):
-    """What a key's text says beside its meaning; `references` are links to the specification, in Markdown."""
+    """What a key's text says beside its meaning; `references` are links to the specification, in
+    Markdown.
+    """
 
     unit: str
     absent: str
@@ -56,15 +64,30 @@ def key_parts(kind: type[Record], name: str) -> KeyParts:
     source, section = source_of(kind, name), key.section or _section(kind, key)
     page, title = SECTIONS.get(section, ("", ""))
     chapter = f"Vulkan specification, {title}" if title else ""
-    links = (_link(source, _source_page(source)), _link(chapter, f"{SPECIFICATION}/{page}.html#{section}"))
-    return KeyParts(unit_of(kind, name), absence_of(kind, name), _joined(source, chapter), _joined(*links))
+    links = (
+        _link(source, _source_page(source)),
+        _link(chapter, f"{SPECIFICATION}/{page}.html#{section}"),
+    )
+    return KeyParts(
+        unit_of(kind, name), absence_of(kind, name), _joined(source, chapter), _joined(*links)
+    )
 
 
 def key_text(kind: type[Record], name: str) -> KeyText:
     """The text of a key of a structure. KeyError if it does not have the key."""
     key, parts = STRUCTURES[kind.__name__].keys[name], key_parts(kind, name)
-    text = key.meaning + (f" Unit: {parts.unit}." if parts.unit else "") + (f" If absent: {parts.absent}." if parts.absent else "")
-    return KeyText(key.title, *(f"{text} {references}." if references else text for references in (parts.sources, parts.references)))
+    text = (
+        key.meaning
+        + (f" Unit: {parts.unit}." if parts.unit else "")
+        + (f" If absent: {parts.absent}." if parts.absent else "")
+    )
+    return KeyText(
+        key.title,
+        *(
+            f"{text} {references}." if references else text
+            for references in (parts.sources, parts.references)
+        ),
+    )
 
 
 def unit_of(kind: type[Record], name: str) -> str:
@@ -82,7 +105,9 @@ def absence_of(kind: type[Record], name: str) -> str:
 
 
 def source_of(kind: type[Record], name: str) -> str:
-    """The specification's term for a key, such as `VkAttachmentDescription2::storeOp`; empty for a key of msaa-lint's own."""
+    """The specification's term for a key, such as `VkAttachmentDescription2::storeOp`; empty for a
+    key of msaa-lint's own.
+    """
     structure = STRUCTURES[kind.__name__]
     source = structure.keys[name].source
     if source is not None:
@@ -102,7 +127,9 @@ def enumerant_text(enum: str, value: str) -> str | None:
 
 
 def path_text(path: Sequence[str | int]) -> KeyText | None:
-    """The text of the key at a path from the root of a description (`("images", "color", "format")`); None if it leads to no such key."""
+    """The text of the key at a path from the root of a description (`("images", "color",
+    "format")`); None if it leads to no such key.
+    """
     found = key_at(path)
     return None if found is None else key_text(*found)
 
@@ -153,7 +180,9 @@ def _counts_samples(shape: Shape) -> bool:
 
 def _is_pointed_to(shape: Shape) -> bool:
     """Whether the specification's member is a pointer: a list, a structure, or a text."""
-    return shape[0] in ("list", "counted", "record", "slot", "text") or (shape[0] == "either" and _is_pointed_to(shape[1]))
+    return shape[0] in ("list", "counted", "record", "slot", "text") or (
+        shape[0] == "either" and _is_pointed_to(shape[1])
+    )
 
 
 def _section(kind: type[Record], key: Key) -> str:

@@ -9,16 +9,20 @@ PIPELINE_STRUCTURES = {
         "primsrast-multisampling",
         {
             "rasterizationSamples": Key(
-                "Sample count", "The samples of a pixel with which the pipeline rasterizes. It must match the attachments of its subpass."
+                "Sample count",
+                "The samples of a pixel with which the pipeline rasterizes. It must match the "
+                "attachments of its subpass.",
             ),
             "sampleShadingEnable": Key(
                 "Sample shading",
-                "Whether the fragment shader runs several times for a pixel, which costs as many times the shading.",
+                "Whether the fragment shader runs several times for a pixel, which costs as many "
+                "times the shading.",
                 section="primsrast-sampleshading",
             ),
             "minSampleShading": Key(
                 "Minimum share of samples shaded",
-                "With `sampleShadingEnable`, the share of the samples of a pixel that are shaded at least. 1.0 shades every sample.",
+                "With `sampleShadingEnable`, the share of the samples of a pixel that are shaded "
+                "at least. 1.0 shades every sample.",
                 "fraction from 0 to 1",
                 section="primsrast-sampleshading",
             ),
@@ -31,10 +35,15 @@ PIPELINE_STRUCTURES = {
             ),
             "alphaToCoverageEnable": Key(
                 "Alpha to coverage",
-                "Whether the alpha of color output 0 decides how many samples of a pixel are covered.",
+                "Whether the alpha of color output 0 decides how many samples of a pixel are "
+                "covered.",
                 section="fragops-covg",
             ),
-            "alphaToOneEnable": Key("Alpha to one", "Whether alpha is replaced by 1 after alpha to coverage.", section="fragops-covg"),
+            "alphaToOneEnable": Key(
+                "Alpha to one",
+                "Whether alpha is replaced by 1 after alpha to coverage.",
+                section="fragops-covg",
+            ),
         },
     ),
     "ColorBlendAttachment": Structure(
@@ -43,25 +52,46 @@ PIPELINE_STRUCTURES = {
         "framebuffer-blending",
         {
             "blendEnable": Key(
-                "Blending", "Whether the output is blended with the samples of the attachment. Without it, the output replaces them."
+                "Blending",
+                "Whether the output is blended with the samples of the attachment. Without it, the "
+                "output replaces them.",
             ),
             "colorWriteMask": Key(
-                "Color write mask", "The components that are written.", absent="unknown", section="framebuffer-color-write-mask"
+                "Color write mask",
+                "The components that are written.",
+                absent="unknown",
+                section="framebuffer-color-write-mask",
             ),
             "srcColorBlendFactor": Key(
-                "Source color factor", "What the color of the output is multiplied with.", section="framebuffer-blendfactors"
+                "Source color factor",
+                "What the color of the output is multiplied with.",
+                section="framebuffer-blendfactors",
             ),
             "dstColorBlendFactor": Key(
-                "Destination color factor", "What the color of the attachment is multiplied with.", section="framebuffer-blendfactors"
+                "Destination color factor",
+                "What the color of the attachment is multiplied with.",
+                section="framebuffer-blendfactors",
             ),
-            "colorBlendOp": Key("Color operation", "How the two products of color are combined.", section="framebuffer-blendoperations"),
+            "colorBlendOp": Key(
+                "Color operation",
+                "How the two products of color are combined.",
+                section="framebuffer-blendoperations",
+            ),
             "srcAlphaBlendFactor": Key(
-                "Source alpha factor", "What the alpha of the output is multiplied with.", section="framebuffer-blendfactors"
+                "Source alpha factor",
+                "What the alpha of the output is multiplied with.",
+                section="framebuffer-blendfactors",
             ),
             "dstAlphaBlendFactor": Key(
-                "Destination alpha factor", "What the alpha of the attachment is multiplied with.", section="framebuffer-blendfactors"
+                "Destination alpha factor",
+                "What the alpha of the attachment is multiplied with.",
+                section="framebuffer-blendfactors",
             ),
-            "alphaBlendOp": Key("Alpha operation", "How the two products of alpha are combined.", section="framebuffer-blendoperations"),
+            "alphaBlendOp": Key(
+                "Alpha operation",
+                "How the two products of alpha are combined.",
+                section="framebuffer-blendoperations",
+            ),
         },
     ),
     "ColorBlendState": Structure(
@@ -71,10 +101,13 @@ PIPELINE_STRUCTURES = {
         {
             "logicOpEnable": Key(
                 "Logical operations",
-                "Whether the output is combined with the attachment bit by bit instead of by blending.",
+                "Whether the output is combined with the attachment bit by bit instead of by "
+                "blending.",
                 section="framebuffer-logicop",
             ),
-            "attachments": Key("Color attachments", "The blending of each color attachment, in order."),
+            "attachments": Key(
+                "Color attachments", "The blending of each color attachment, in order."
+            ),
         },
     ),
     "DepthStencilState": Structure(
@@ -82,18 +115,30 @@ PIPELINE_STRUCTURES = {
         "VkPipelineDepthStencilStateCreateInfo",
         "fragops-ds-state",
         {
-            "depthTestEnable": Key("Depth test", "Whether samples are compared with the depth attachment.", section="fragops-depth"),
+            "depthTestEnable": Key(
+                "Depth test",
+                "Whether samples are compared with the depth attachment.",
+                section="fragops-depth",
+            ),
             "depthWriteEnable": Key(
-                "Depth writes", "Whether samples that pass the depth test write their depth.", section="fragops-depth-write"
+                "Depth writes",
+                "Whether samples that pass the depth test write their depth.",
+                section="fragops-depth-write",
             ),
             "depthCompareOp": Key(
-                "Depth comparison", "The comparison that a sample must pass. GREATER suits reversed depth.", section="fragops-depth"
+                "Depth comparison",
+                "The comparison that a sample must pass. GREATER suits reversed depth.",
+                section="fragops-depth",
             ),
             "depthBoundsTestEnable": Key(
-                "Depth bounds test", "Whether samples whose stored depth is out of bounds are discarded.", section="fragops-dbt"
+                "Depth bounds test",
+                "Whether samples whose stored depth is out of bounds are discarded.",
+                section="fragops-dbt",
             ),
             "stencilTestEnable": Key(
-                "Stencil test", "Whether samples are compared with the stencil attachment.", section="fragops-stencil"
+                "Stencil test",
+                "Whether samples are compared with the stencil attachment.",
+                section="fragops-stencil",
             ),
         },
     ),
@@ -103,8 +148,12 @@ PIPELINE_STRUCTURES = {
         "fxvertex-input",
         {
             "binding": Key("Binding", "The number of the binding.", "index from 0"),
-            "stride": Key("Stride", "The distance between consecutive elements of the buffer.", "bytes"),
-            "inputRate": Key("Input rate", "Whether the element advances with each vertex or each instance."),
+            "stride": Key(
+                "Stride", "The distance between consecutive elements of the buffer.", "bytes"
+            ),
+            "inputRate": Key(
+                "Input rate", "Whether the element advances with each vertex or each instance."
+            ),
         },
     ),
     "VertexAttribute": Structure(
@@ -113,9 +162,13 @@ PIPELINE_STRUCTURES = {
         "fxvertex-input",
         {
             "location": Key("Location", "The location of the shader's input.", "index from 0"),
-            "binding": Key("Binding", "The binding that the attribute is read from.", "index from 0"),
+            "binding": Key(
+                "Binding", "The binding that the attribute is read from.", "index from 0"
+            ),
             "format": Key("Format", "The format of the attribute.", section="formats-definition"),
-            "offset": Key("Offset", "The offset of the attribute from the start of an element.", "bytes"),
+            "offset": Key(
+                "Offset", "The offset of the attribute from the start of an element.", "bytes"
+            ),
         },
     ),
     "VertexInputState": Structure(
@@ -123,7 +176,9 @@ PIPELINE_STRUCTURES = {
         "VkPipelineVertexInputStateCreateInfo",
         "fxvertex-input",
         {
-            "vertexBindingDescriptions": Key("Vertex bindings", "The buffers that vertices are read from."),
+            "vertexBindingDescriptions": Key(
+                "Vertex bindings", "The buffers that vertices are read from."
+            ),
             "vertexAttributeDescriptions": Key("Vertex attributes", "The attributes of a vertex."),
         },
     ),
@@ -131,7 +186,11 @@ PIPELINE_STRUCTURES = {
         "Input assembly state",
         "VkPipelineInputAssemblyStateCreateInfo",
         "drawing-primitive-topologies",
-        {"topology": Key("Primitive topology", "What vertices are assembled to, such as a list of triangles.")},
+        {
+            "topology": Key(
+                "Primitive topology", "What vertices are assembled to, such as a list of triangles."
+            )
+        },
     ),
     "RasterizationState": Structure(
         "Rasterization state",
@@ -140,14 +199,25 @@ PIPELINE_STRUCTURES = {
         {
             "rasterizerDiscardEnable": Key(
                 "Rasterizer discard",
-                "Whether primitives are discarded before rasterization, so that no samples are drawn.",
+                "Whether primitives are discarded before rasterization, so that no samples are "
+                "drawn.",
                 section="primsrast-discard",
             ),
-            "polygonMode": Key("Polygon mode", "Whether polygons are filled or drawn as lines or points.", section="primsrast-polygonmode"),
-            "depthClampEnable": Key(
-                "Depth clamping", "Whether depth is clamped to its range instead of clipping primitives.", section="vertexpostproc-clipping"
+            "polygonMode": Key(
+                "Polygon mode",
+                "Whether polygons are filled or drawn as lines or points.",
+                section="primsrast-polygonmode",
             ),
-            "depthBiasEnable": Key("Depth bias", "Whether depth is biased, as for shadow maps.", section="primsrast-depthbias-enable"),
+            "depthClampEnable": Key(
+                "Depth clamping",
+                "Whether depth is clamped to its range instead of clipping primitives.",
+                section="vertexpostproc-clipping",
+            ),
+            "depthBiasEnable": Key(
+                "Depth bias",
+                "Whether depth is biased, as for shadow maps.",
+                section="primsrast-depthbias-enable",
+            ),
         },
     ),
     "ShaderStage": Structure(
@@ -178,11 +248,18 @@ PIPELINE_STRUCTURES = {
         "pipelines-graphics",
         {
             "viewMask": Key(
-                "View mask", "The views that the pipeline renders to, a bit for each; 0 without multiview.", "bit mask of views"
+                "View mask",
+                "The views that the pipeline renders to, a bit for each; 0 without multiview.",
+                "bit mask of views",
             ),
-            "colorAttachmentFormats": Key("Color formats", "The formats of the color attachments, in order; null for an unused one."),
+            "colorAttachmentFormats": Key(
+                "Color formats",
+                "The formats of the color attachments, in order; null for an unused one.",
+            ),
             "depthAttachmentFormat": Key("Depth format", "The format of the depth attachment."),
-            "stencilAttachmentFormat": Key("Stencil format", "The format of the stencil attachment."),
+            "stencilAttachmentFormat": Key(
+                "Stencil format", "The format of the stencil attachment."
+            ),
         },
     ),
     "Pipeline": Structure(
@@ -192,34 +269,54 @@ PIPELINE_STRUCTURES = {
         {
             "renderPass": Key(
                 "Render pass",
-                "The name in `renderPasses` of the render pass that it draws in; `rendering` in its place for dynamic rendering.",
+                "The name in `renderPasses` of the render pass that it draws in; `rendering` in "
+                "its place for dynamic rendering.",
             ),
-            "subpass": Key("Subpass", "The subpass of `renderPass` that it draws in.", "index from 0"),
+            "subpass": Key(
+                "Subpass", "The subpass of `renderPass` that it draws in.", "index from 0"
+            ),
             "rendering": Key(
                 "Dynamic rendering",
-                "The formats of the attachments, for a pipeline that draws without a render pass object.",
+                "The formats of the attachments, for a pipeline that draws without a render pass "
+                "object.",
                 absent="the pipeline belongs to `renderPass`",
                 source="VkPipelineRenderingCreateInfo",
             ),
             "multisampleState": Key(
-                "Multisample state", "The sample count, sample shading, and coverage.", section="primsrast-multisampling"
+                "Multisample state",
+                "The sample count, sample shading, and coverage.",
+                section="primsrast-multisampling",
             ),
             "colorBlendState": Key(
-                "Color blend state", "How output is combined with the color attachments.", section="framebuffer-blending"
+                "Color blend state",
+                "How output is combined with the color attachments.",
+                section="framebuffer-blending",
             ),
-            "depthStencilState": Key("Depth-stencil state", "The depth and stencil tests.", section="fragops-ds-state"),
-            "vertexInputState": Key("Vertex input state", "How vertices are read.", section="fxvertex-input"),
+            "depthStencilState": Key(
+                "Depth-stencil state", "The depth and stencil tests.", section="fragops-ds-state"
+            ),
+            "vertexInputState": Key(
+                "Vertex input state", "How vertices are read.", section="fxvertex-input"
+            ),
             "inputAssemblyState": Key(
-                "Input assembly state", "How vertices are assembled to primitives.", section="drawing-primitive-topologies"
+                "Input assembly state",
+                "How vertices are assembled to primitives.",
+                section="drawing-primitive-topologies",
             ),
-            "rasterizationState": Key("Rasterization state", "How primitives are rasterized.", section="primsrast"),
+            "rasterizationState": Key(
+                "Rasterization state", "How primitives are rasterized.", section="primsrast"
+            ),
             "dynamicState": Key(
                 "Dynamic states",
-                "The states that commands set instead of the pipeline, such as RASTERIZATION_SAMPLES_EXT.",
+                "The states that commands set instead of the pipeline, such as "
+                "RASTERIZATION_SAMPLES_EXT.",
                 source="VkGraphicsPipelineCreateInfo::pDynamicState",
                 section="pipelines-dynamic-state",
             ),
-            "stages": Key("Shader stages", "The shaders. From SPIR-V files it is known what they do with samples."),
+            "stages": Key(
+                "Shader stages",
+                "The shaders. From SPIR-V files it is known what they do with samples.",
+            ),
         },
     ),
 }

@@ -1,6 +1,8 @@
-"""Reports of devices: what tools print of a GPU, read into profiles. The format is told by content, never by a file's name.
+"""Reports of devices: what tools print of a GPU, read into profiles. The format is told by content,
+never by a file's name.
 
-A dialect is a module with `claims` and `read`; it knows where the dialect has what. `reading.py` knows what it means.
+A dialect is a module with `claims` and `read`; it knows where the dialect has what. `reading.py`
+knows what it means.
 """
 
 from __future__ import annotations
@@ -20,11 +22,15 @@ JSON: tuple[ModuleType, ...] = (profiles_json, gpuinfo, vkjson, devsim)
 MAX_BYTES = 8 << 20
 """Of a report. The largest seen, of a driver that lists video formats, has one MiB."""
 
-EXPECTED = "vulkaninfo (text or --json), a Vulkan profile, a report of gpuinfo.org, vkjson or devsim JSON"
+EXPECTED = (
+    "vulkaninfo (text or --json), a Vulkan profile, a report of gpuinfo.org, vkjson or devsim JSON"
+)
 
 
 class NotAReport(ValueError):
-    """The text is not a device report, or lacks the limits of the device; the message says which."""
+    """The text is not a device report, or lacks the limits of the device; the message says
+    which.
+    """
 
 
 def read(text: str, file: str = "") -> list[Report]:
@@ -56,10 +62,14 @@ def _found(text: str) -> list[Found]:
         from msaa_lint.core.text.json_errors import json_problem
 
         said = json_problem(text, error.pos).message
-        raise NotAReport(f"its JSON is broken at line {error.lineno}, column {error.colno}: {said}") from None
+        raise NotAReport(
+            f"its JSON is broken at line {error.lineno}, column {error.colno}: {said}"
+        ) from None
     except ValueError:
         raise NotAReport("its JSON has a number that is too long") from None
-    module = next((module for module in JSON if isinstance(root, dict) and module.claims(root)), None)
+    module = next(
+        (module for module in JSON if isinstance(root, dict) and module.claims(root)), None
+    )
     if module is None:
         raise NotAReport("it is not a device report")
     found: list[Found] = module.read(root)
@@ -71,10 +81,16 @@ def _found(text: str) -> list[Found]:
 
 
 def pick(reports: Sequence[Report], which: str) -> Report | None:
-    """The device with a number (from 1) or a name; without either, the only one or the only one that is not a CPU. None otherwise."""
+    """The device with a number (from 1) or a name; without either, the only one or the only one
+    that is not a CPU. None otherwise.
+    """
     if which.isascii() and which.isdigit() and len(which) < 4:
         return reports[int(which) - 1] if 0 < int(which) <= len(reports) else None
     if which:
         return next((each for each in reports if each.profile.name.lower() == which.lower()), None)
-    left = list(reports) if len(reports) == 1 else [each for each in reports if each.details.device_type != "CPU"]
+    left = (
+        list(reports)
+        if len(reports) == 1
+        else [each for each in reports if each.details.device_type != "CPU"]
+    )
     return left[0] if len(left) == 1 else None

@@ -1,4 +1,6 @@
-"""The JSON of the Device Simulation layer, which old `vulkaninfo --json` prints: Vulkan's structures at the top, masks as numbers."""
+"""The JSON of the Device Simulation layer, which old `vulkaninfo --json` prints: Vulkan's
+structures at the top, masks as numbers.
+"""
 
 from __future__ import annotations
 
@@ -18,8 +20,15 @@ def claims(root: Mapping[str, Any]) -> bool:
 
 def read(root: Mapping[str, Any]) -> list[Found]:
     """The one device of a file."""
-    structures = {name: value for name, value in root.items() if isinstance(value, dict) and name.startswith(_STRUCTURE)}
-    properties = [root["VkPhysicalDeviceProperties"], *(structures[name] for name in sorted(structures) if "Properties" in name)]
+    structures = {
+        name: value
+        for name, value in root.items()
+        if isinstance(value, dict) and name.startswith(_STRUCTURE)
+    }
+    properties = [
+        root["VkPhysicalDeviceProperties"],
+        *(structures[name] for name in sorted(structures) if "Properties" in name),
+    ]
     features: dict[object, object] = {}
     for name in sorted(structures, reverse=True):
         if "Features" in name:

@@ -1,4 +1,6 @@
-"""Reports of vulkan.gpuinfo.org and of its tool, the Vulkan Hardware Capability Viewer: JSON with masks, and extensions' values as text."""
+"""Reports of vulkan.gpuinfo.org and of its tool, the Vulkan Hardware Capability Viewer: JSON with
+masks, and extensions' values as text.
+"""
 
 from __future__ import annotations
 
@@ -13,7 +15,11 @@ CORES = ("core11", "core12", "core13", "core14")
 
 def claims(root: Mapping[str, Any]) -> bool:
     """Whether a JSON object is such a report."""
-    return isinstance(root.get("properties"), dict) and "environment" in root and ("extended" in root or "memory" in root)
+    return (
+        isinstance(root.get("properties"), dict)
+        and "environment" in root
+        and ("extended" in root or "memory" in root)
+    )
 
 
 def read(root: Mapping[str, Any]) -> list[Found]:
@@ -34,7 +40,11 @@ def read(root: Mapping[str, Any]) -> list[Found]:
         if isinstance(name, str) and not values.boolean(features.get(name)):
             features[name] = entry.get("supported")
     environment = _object(root.get("environment"))
-    system = " ".join(filter(None, (values.text(environment.get("name")), values.text(environment.get("version")))))
+    system = " ".join(
+        filter(
+            None, (values.text(environment.get("name")), values.text(environment.get("version")))
+        )
+    )
     return [
         Found(
             members,
@@ -48,14 +58,22 @@ def read(root: Mapping[str, Any]) -> list[Found]:
 
 
 def memory(stated: object) -> tuple[list[object] | None, list[tuple[object, object]] | None]:
-    """The flags of the memory types, and the heaps, of a VkPhysicalDeviceMemoryProperties as an object; None where they are not there."""
+    """The flags of the memory types, and the heaps, of a VkPhysicalDeviceMemoryProperties as an
+    object; None where they are not there.
+    """
     if not isinstance(stated, dict):
         return None, None
     types, heaps = stated.get("memoryTypes"), stated.get("memoryHeaps")
-    type_count, heap_count = (values.number(stated.get(name)) for name in ("memoryTypeCount", "memoryHeapCount"))
+    type_count, heap_count = (
+        values.number(stated.get(name)) for name in ("memoryTypeCount", "memoryHeapCount")
+    )
     return (
-        [entry.get("propertyFlags") for entry in _entries(types)][:type_count] if isinstance(types, list) else None,
-        [(entry.get("size"), entry.get("flags")) for entry in _entries(heaps)][:heap_count] if isinstance(heaps, list) else None,
+        [entry.get("propertyFlags") for entry in _entries(types)][:type_count]
+        if isinstance(types, list)
+        else None,
+        [(entry.get("size"), entry.get("flags")) for entry in _entries(heaps)][:heap_count]
+        if isinstance(heaps, list)
+        else None,
     )
 
 

@@ -1,4 +1,6 @@
-"""What a report says, whichever the dialect: the members that are looked for, as found and as read."""
+"""What a report says, whichever the dialect: the members that are looked for, as found and as
+read.
+"""
 
 from collections.abc import Iterable, Mapping
 from typing import NamedTuple
@@ -18,14 +20,33 @@ COUNTS = {
 
 _SAMPLES = "VkSampleCountFlagBits"
 FLAGS = {
-    **dict.fromkeys((f"framebuffer{aspect}SampleCounts" for aspect in ("Color", "Depth", "Stencil", "IntegerColor")), _SAMPLES),
+    **dict.fromkeys(
+        (
+            f"framebuffer{aspect}SampleCounts"
+            for aspect in ("Color", "Depth", "Stencil", "IntegerColor")
+        ),
+        _SAMPLES,
+    ),
     **dict.fromkeys(COUNTS.values(), _SAMPLES),
-    **dict.fromkeys(("supportedDepthResolveModes", "supportedStencilResolveModes"), "VkResolveModeFlagBits"),
+    **dict.fromkeys(
+        ("supportedDepthResolveModes", "supportedStencilResolveModes"), "VkResolveModeFlagBits"
+    ),
 }
 """Members that are masks, and of which enum."""
 
-BOOLEANS = ("independentResolve", "independentResolveNone", "standardSampleLocations", "variableSampleLocations")
-NUMBERS = ("subPixelPrecisionBits", "maxFramebufferWidth", "maxFramebufferHeight", "maxColorAttachments", "vendorID")
+BOOLEANS = (
+    "independentResolve",
+    "independentResolveNone",
+    "standardSampleLocations",
+    "variableSampleLocations",
+)
+NUMBERS = (
+    "subPixelPrecisionBits",
+    "maxFramebufferWidth",
+    "maxFramebufferHeight",
+    "maxColorAttachments",
+    "vendorID",
+)
 TEXTS = ("deviceName", "deviceType", "apiVersion", "driverVersion", "driverName", "driverInfo")
 WANTED = frozenset((*FLAGS, *BOOLEANS, *NUMBERS, *TEXTS))
 """The members of properties structures that a report is read for."""
@@ -34,8 +55,9 @@ WANTED = frozenset((*FLAGS, *BOOLEANS, *NUMBERS, *TEXTS))
 class Found(NamedTuple):
     """What one dialect's reader found, in Vulkan's names and in the report's own spelling.
 
-    `members` are those of properties structures that are `WANTED`, each with every value that the report has for it, the best first.
-    None is what the report does not have. `memory_types` are their propertyFlags; `heaps` sizes and flags.
+    `members` are those of properties structures that are `WANTED`, each with every value that the
+    report has for it, the best first. None is what the report does not have. `memory_types` are
+    their propertyFlags; `heaps` sizes and flags.
     """
 
     members: Mapping[str, list[object]]
@@ -53,8 +75,9 @@ class Found(NamedTuple):
 class Details(NamedTuple):
     """What a report has beyond the profile. None is unknown.
 
-    Sample counts by use (those of `COUNTS`), memory heaps (bytes, and whether they are the device's own), the framebuffer's largest size in
-    pixels, the snap of vertices in bits, what Vulkan says of sample locations, the driver and the kind of device in words.
+    Sample counts by use (those of `COUNTS`), memory heaps (bytes, and whether they are the device's
+    own), the framebuffer's largest size in pixels, the snap of vertices in bits, what Vulkan says
+    of sample locations, the driver and the kind of device in words.
     """
 
     counts: Mapping[str, tuple[int, ...] | None] = dict.fromkeys(COUNTS)
@@ -68,7 +91,9 @@ class Details(NamedTuple):
 
 
 class Report(NamedTuple):
-    """A device as a report describes it. `notes` says what of the report could not be read, one line each."""
+    """A device as a report describes it. `notes` says what of the report could not be read, one
+    line each.
+    """
 
     profile: DeviceProfile
     details: Details = Details()
@@ -76,7 +101,9 @@ class Report(NamedTuple):
 
 
 def gathered(*structures: object) -> dict[str, list[object]]:
-    """The wanted members of structures and of the structures in them; anything but a mapping is skipped."""
+    """The wanted members of structures and of the structures in them; anything but a mapping is
+    skipped.
+    """
     found: dict[str, list[object]] = {}
     waiting = [(structure, 0) for structure in reversed(structures)]
     while waiting:
@@ -101,4 +128,6 @@ def extension_names(listed: object) -> list[object] | None:
 def shown(value: object) -> str:
     """A value as a note names it: a short text, never what is in a list."""
     kinds: dict[type, str] = {list: "a list", dict: "an object"}
-    return kinds.get(type(value)) or (repr(value)[:60] if not isinstance(value, int) or abs(value) < 1 << 64 else "a long number")
+    return kinds.get(type(value)) or (
+        repr(value)[:60] if not isinstance(value, int) or abs(value) < 1 << 64 else "a long number"
+    )

@@ -1,7 +1,9 @@
-"""The JSON of Khronos' Vulkan Profiles: profiles of what a class of devices guarantees, and what vulkaninfo exports of one device.
+"""The JSON of Khronos' Vulkan Profiles: profiles of what a class of devices guarantees, and what
+vulkaninfo exports of one device.
 
-A profile lists blocks of capabilities, all of which hold; a list within the list is alternatives, one of which holds: so what every
-alternative has is what is guaranteed. What a profile calls optional is not.
+A profile lists blocks of capabilities, all of which hold; a list within the list is alternatives,
+one of which holds: so what every alternative has is what is guaranteed. What a profile calls
+optional is not.
 """
 
 from __future__ import annotations
@@ -22,7 +24,9 @@ MAX_DEPTH = 8
 
 
 class Block(NamedTuple):
-    """What a block guarantees: masks, booleans and least numbers by member, features, extensions."""
+    """What a block guarantees: masks, booleans and least numbers by member, features,
+    extensions.
+    """
 
     members: dict[str, int]
     features: frozenset[str] = frozenset()
@@ -38,14 +42,19 @@ def claims(root: Mapping[str, Any]) -> bool:
 def read(root: Mapping[str, Any]) -> list[Found]:
     """A device for each profile of a file."""
     return [
-        _device(root, profile) if name.startswith(EXPORTED) or _names_a_device(root, profile) else _minimum(root, name, profile)
+        _device(root, profile)
+        if name.startswith(EXPORTED) or _names_a_device(root, profile)
+        else _minimum(root, name, profile)
         for name, profile in itertools.islice(root["profiles"].items(), MAX_PROFILES)
         if isinstance(profile, dict)
     ]
 
 
 def _names_a_device(root: Mapping[str, Any], profile: Mapping[str, Any]) -> bool:
-    return any("deviceName" in gathered(block.get("properties")) for block in _blocks(root, profile.get("capabilities")))
+    return any(
+        "deviceName" in gathered(block.get("properties"))
+        for block in _blocks(root, profile.get("capabilities"))
+    )
 
 
 def _blocks(root: Mapping[str, Any], listed: object) -> Iterator[Mapping[str, Any]]:
@@ -64,7 +73,9 @@ def _device(root: Mapping[str, Any], profile: Mapping[str, Any]) -> Found:
     features: dict[object, object] = {}
     for name, value in itertools.chain.from_iterable(map(_features, blocks)):
         features[name] = features.get(name) is True or value
-    extensions = [block["extensions"] for block in blocks if isinstance(block.get("extensions"), dict)]
+    extensions = [
+        block["extensions"] for block in blocks if isinstance(block.get("extensions"), dict)
+    ]
     return Found(
         members,
         features if any("features" in block for block in blocks) else None,
@@ -85,7 +96,11 @@ def _minimum(root: Mapping[str, Any], name: str, profile: Mapping[str, Any]) -> 
     block = _required(root, profile, (name,))
     label = values.text(profile.get("label"))
     version = values.number(profile.get("version"))
-    what = f"Vulkan profile {name}" + (f" version {version}" if version is not None else "") + (f" ({label})" if label else "")
+    what = (
+        f"Vulkan profile {name}"
+        + (f" version {version}" if version is not None else "")
+        + (f" ({label})" if label else "")
+    )
     return Found(
         {member: [value] for member, value in block.members.items()},
         dict.fromkeys(block.features, True),
@@ -107,7 +122,14 @@ def _required(root: Mapping[str, Any], profile: Mapping[str, Any], above: tuple[
         if isinstance(inner, dict) and name not in above:
             parts.append(_required(root, inner, (*above, name)))
         elif not isinstance(inner, dict):
-            parts.append(Block({}, notes=(f"the file has no profile {shown(name)}, which {above[-1][:80]} requires",)))
+            parts.append(
+                Block(
+                    {},
+                    notes=(
+                        f"the file has no profile {shown(name)}, which {above[-1][:80]} requires",
+                    ),
+                )
+            )
     listed = profile.get("capabilities")
     for each in listed if isinstance(listed, list) else ():
         names = each if isinstance(each, list) else [each]
@@ -141,18 +163,30 @@ def _block(root: Mapping[str, Any], name: object) -> Block:
     extensions = stated.get("extensions")
     return Block(
         members,
-        frozenset(member for member, value in _features(stated) if values.boolean(value) and values.is_feature(member)),
-        frozenset(filter(values.is_extension, extensions)) if isinstance(extensions, dict) else frozenset(),
+        frozenset(
+            member
+            for member, value in _features(stated)
+            if values.boolean(value) and values.is_feature(member)
+        ),
+        frozenset(filter(values.is_extension, extensions))
+        if isinstance(extensions, dict)
+        else frozenset(),
         tuple(notes),
     )
 
 
 def _merged(
-    blocks: list[Block], names: Callable[..., frozenset[str]], masks: Callable[[int, int], int], numbers: Callable[..., int]
+    blocks: list[Block],
+    names: Callable[..., frozenset[str]],
+    masks: Callable[[int, int], int],
+    numbers: Callable[..., int],
 ) -> Block:
     """Blocks as one: `names` merges sets of names, `masks` and `numbers` the values of a member."""
     members = {
-        member: reduce(masks if member in FLAGS else numbers, (block.members[member] for block in blocks if member in block.members))
+        member: reduce(
+            masks if member in FLAGS else numbers,
+            (block.members[member] for block in blocks if member in block.members),
+        )
         for member in names(*(frozenset(block.members) for block in blocks))
     }
     return Block(

@@ -53,10 +53,14 @@ def report(found: Found, file: str = "") -> Report:
         independent_resolve_none=made.boolean("independentResolveNone"),
         features=made.features(),
         extensions=made.extensions(),
-        api_version=values.version(found.api) or next(filter(None, map(values.version, found.members.get("apiVersion", []))), None),
+        api_version=values.version(found.api)
+        or next(filter(None, map(values.version, found.members.get("apiVersion", []))), None),
         max_efficient_samples=4 if vendor in EFFICIENT else None,
         minimum=found.minimum,
-        source=source + (f", driver {driver}" if driver else "") + EFFICIENT.get(vendor or "", "") + _of_twin(twin),
+        source=source
+        + (f", driver {driver}" if driver else "")
+        + EFFICIENT.get(vendor or "", "")
+        + _of_twin(twin),
         tile=twin[1].tile if twin is not None else None,
         compression=twin[1].compression if twin is not None else None,
         compression_most=twin[1].compression_most if twin is not None else None,
@@ -69,14 +73,18 @@ def report(found: Found, file: str = "") -> Report:
         max_framebuffer=(width, height) if width and height else None,
         max_color_attachments=made.number("maxColorAttachments"),
         heaps=made.heaps(),
-        device_type=kind.lower().replace("gpu", "GPU").replace("cpu", "CPU").replace("_", " ") if kind is not None else None,
+        device_type=kind.lower().replace("gpu", "GPU").replace("cpu", "CPU").replace("_", " ")
+        if kind is not None
+        else None,
         driver=driver,
     )
     return Report(profile, details, (*found.notes, *made.notes)[:MAX_NOTES])
 
 
 class _Reading:
-    """The members of a report while they are read: what is wrong of one is a note, and the member unknown."""
+    """The members of a report while they are read: what is wrong of one is a note, and the member
+    unknown.
+    """
 
     def __init__(self, found: Found) -> None:
         self.found = found
@@ -91,10 +99,15 @@ class _Reading:
         return sample_counts(self._mask(member, "a mask of sample counts")) or None
 
     def modes(self, member: str) -> tuple[str, ...] | None:
-        return values.names("VkResolveModeFlagBits", self._mask(member, "a mask of resolve modes")) or None
+        return (
+            values.names("VkResolveModeFlagBits", self._mask(member, "a mask of resolve modes"))
+            or None
+        )
 
     def _mask(self, member: str, due: str) -> int:
-        return next(filter(None, self._readable(member, partial(values.mask, FLAGS[member]), due)), 0)
+        return next(
+            filter(None, self._readable(member, partial(values.mask, FLAGS[member]), due)), 0
+        )
 
     def boolean(self, member: str) -> bool | None:
         return next(iter(self._readable(member, values.boolean, "a boolean")), None)
@@ -102,7 +115,9 @@ class _Reading:
     def number(self, member: str) -> int | None:
         return next(iter(self._readable(member, values.number, "a number")), None)
 
-    def _readable(self, member: str, read: Callable[[object], Value | None], due: str) -> list[Value]:
+    def _readable(
+        self, member: str, read: Callable[[object], Value | None], due: str
+    ) -> list[Value]:
         """The values of a member that can be read."""
         every = self.found.members.get(member, [])
         readable = [value for value in map(read, every) if value is not None]
@@ -142,11 +157,17 @@ class _Reading:
         if stated is None:
             return None
         masks = [values.mask("VkMemoryPropertyFlagBits", flags) for flags in stated[:MAX_TYPES]]
-        wrong = next((flags for flags, bits in zip(stated, masks, strict=False) if bits is None), None)
+        wrong = next(
+            (flags for flags, bits in zip(stated, masks, strict=False) if bits is None), None
+        )
         if None in masks or not masks:
             self.wrong("memory types", wrong, "a mask of memory properties")
             return None
-        return tuple(dict.fromkeys(values.names("VkMemoryPropertyFlagBits", bits) for bits in masks if bits is not None))
+        return tuple(
+            dict.fromkeys(
+                values.names("VkMemoryPropertyFlagBits", bits) for bits in masks if bits is not None
+            )
+        )
 
     def heaps(self) -> tuple[tuple[int, bool], ...] | None:
         read = []
@@ -156,7 +177,9 @@ class _Reading:
                 self.wrong("memory heap", size, "a size in bytes")
                 return None
             listed = flags if isinstance(flags, list) else [flags]
-            local = any("DEVICE_LOCAL" in each for each in listed if isinstance(each, str)) or bool((values.number(flags) or 0) & 1)
+            local = any("DEVICE_LOCAL" in each for each in listed if isinstance(each, str)) or bool(
+                (values.number(flags) or 0) & 1
+            )
             read.append((size_bytes, local))
         return tuple(read) or None
 
@@ -180,7 +203,12 @@ def _twin(name: str, vendor: str | None) -> tuple[str, DeviceProfile] | None:
     bare = " ".join(name.lower().replace("(tm)", " ").replace("turnip", " ").split())
     for key in builtin_names():
         known = builtin(key)
-        if known is None or known.minimum or known.vendor != vendor or (known.tile is None and known.compression is None):
+        if (
+            known is None
+            or known.minimum
+            or known.vendor != vendor
+            or (known.tile is None and known.compression is None)
+        ):
             continue
         own = known.name.lower()
         if bare.startswith(own) and not bare[len(own) : len(own) + 1].isalnum():
@@ -192,4 +220,6 @@ def _of_twin(twin: tuple[str, DeviceProfile] | None) -> str:
     if twin is None:
         return ""
     model = twin[1].tile.source if twin[1].tile is not None else ""
-    return f"; tiles{' and compression' if twin[1].compression else ''}: as of {twin[0]}" + (f" ({model})" if model else "")
+    return f"; tiles{' and compression' if twin[1].compression else ''}: as of {twin[0]}" + (
+        f" ({model})" if model else ""
+    )

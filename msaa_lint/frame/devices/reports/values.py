@@ -1,4 +1,6 @@
-"""The values of reports, in whatever spelling a tool gives them: numbers, text of numbers, names of bits, lists of names."""
+"""The values of reports, in whatever spelling a tool gives them: numbers, text of numbers, names of
+bits, lists of names.
+"""
 
 from __future__ import annotations
 
@@ -46,7 +48,9 @@ def boolean(value: object) -> bool | None:
 
 
 def mask(enum: str, value: object) -> int | None:
-    """The bits of a flags value: a number, a name, `A | B`, or a list of names. Names of bits that are not known yet count for nothing."""
+    """The bits of a flags value: a number, a name, `A | B`, or a list of names. Names of bits that
+    are not known yet count for nothing.
+    """
     if isinstance(value, str) and number(value) is None:
         value = value.split("|")
     if not isinstance(value, (list, tuple)):
@@ -66,7 +70,11 @@ def mask(enum: str, value: object) -> int | None:
 
 def names(enum: str, bits: int) -> tuple[str, ...]:
     """The canonical names of the bits that are known, lowest first."""
-    return tuple(name for name, bit in sorted(VALUES[enum].items(), key=lambda each: each[1]) if bit and bits & bit == bit)
+    return tuple(
+        name
+        for name, bit in sorted(VALUES[enum].items(), key=lambda each: each[1])
+        if bit and bits & bit == bit
+    )
 
 
 def text(value: object) -> str | None:

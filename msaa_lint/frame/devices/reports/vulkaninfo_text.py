@@ -1,4 +1,6 @@
-"""What plain `vulkaninfo` prints: every GPU, with memory types, which its JSON lacks. Lines are read one by one, old spellings too."""
+"""What plain `vulkaninfo` prints: every GPU, with memory types, which its JSON lacks. Lines are
+read one by one, old spellings too.
+"""
 
 from __future__ import annotations
 
@@ -16,7 +18,12 @@ _EXTENSION = re.compile(r"\s+(VK_\w+)\s*:\s*extension revision\s", re.ASCII)
 
 def claims(text: str) -> bool:
     """Whether a text is what vulkaninfo prints."""
-    return re.search(r"(?m)^(?:VULKANINFO|Vulkan Instance Version\s*:|GPU\s?0\s*:?)\s*", text[: 1 << 16]) is not None
+    return (
+        re.search(
+            r"(?m)^(?:VULKANINFO|Vulkan Instance Version\s*:|GPU\s?0\s*:?)\s*", text[: 1 << 16]
+        )
+        is not None
+    )
 
 
 def read(text: str) -> list[Found]:
@@ -63,7 +70,9 @@ class _Gpu:
         if self.extensions is not None and self.section.startswith("Device Extensions"):
             found = _EXTENSION.match(line)
             self.extensions += [found.group(1)] if found is not None else []
-        elif self.section.startswith(("memoryHeaps", "memoryTypes", "VkPhysicalDeviceMemoryProperties")):
+        elif self.section.startswith(
+            ("memoryHeaps", "memoryTypes", "VkPhysicalDeviceMemoryProperties")
+        ):
             self._memory(line)
         elif self.section.startswith("VkPhysicalDevice") and "Features" in self.section:
             member = _MEMBER.match(line)
@@ -99,7 +108,11 @@ class _Gpu:
                 self.types.append(None)
             return
         member = _MEMBER.match(line)
-        if self.entry == "memoryTypes" and member is not None and member.group(1) == "propertyFlags":
+        if (
+            self.entry == "memoryTypes"
+            and member is not None
+            and member.group(1) == "propertyFlags"
+        ):
             self.types[-1] = member.group(2)
         elif self.entry == "memoryHeaps" and member is not None and member.group(1) == "size":
             self.heaps[-1][0] = member.group(2)

@@ -21,7 +21,9 @@ from .relevance import without_irrelevant_bodies
 from .syntax import unit
 
 _VULKAN = re.compile(r"\b(?:Vk|vk)[A-Z]|\bvk\w*\s*::|=\s*vk\b|VULKAN_HPP")
-"""What code contains that fills in Vulkan structures, unless it is a page's; compilers of shaders, too, speak of samples."""
+"""What code contains that fills in Vulkan structures, unless it is a page's; compilers of shaders,
+too, speak of samples.
+"""
 
 _WAITS = re.compile(r"ipelineBarrier|Queue(?:Submit|Present)[^}]{0,1500}WaitIdle")
 """Synchronization that can replace the dependencies of a render pass between frames."""
@@ -38,7 +40,10 @@ def file_syntax(code: Code, macros: Macros = NO_MACROS) -> FileSyntax:
     whole = without_modules(code.text)
     if code.language in ("c", "cpp"):
         whole = without_objective_c(whole)
-    code, places, unread = preprocessed(code._replace(text=whole if code.fragments else without_irrelevant_bodies(whole, macros)), macros)
+    code, places, unread = preprocessed(
+        code._replace(text=whole if code.fragments else without_irrelevant_bodies(whole, macros)),
+        macros,
+    )
     code = code._replace(text=without_annotations(code.text))
     root = tree(code).root_node
     text, sections = clear_list_directives(code.text, root)
@@ -50,12 +55,18 @@ def file_syntax(code: Code, macros: Macros = NO_MACROS) -> FileSyntax:
     return syntax._replace(pieces=places.pieces, unread=unread)
 
 
-def syntax_of(code: Code, whole: str, unit: Unit, root: SyntaxNode, calls_metal: bool) -> FileSyntax:
-    """Returns what is known of a file of any of the languages that C is a part of. `whole` is its text as written."""
+def syntax_of(
+    code: Code, whole: str, unit: Unit, root: SyntaxNode, calls_metal: bool
+) -> FileSyntax:
+    """Returns what is known of a file of any of the languages that C is a part of. `whole` is its
+    text as written.
+    """
     return FileSyntax(
         unit,
         # Sample count masks have this in their name or type, whatever their source.
-        choices(unit, code.text) if "ampleCounts" in code.text or "ampleCountFlags" in code.text else (),
+        choices(unit, code.text)
+        if "ampleCounts" in code.text or "ampleCountFlags" in code.text
+        else (),
         ("Vk" in whole or "vk" in whole or "VULKAN" in whole) and _VULKAN.search(whole) is not None,
         _WAITS.search(whole) is not None,
         _FRAMES.search(whole) is not None,
@@ -67,7 +78,13 @@ def syntax_of(code: Code, whole: str, unit: Unit, root: SyntaxNode, calls_metal:
 
 
 def trees(code: Code) -> list[Read]:
-    """Returns the trees of a file or of a page's fragments: at most one for each API. Raises `Missing` if the grammar is not installed."""
+    """Returns the trees of a file or of a page's fragments: at most one for each API. Raises
+    `Missing` if the grammar is not installed.
+    """
     syntax = file_syntax(code)
     places = Places(syntax.pieces)
-    return located(executed(syntax, code.fragments, assuming(code.assumptions, places.original)), places, syntax.unread)
+    return located(
+        executed(syntax, code.fragments, assuming(code.assumptions, places.original)),
+        places,
+        syntax.unread,
+    )

@@ -13,7 +13,10 @@ from typing import NamedTuple
 from msaa_lint.input.code.core.conditions import condition_key
 from msaa_lint.input.code.parsing import SyntaxNode
 
-_DIRECTIVE = re.compile(r"^[ \t]*#[ \t]*(ifdef|ifndef|if|elifdef|elifndef|elif|else|endif)\b((?:\\\n|[^\n])*)", re.MULTILINE)
+_DIRECTIVE = re.compile(
+    r"^[ \t]*#[ \t]*(ifdef|ifndef|if|elifdef|elifndef|elif|else|endif)\b((?:\\\n|[^\n])*)",
+    re.MULTILINE,
+)
 _COMMENT = re.compile(r"//.*|/\*.*?(?:\*/|$)", re.DOTALL)
 _BLOCK = re.compile(
     r"\b(?:class|struct|union|enum|namespace|else|do|try|const|noexcept|override|final|extern|mutable)\b[^=(]*$|\)\s*$|^\s*$"
@@ -26,17 +29,23 @@ MAX_LIST_LENGTH = 20_000
 """The maximum distance in characters between the start of a list and a directive in it."""
 
 MAX_ARMS = 32
-"""The maximum number of directives from an #if to its #endif in a list; each depends on those before it."""
+"""The maximum number of directives from an #if to its #endif in a list; each depends on those
+before it.
+"""
 
 MAX_CONDITIONS = 8
 """The maximum number of conditions of an item in a list."""
 
 MAX_STATEMENT = 4000
-"""The maximum number of characters before a brace in which the statement that it belongs to starts."""
+"""The maximum number of characters before a brace in which the statement that it belongs to
+starts.
+"""
 
 
 class Section(NamedTuple):
-    """A range of the text that exists only if a condition holds, or, for `way` False, does not. Offsets are in characters."""
+    """A range of the text that exists only if a condition holds, or, for `way` False, does not.
+    Offsets are in characters.
+    """
 
     start: int
     end: int
@@ -45,7 +54,9 @@ class Section(NamedTuple):
 
 
 def clear_list_directives(text: str, root: SyntaxNode) -> tuple[str, tuple[Section, ...]]:
-    """Returns the text without the directives inside lists that cause parse errors, and the sections that depend on them."""
+    """Returns the text without the directives inside lists that cause parse errors, and the
+    sections that depend on them.
+    """
     if not root.has_error or "#if" not in text.replace(" ", ""):
         return text, ()
     errors = sorted(_error_ranges(root))
@@ -103,7 +114,9 @@ class Sections:
         return n < len(self._starts) and self._starts[n] < end
 
     def of(self, at: int) -> list[Section] | None:
-        """Returns the sections that contain an offset, the outermost first; None if there are too many."""
+        """Returns the sections that contain an offset, the outermost first; None if there are too
+        many.
+        """
         sections: list[Section] = []
         n = bisect_right(self._starts, at) - 1
         while n >= 0 and len(sections) <= MAX_CONDITIONS:
@@ -124,10 +137,15 @@ def _error_ranges(root: SyntaxNode) -> Iterator[tuple[int, int]]:
 
 
 def _is_error(errors: list[tuple[int, int]], match: re.Match[str]) -> bool:
-    """Returns whether a parse error starts or ends on the line of a directive, or surrounds it closely."""
+    """Returns whether a parse error starts or ends on the line of a directive, or surrounds it
+    closely.
+    """
     start, end = match.span()
     at = bisect_left(errors, (start, 0))
-    return any(a < end and b > start and (a >= start or b - a < MAX_LIST_LENGTH) for a, b in errors[max(at - 8, 0) : at + 8])
+    return any(
+        a < end and b > start and (a >= start or b - a < MAX_LIST_LENGTH)
+        for a, b in errors[max(at - 8, 0) : at + 8]
+    )
 
 
 class _Brackets:
@@ -141,7 +159,9 @@ class _Brackets:
         """The offsets of the open brackets, and whether a statement ends in each."""
 
     def list_around(self, at: int) -> bool:
-        """Returns whether the innermost open bracket at an offset, not before the previous one, belongs to a call or a list of values."""
+        """Returns whether the innermost open bracket at an offset, not before the previous one,
+        belongs to a call or a list of values.
+        """
         while self.next is not None and self.next.start() < at:
             start, sign = self.next.start(), self.next[0]
             if sign in "({[":
@@ -164,10 +184,13 @@ class _Brackets:
 
 
 def _before(text: str, at: int) -> tuple[str, str]:
-    """Returns the text from the end of the previous statement to an offset, without comments, and the character that ends that
-    statement."""
+    """Returns the text from the end of the previous statement to an offset, without comments, and
+    the character that ends that statement.
+    """
     start = max(text.rfind(sign, max(at - MAX_STATEMENT, 0), at) for sign in ";{}")
-    return _COMMENT.sub("", text[max(start + 1, at - 400) : at]), text[start : start + 1] if start >= 0 else ""
+    return _COMMENT.sub("", text[max(start + 1, at - 400) : at]), text[
+        start : start + 1
+    ] if start >= 0 else ""
 
 
 def _of_group(group: list[re.Match[str]]) -> Iterator[Section]:

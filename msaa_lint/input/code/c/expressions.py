@@ -33,12 +33,16 @@ from . import shapes
 from .directives import Sections
 from .kinds import BLANKS, CLASSES, MAX_DEPTH, MAX_NAME, NAMES, WORD, number
 
-WRAPPERS = frozenset({"parenthesized_expression", "cast_expression", "condition_clause", "co_await_expression"})
+WRAPPERS = frozenset(
+    {"parenthesized_expression", "cast_expression", "condition_clause", "co_await_expression"}
+)
 
 API_TYPES = ("vk::", "Vk", "VULKAN")
 """What the names of the types of Vulkan start with."""
 
-OWNERS = frozenset({"make_unique", "make_shared", "MakeUnique", "MakeShared", "CreateRef", "CreateScope"})
+OWNERS = frozenset(
+    {"make_unique", "make_shared", "MakeUnique", "MakeShared", "CreateRef", "CreateScope"}
+)
 """Functions that construct an object of the type that is their template argument."""
 
 KEYWORDS = re.compile(r"\b(?:const|struct|typename|class)\b")
@@ -49,7 +53,9 @@ CASTS = frozenset({"static_cast", "reinterpret_cast", "const_cast", "bit_cast"})
 
 def unwrapped(node: SyntaxNode | None) -> SyntaxNode | None:
     """Returns an expression without the parentheses around it."""
-    while node is not None and node.type == "parenthesized_expression" and node.named_child_count == 1:
+    while (
+        node is not None and node.type == "parenthesized_expression" and node.named_child_count == 1
+    ):
         node = node.named_children[0]
     return node
 
@@ -79,11 +85,19 @@ class Expressions(SyntaxReader, ABC):
         if node.type in CLASSES or node.type == "enum_specifier":
             return self.text_of(node.child_by_field_name("name"))
         text = self.text_of(node)
-        return self.resolve_aliases(text if text.isidentifier() else BLANKS.sub("", KEYWORDS.sub(" ", text)))
+        return self.resolve_aliases(
+            text if text.isidentifier() else BLANKS.sub("", KEYWORDS.sub(" ", text))
+        )
 
     def resolve_aliases(self, name: str) -> str:
-        """Returns a name with aliases resolved: those of `namespace v = vk;` and `using Samples = ...;`."""
-        return WORD.sub(lambda match: self.aliases.get(match[0], match[0]), name) if self.aliases else name
+        """Returns a name with aliases resolved: those of `namespace v = vk;` and `using Samples =
+        ...;`.
+        """
+        return (
+            WORD.sub(lambda match: self.aliases.get(match[0], match[0]), name)
+            if self.aliases
+            else name
+        )
 
     def expression(self, node: SyntaxNode | None, depth: int) -> Term:
         """Returns the term of an expression."""
@@ -97,7 +111,11 @@ class Expressions(SyntaxReader, ABC):
             return (
                 (LITERAL, None, at)
                 if name == "VK_NULL_HANDLE"
-                else (NAME, self.resolve_aliases(name if name.isidentifier() else BLANKS.sub("", name)), at)
+                else (
+                    NAME,
+                    self.resolve_aliases(name if name.isidentifier() else BLANKS.sub("", name)),
+                    at,
+                )
             )
         if kind == "field_expression":
             member = node.child_by_field_name("field")
@@ -105,23 +123,39 @@ class Expressions(SyntaxReader, ABC):
                 return (UNPARSED, self.text_of(node), at)
             if self.text.startswith("*", member.start_byte - 1):
                 # A pointer to a member.
-                return (INDEX, *self.parts(node, deeper, "argument"), (UNPARSED, "", span(member)), at)
+                return (
+                    INDEX,
+                    *self.parts(node, deeper, "argument"),
+                    (UNPARSED, "", span(member)),
+                    at,
+                )
             name = self.text_of(member)[:MAX_NAME].partition("<")[0].rpartition("::")[2]
             return (FIELD, *self.parts(node, deeper, "argument"), name, span(member))
         if kind == "call_expression":
             return self.call(node, deeper, at)
         if kind == "number_literal":
             literal = number(self.text_of(node))
-            return (LITERAL, literal, at) if literal is not None else (UNPARSED, self.text_of(node)[:40], at)
+            return (
+                (LITERAL, literal, at)
+                if literal is not None
+                else (UNPARSED, self.text_of(node)[:40], at)
+            )
         if kind in ("true", "false", "null"):
             return (LITERAL, None if kind == "null" else kind == "true", at)
         if kind == "initializer_list":
             return (BRACES, "", tuple(self.items(node, deeper)), at)
         if kind == "compound_literal_expression":
             type_node, value_node = fields(node, "type", "value")
-            return (BRACES, self.type_text(type_node), tuple(self.items(value_node, deeper)) if value_node is not None else (), at)
+            return (
+                BRACES,
+                self.type_text(type_node),
+                tuple(self.items(value_node, deeper)) if value_node is not None else (),
+                at,
+            )
         if kind in WRAPPERS:
-            inner = node.child_by_field_name("value") or (node.named_children[-1] if node.named_child_count else None)
+            inner = node.child_by_field_name("value") or (
+                node.named_children[-1] if node.named_child_count else None
+            )
             term = self.expression(inner, deeper)
             type_node = node.child_by_field_name("type")
             typed = kind == "cast_expression" and term[0] == BRACES and type_node is not None
@@ -135,24 +169,55 @@ class Expressions(SyntaxReader, ABC):
         if kind == "assignment_expression":
             return (ASSIGN, operator or "=", *self.parts(node, deeper, "left", "right"), at)
         if kind == "conditional_expression":
-            return (CHOICE, *self.parts(node, deeper, "condition", "consequence", "alternative"), at)
+            return (
+                CHOICE,
+                *self.parts(node, deeper, "condition", "consequence", "alternative"),
+                at,
+            )
         if kind == "pointer_expression":
-            return (ADDRESS if operator == "&" else TARGET, *self.parts(node, deeper, "argument"), at)
+            return (
+                ADDRESS if operator == "&" else TARGET,
+                *self.parts(node, deeper, "argument"),
+                at,
+            )
         if kind == "unary_expression":
             return (UNARY, operator, *self.parts(node, deeper, "argument"), at)
         if kind == "update_expression":
             operand = node.child_by_field_name("argument")
-            after = sign is not None and operand is not None and operand.start_byte < sign.start_byte
-            return (UNARY, ("post" if after else "") + operator, self.expression(operand, deeper), at)
+            after = (
+                sign is not None and operand is not None and operand.start_byte < sign.start_byte
+            )
+            return (
+                UNARY,
+                ("post" if after else "") + operator,
+                self.expression(operand, deeper),
+                at,
+            )
         if kind == "subscript_expression":
             index = node.child_by_field_name("indices") or node.child_by_field_name("index")
-            if index is not None and index.type == "subscript_argument_list" and index.named_child_count:
+            if (
+                index is not None
+                and index.type == "subscript_argument_list"
+                and index.named_child_count
+            ):
                 index = index.named_children[0]
-            return (INDEX, *self.parts(node, deeper, "argument"), self.expression(index, deeper), at)
+            return (
+                INDEX,
+                *self.parts(node, deeper, "argument"),
+                self.expression(index, deeper),
+                at,
+            )
         if kind == "lambda_expression":
             declarator, body = fields(node, "declarator", "body")
-            list_node = declarator.child_by_field_name("parameters") if declarator is not None else None
-            return (LAMBDA, self.parameters(list_node), tuple(self.block(body, deeper)) if body is not None else (), at)
+            list_node = (
+                declarator.child_by_field_name("parameters") if declarator is not None else None
+            )
+            return (
+                LAMBDA,
+                self.parameters(list_node),
+                tuple(self.block(body, deeper)) if body is not None else (),
+                at,
+            )
         if kind in ("comma_expression", "ERROR") and node.named_child_count:
             return self.expression(node.named_children[-1], deeper)
         if kind == "new_expression":
@@ -162,7 +227,9 @@ class Expressions(SyntaxReader, ABC):
                 return (CALL, (NAME, f"{self.type_text(type_node)}[]", at), (length,), at)
             if type_node is not None:
                 self.called_names.add(short_name(self.type_text(type_node)))
-                arguments = tuple(self.expression(child, deeper) for child in without_comments(list_node))
+                arguments = tuple(
+                    self.expression(child, deeper) for child in without_comments(list_node)
+                )
                 return (CALL, (NAME, self.type_text(type_node), at), arguments, at)
         return (UNPARSED, self.text_of(node) if node.end_byte - node.start_byte < 200 else "", at)
 
@@ -175,15 +242,31 @@ class Expressions(SyntaxReader, ABC):
         argument_nodes = without_comments(list_node)
         if function is not None and function.type == "template_function":
             name = function.child_by_field_name("name")
-            if name is not None and self.text_of(name).rpartition("::")[2] in CASTS and len(argument_nodes) == 1:
+            if (
+                name is not None
+                and self.text_of(name).rpartition("::")[2] in CASTS
+                and len(argument_nodes) == 1
+            ):
                 return self.expression(argument_nodes[0], depth)
         if len(argument_nodes) == 1 and self.text_of(function) in ("std::move", "std::as_const"):
             return self.expression(argument_nodes[0], depth)
         terms = (self.expression(child, depth) for child in argument_nodes)
-        shifted = list_node is not None and list_node.has_error and self.has_directives(argument_nodes)
-        arguments = tuple(self.ordered_arguments(argument_nodes, terms, shifted) if shifted or self.sections else terms)
+        shifted = (
+            list_node is not None and list_node.has_error and self.has_directives(argument_nodes)
+        )
+        arguments = tuple(
+            self.ordered_arguments(argument_nodes, terms, shifted)
+            if shifted or self.sections
+            else terms
+        )
         term = self.expression(function, depth)
-        if term[0] == CALL and len(term[2]) == 1 and term[2][0][0] == NAME and term[1][0] == NAME and term[1][1].isupper():
+        if (
+            term[0] == CALL
+            and len(term[2]) == 1
+            and term[2][0][0] == NAME
+            and term[1][0] == NAME
+            and term[1][1].isupper()
+        ):
             # `VK_CALL(vkCreateImage)(device)`
             term = term[2][0]
         if term[0] == FIELD and term[2] == "get" and not arguments and function is not None:
@@ -216,7 +299,9 @@ class Expressions(SyntaxReader, ABC):
         # Parentheses around a type look like those around a name.
         return array if element is None or element.type == "identifier" else None
 
-    def items(self, node: SyntaxNode, depth: int) -> Iterator[tuple[tuple[str | int, ...] | None, Term]]:
+    def items(
+        self, node: SyntaxNode, depth: int
+    ) -> Iterator[tuple[tuple[str | int, ...] | None, Term]]:
         """Yields the items in braces: the designated members or None, and the term."""
         nodes = node.named_children
         if node.has_error and self.has_directives(nodes):
@@ -238,28 +323,43 @@ class Expressions(SyntaxReader, ABC):
                     continue
                 if part.type == "subscript_designator":
                     index = self.expression(inner, depth)
-                    path.append(index[1] if index[0] == LITERAL and isinstance(index[1], int) else f"[{self.text_of(inner)}")
+                    path.append(
+                        index[1]
+                        if index[0] == LITERAL and isinstance(index[1], int)
+                        else f"[{self.text_of(inner)}"
+                    )
                 else:
                     path.append(self.text_of(inner))
             yield tuple(path), self.conditional_item(child, self.expression(value_node, depth))
 
     def has_directives(self, nodes: list[SyntaxNode]) -> bool:
         """Returns whether a preprocessor directive remains between the items of a list."""
-        return any(child.is_error and self.text.startswith("#", child.start_byte) for child in nodes)
+        return any(
+            child.is_error and self.text.startswith("#", child.start_byte) for child in nodes
+        )
 
     def conditional_item(self, node: SyntaxNode, term: Term) -> Term:
-        """Returns the term of a list item with the conditions under which it exists; an item that is only partly conditional is unknown."""
+        """Returns the term of a list item with the conditions under which it exists; an item that
+        is only partly conditional is unknown.
+        """
         if not self.sections:
             return term
         sections = self.sections.of(node.start_byte)
-        if sections is None or (self.sections.starts_in(node.start_byte, node.end_byte) and term[0] not in (BRACES, CALL, LAMBDA)):
+        if sections is None or (
+            self.sections.starts_in(node.start_byte, node.end_byte)
+            and term[0] not in (BRACES, CALL, LAMBDA)
+        ):
             return (UNPARSED, "", term[-1])
         for section in sections:
             term = (SOME, section.text, section.way, term, term[-1])
         return term
 
-    def ordered_arguments(self, nodes: list[SyntaxNode], terms: Iterator[Term], shifted: bool) -> Iterator[Term]:
-        """Yields arguments; from the first conditional argument on, or if they are `shifted`, they are unknown."""
+    def ordered_arguments(
+        self, nodes: list[SyntaxNode], terms: Iterator[Term], shifted: bool
+    ) -> Iterator[Term]:
+        """Yields arguments; from the first conditional argument on, or if they are `shifted`, they
+        are unknown.
+        """
         for node, term in zip(nodes, terms, strict=True):
             argument = self.conditional_item(node, term)
             shifted = shifted or argument[0] == SOME

@@ -20,14 +20,16 @@ NUMBER = re.compile(r"(0[xX][0-9a-fA-F']+|0[bB][01']+|[0-9][0-9']*)[uUlLzZ]*")
 REAL = re.compile(r"[0-9']*\.?[0-9']*(?:[eE][-+]?[0-9]+)?[fFlL]?")
 
 NAMES = frozenset({
-    "identifier", "field_identifier", "type_identifier", "qualified_identifier", "namespace_identifier", "this", "template_function",
+    "identifier", "field_identifier", "type_identifier", "qualified_identifier",
+    "namespace_identifier", "this", "template_function",
     "primitive_type", "template_type", "template_method", "dependent_name",
 })  # fmt: skip
 
 CLASSES = frozenset({"class_specifier", "struct_specifier", "union_specifier"})
 
 BLOCKS = frozenset({
-    "compound_statement", "try_statement", "catch_clause", "labeled_statement", "else_clause", "ERROR", "preproc_else", "init_statement",
+    "compound_statement", "try_statement", "catch_clause", "labeled_statement", "else_clause",
+    "ERROR", "preproc_else", "init_statement",
 })  # fmt: skip
 
 CHAIN_TESTS = frozenset({"preproc_if", "preproc_ifdef", "preproc_elif", "preproc_elifdef"})

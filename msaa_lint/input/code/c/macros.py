@@ -1,7 +1,7 @@
 """Macros: what a text defines, and the expansion of a use (C17, 6.10.3).
 
-The tokens of an expansion know their places, so that a finding lies where its code is written: in the use of the macro, or in its
-replacement.
+The tokens of an expansion know their places, so that a finding lies where its code is written: in
+the use of the macro, or in its replacement.
 """
 
 import re
@@ -18,7 +18,9 @@ MAX_ARGUMENTS = 2000
 """The maximum number of tokens in the arguments of a macro."""
 
 MAX_DEFINITIONS = 4
-"""The maximum number of different definitions of a macro that are kept; with more than one, only annotations are expanded."""
+"""The maximum number of different definitions of a macro that are kept; with more than one, only
+annotations are expanded.
+"""
 
 _TOKEN = re.compile(
     r"(?P<blank>(?:\s|\\\r?\n|//[^\n]*|/\*.*?(?:\*/|\Z))+)|(?P<word>[A-Za-z_]\w*)|(?P<number>\.?\d(?:[eEpP][-+]|'\w|[\w.])*)"
@@ -36,9 +38,13 @@ _ANNOTATION = re.compile(
 )
 """A replacement that says how to compile or to link, not what."""
 
-_LEAVES = re.compile(r"\b(?:return|abort|exit|_exit|throw|goto|break|continue|terminate|raise|__debugbreak|assert)\b")
+_LEAVES = re.compile(
+    r"\b(?:return|abort|exit|_exit|throw|goto|break|continue|terminate|raise|__debugbreak|assert)\b"
+)
 
-_SAYS = re.compile(r"[sS]ample|SAMPLE|[aA]ttachment|ATTACHMENT|[rR]esolve|RESOLVE|_OP_|Create[A-Z]|Info\b|Description")
+_SAYS = re.compile(
+    r"[sS]ample|SAMPLE|[aA]ttachment|ATTACHMENT|[rR]esolve|RESOLVE|_OP_|Create[A-Z]|Info\b|Description"
+)
 """What a macro says of a frame."""
 
 _KEPT = re.compile(
@@ -48,8 +54,9 @@ _KEPT = re.compile(
 
 
 class Macro(NamedTuple):
-    """A definition: the parameters, None for an object-like macro; the replacement as written; its place in its own file, if the use is
-    there too."""
+    """A definition: the parameters, None for an object-like macro; the replacement as written; its
+    place in its own file, if the use is there too.
+    """
 
     parameters: tuple[str, ...] | None
     replacement: str
@@ -61,7 +68,9 @@ class Macro(NamedTuple):
 
     def same(self, other: "Macro") -> bool:
         """Returns whether two definitions are the same but for blanks."""
-        return self.parameters == other.parameters and _spelled(self.replacement) == _spelled(other.replacement)
+        return self.parameters == other.parameters and _spelled(self.replacement) == _spelled(
+            other.replacement
+        )
 
     @property
     def is_annotation(self) -> bool:
@@ -76,7 +85,13 @@ class Macro(NamedTuple):
     @property
     def is_constant(self) -> bool:
         """Whether it is a number or a name, which is read like a constant."""
-        return self.parameters is None and sum(token[1] != "blank" and token[0] not in "()" for token in tokens(self.replacement)) == 1
+        return (
+            self.parameters is None
+            and sum(
+                token[1] != "blank" and token[0] not in "()" for token in tokens(self.replacement)
+            )
+            == 1
+        )
 
 
 Definitions = tuple[Macro, ...]
@@ -89,8 +104,9 @@ NO_MACROS: Macros = {}
 
 
 def parsed(rest: str, at: int, certain: bool, default: str) -> tuple[str, Macro] | None:
-    """Returns the name and the definition that follow `#define`; `at` is the offset of that text, `default` the name that an enclosing
-    #ifndef tests."""
+    """Returns the name and the definition that follow `#define`; `at` is the offset of that text,
+    `default` the name that an enclosing #ifndef tests.
+    """
     match = _DEFINE.match(rest)
     if match is None:
         return None
@@ -118,7 +134,10 @@ def merged(files: Iterable[Macros]) -> dict[str, Definitions]:
             for macro in definitions:
                 before = every.get(name, ())
                 if not before or not any(macro.same(item) for item in before):
-                    every[name] = (*before, macro._replace(at=None, certain=macro.certain and not before))[: MAX_DEFINITIONS + 1]
+                    every[name] = (
+                        *before,
+                        macro._replace(at=None, certain=macro.certain and not before),
+                    )[: MAX_DEFINITIONS + 1]
     return every
 
 
@@ -129,12 +148,18 @@ def expandable(name: str, definitions: Definitions) -> Macro | None:
     macro = definitions[0]
     if all(item.is_annotation for item in definitions):
         return macro._replace(replacement="")
-    if len(definitions) > 1 or "__VA_OPT__" in macro.replacement or (macro.default and macro.parameters is None):
+    if (
+        len(definitions) > 1
+        or "__VA_OPT__" in macro.replacement
+        or (macro.default and macro.parameters is None)
+    ):
         return None
     if macro.is_constant and name.startswith("VK_"):
         return None
     # Checks of a result wrap a call, and leave what follows as it is.
-    return None if _LEAVES.search(macro.replacement) and not _SAYS.search(macro.replacement) else macro
+    return (
+        None if _LEAVES.search(macro.replacement) and not _SAYS.search(macro.replacement) else macro
+    )
 
 
 @lru_cache(maxsize=4096)
@@ -143,7 +168,9 @@ def _spelled(replacement: str) -> str:
 
 
 def tokens(text: str) -> list[tuple[str, str, int]]:
-    """Returns the tokens of a text: the text of each, its kind (`blank`, `word`, `number`, or another), and its offset."""
+    """Returns the tokens of a text: the text of each, its kind (`blank`, `word`, `number`, or
+    another), and its offset.
+    """
     return [(match[0], match.lastgroup or "", match.start()) for match in _TOKEN.finditer(text)]
 
 
@@ -174,7 +201,9 @@ def _trimmed(items: list[Token]) -> list[Token]:
 
 @lru_cache(maxsize=4096)
 def _pieces(replacement: str) -> list[tuple[str, str, int]]:
-    """Returns the tokens of a replacement without blanks around it and beside `#` and `##`; other blanks are one space."""
+    """Returns the tokens of a replacement without blanks around it and beside `#` and `##`; other
+    blanks are one space.
+    """
     pieces: list[tuple[str, str, int]] = []
     for text, kind, offset in tokens(replacement):
         if kind != "blank":
@@ -189,8 +218,9 @@ def _pieces(replacement: str) -> list[tuple[str, str, int]]:
 
 
 class Expansion:
-    """The expansion of one use: `macros` returns the definition of a name, or None; `text` is that of the file, `end` the end of what was
-    taken from it."""
+    """The expansion of one use: `macros` returns the definition of a name, or None; `text` is that
+    of the file, `end` the end of what was taken from it.
+    """
 
     def __init__(self, macros: Mapping[str, Macro], text: str, start: int, stop: int) -> None:
         self.macros = macros
@@ -215,11 +245,17 @@ class Expansion:
         return result
 
     def _continues(self, result: list[Token]) -> bool:
-        """Returns whether the expansion ends in the name of a macro whose arguments follow the use."""
+        """Returns whether the expansion ends in the name of a macro whose arguments follow the
+        use.
+        """
         while result and result[-1].kind == "blank":
             result.pop()
         last = result[-1] if result else None
-        macro = self.macros.get(last.text) if last is not None and last.kind == "word" and last.text not in last.hidden else None
+        macro = (
+            self.macros.get(last.text)
+            if last is not None and last.kind == "word" and last.text not in last.hidden
+            else None
+        )
         return macro is not None and macro.parameters is not None and self._next_is_parenthesis()
 
     def _next_is_parenthesis(self) -> bool:
@@ -237,7 +273,13 @@ class Expansion:
             raise TooLong
         self.end = match.end()
         kind = match.lastgroup or ""
-        return Token(match[0] if kind != "blank" else " ", kind, Span(match.start(), match.end()), frozenset(), True)
+        return Token(
+            match[0] if kind != "blank" else " ",
+            kind,
+            Span(match.start(), match.end()),
+            frozenset(),
+            True,
+        )
 
     def _next(self) -> Token:
         self.count += 1
@@ -246,7 +288,9 @@ class Expansion:
         return self.pending.pop() if self.pending else self._from_text()
 
     def _replaced(self, token: Token) -> list[Token] | None:
-        """Returns the replacement of a token that is the use of a macro, its arguments taken from what follows; None for others."""
+        """Returns the replacement of a token that is the use of a macro, its arguments taken from
+        what follows; None for others.
+        """
         self.count += 1
         if self.count > MAX_TOKENS:
             raise TooLong
@@ -281,12 +325,20 @@ class Expansion:
                 items[-1].append(token)
         else:
             raise TooLong
-        if len(items) != max(len(parameters), 1) and not (rest and len(items) == len(parameters) - 1):
+        if len(items) != max(len(parameters), 1) and not (
+            rest and len(items) == len(parameters) - 1
+        ):
             raise TooLong
-        names = [*parameters[:-1], parameters[-1].removesuffix("...") or "__VA_ARGS__"] if rest else parameters
+        names = (
+            [*parameters[:-1], parameters[-1].removesuffix("...") or "__VA_ARGS__"]
+            if rest
+            else parameters
+        )
         return {name: _trimmed(items[n]) if n < len(items) else [] for n, name in enumerate(names)}
 
-    def _substituted(self, use: Token, macro: Macro, arguments: dict[str, list[Token]]) -> list[Token]:
+    def _substituted(
+        self, use: Token, macro: Macro, arguments: dict[str, list[Token]]
+    ) -> list[Token]:
         """Returns the replacement of a use with its arguments."""
         result: list[Token] = []
         body = _pieces(macro.replacement)
@@ -295,25 +347,41 @@ class Expansion:
         for n, (text, kind, offset) in enumerate(body):
             after = body[n + 1][0] if n + 1 < len(body) else ""
             before = body[n - 1][0] if n else ""
-            place = Span(macro.at + offset, macro.at + offset + len(text)) if macro.at is not None and len(body) > 1 else None
+            place = (
+                Span(macro.at + offset, macro.at + offset + len(text))
+                if macro.at is not None and len(body) > 1
+                else None
+            )
             items = [Token(text, kind, place)]
             if text == "##":
                 joins = True
                 continue
             if text == "#" and after in arguments:
-                spelled = "".join(item.text for item in arguments[after]).replace("\\", "\\\\").replace('"', '\\"')
+                spelled = (
+                    "".join(item.text for item in arguments[after])
+                    .replace("\\", "\\\\")
+                    .replace('"', '\\"')
+                )
                 items = [Token(f'"{spelled}"', "", place)]
             elif text in arguments:
                 if before == "#":
                     continue
-                items = arguments[text] if joins or after == "##" else self._expanded(arguments[text])
+                items = (
+                    arguments[text] if joins or after == "##" else self._expanded(arguments[text])
+                )
             if joins and result and result[-1].text == "," and text in rest:
                 # GNU: the comma before absent arguments is removed.
                 result = result[: None if items else -1] + items
             elif joins and result and items:
                 last, first = result[-1], items[0]
                 place = first.place if first.written else last.place
-                result[-1] = Token(last.text + first.text, last.kind, place, last.hidden & first.hidden, last.written and first.written)
+                result[-1] = Token(
+                    last.text + first.text,
+                    last.kind,
+                    place,
+                    last.hidden & first.hidden,
+                    last.written and first.written,
+                )
                 result += items[1:]
             else:
                 result += items

@@ -2,8 +2,13 @@
 
 import re
 
-_DECLARATION = re.compile(r"^[ \t]*(?:export[ \t]+)?(?:module\b[ \t]*[\w.:]*|import\b[ \t]*[\w.:<>/\"]+)[ \t]*;", re.MULTILINE)
-"""`module;`, `export module a.b:c;`, `import std;`, `export import :part;` ([module.unit], [module.import])."""
+_DECLARATION = re.compile(
+    r"^[ \t]*(?:export[ \t]+)?(?:module\b[ \t]*[\w.:]*|import\b[ \t]*[\w.:<>/\"]+)[ \t]*;",
+    re.MULTILINE,
+)
+"""`module;`, `export module a.b:c;`, `import std;`, `export import :part;` ([module.unit],
+[module.import]).
+"""
 
 _EXPORT = re.compile(r"^[ \t]*export(?=\s+(?!\")\w|\s*\{)", re.MULTILINE)
 

@@ -1,4 +1,5 @@
-"""Preprocesses C and C++ as far as that is certain without a build: leaves out dead code, and replaces macros.
+"""Preprocesses C and C++ as far as that is certain without a build: leaves out dead code, and
+replaces macros.
 
 Conditions that the text does not decide stay in it, for the grammar and for `directives`.
 """
@@ -16,13 +17,26 @@ from msaa_lint.input.code.places import Piece, Places
 from msaa_lint.input.code.sample_counts.arithmetic import condition_holds
 
 from .groups import Arm, Group, Line, balance, cuts_statement
-from .macros import NO_MACROS, Definitions, Expansion, Macro, Macros, Token, TooLong, expandable, extended, parsed
+from .macros import (
+    NO_MACROS,
+    Definitions,
+    Expansion,
+    Macro,
+    Macros,
+    Token,
+    TooLong,
+    expandable,
+    extended,
+    parsed,
+)
 
 MAX_NESTED = 8
 """The maximum nesting of macros in a condition."""
 
 BASE_LENGTH = 100_000
-"""The number of characters that the expansions of macros may add to a text, besides its own length."""
+"""The number of characters that the expansions of macros may add to a text, besides its own
+length.
+"""
 
 _SCAN = re.compile(
     r"#[ \t]*(?P<word>[a-z_]\w*)(?P<rest>(?:[^\n\\/]|\\\r?\n|\\|/(?![*/])|/\*[^*]*(?:\*(?!/)[^*]*)*\*/)*)(?://[^\n]*)?"
@@ -37,15 +51,25 @@ _TESTED = re.compile(r"\bdefined\s*(?:\(\s*(\w+)\s*\)|(\w+))|\b([A-Za-z_]\w*)\s*
 
 
 class Preprocessed:
-    """A text while its directives are read, and what remains of it. `macros` are those that are defined elsewhere.
+    """A text while its directives are read, and what remains of it. `macros` are those that are
+    defined elsewhere.
 
     `structural` also chooses among parts that the grammar cannot read together.
     """
 
-    def __init__(self, text: str, is_cpp: bool, macros: Macros, structural: bool = True, fragments: bool = False) -> None:
+    def __init__(
+        self,
+        text: str,
+        is_cpp: bool,
+        macros: Macros,
+        structural: bool = True,
+        fragments: bool = False,
+    ) -> None:
         self.text = text
         self.macros: dict[str, Definitions] = dict(macros)
-        """The macros that are defined where the reading is. Without definitions, a name is certainly undefined."""
+        """The macros that are defined where the reading is. Without definitions, a name is
+        certainly undefined.
+        """
         self.macros["__cplusplus"] = (Macro(None, "202002L"),) if is_cpp else ()
         self.structural = structural
         self.opaque: list[tuple[int, int]] = []
@@ -54,7 +78,11 @@ class Preprocessed:
         """Ranges of the text that are blanked, or replaced by a text of the same length."""
         self.expansions: list[tuple[Span, list[Token]]] = []
         self.unread: list[Unread] = []
-        self._known = {name: macro for name, found in self.macros.items() if (macro := expandable(name, found)) is not None}
+        self._known = {
+            name: macro
+            for name, found in self.macros.items()
+            if (macro := expandable(name, found)) is not None
+        }
         """The macros that are replaced."""
         self._active = {name for name, macro in self._known.items() if not macro.is_number}
         """Those of them that are replaced outside of others."""
@@ -104,13 +132,22 @@ class Preprocessed:
         group = Group(self._state(), self._depth)
         self._groups.append(group)
         name = line.rest.strip() if line.word == "ifndef" else ""
-        guards = after is not None and after.word == "define" and name and line.condition == after.condition
-        group.add(line, True if guards else self._value(line) if group.outer is not False else False)
+        guards = (
+            after is not None
+            and after.word == "define"
+            and name
+            and line.condition == after.condition
+        )
+        group.add(
+            line, True if guards else self._value(line) if group.outer is not False else False
+        )
 
     def _next_arm(self, line: Line) -> None:
         group = self._groups[-1]
         self._end_arm(group, line)
-        known = line.word == "else" or (self._value(line) if group.outer is not False and not group.taken else False)
+        known = line.word == "else" or (
+            self._value(line) if group.outer is not False and not group.taken else False
+        )
         group.add(line, False if group.taken else known)
 
     def _end_arm(self, group: Group, line: Line) -> None:
@@ -136,7 +173,10 @@ class Preprocessed:
             undecided = False
         if not undecided or (self.structural and group.depth == 0):
             # Outside of functions, what depends on a condition is known wherever the condition is.
-            self.edits += [(item.start, item.end, None) for item in (*(other.line for other in group.arms), line)]
+            self.edits += [
+                (item.start, item.end, None)
+                for item in (*(other.line for other in group.arms), line)
+            ]
         else:
             self._shorten(group, remaining)
         if arm is not None:
@@ -146,11 +186,17 @@ class Preprocessed:
 
     def _cut(self, arms: list[tuple[Arm, Line]]) -> bool:
         """Returns whether an arm that may exist begins or ends within a statement."""
-        return any(cuts_statement(self.text[arm.line.end : after.start]) for arm, after in arms if arm.exists is not False)
+        return any(
+            cuts_statement(self.text[arm.line.end : after.start])
+            for arm, after in arms
+            if arm.exists is not False
+        )
 
     def _shorten(self, group: Group, remaining: list[Arm]) -> None:
         """Leaves out the directives of arms that do not exist."""
-        self.edits += [(arm.line.start, arm.line.end, None) for arm in group.arms if arm.exists is False]
+        self.edits += [
+            (arm.line.start, arm.line.end, None) for arm in group.arms if arm.exists is False
+        ]
         first, last = remaining[0].line, remaining[-1]
         if first.word.startswith("el"):
             at = self.text.index(first.word, first.start)
@@ -160,7 +206,9 @@ class Preprocessed:
             self.edits.append((start, end, "#else" + blank(self.text[start + 5 : end])))
 
     def _chosen_arm(self, arms: list[Arm]) -> Arm | None:
-        """Returns the arm that is read where the grammar can read only one: that of the first condition, wherever it is tested."""
+        """Returns the arm that is read where the grammar can read only one: that of the first
+        condition, wherever it is tested.
+        """
         for arm in arms:
             if arm.exists is True:
                 return arm
@@ -204,7 +252,13 @@ class Preprocessed:
 
     def _is_defined(self, name: str) -> bool | None:
         found = self.macros.get(name)
-        return None if found is None else any(macro.certain for macro in found) if not found or found[0].certain else None
+        return (
+            None
+            if found is None
+            else any(macro.certain for macro in found)
+            if not found or found[0].certain
+            else None
+        )
 
     def _numbers(self, text: str, depth: int) -> str:
         """Returns a condition with numbers for names, and `?` for what is unknown."""
@@ -220,7 +274,13 @@ class Preprocessed:
                 return str(int(name == "true"))
             if found == ():
                 return "0" if match[4] is None else "?"
-            if found is None or match[4] is not None or len(found) > 1 or not found[0].certain or found[0].parameters is not None:
+            if (
+                found is None
+                or match[4] is not None
+                or len(found) > 1
+                or not found[0].certain
+                or found[0].parameters is not None
+            ):
                 return "?"
             return f"({self._numbers(found[0].replacement.strip(), depth + 1)})"
 
@@ -241,7 +301,11 @@ class Preprocessed:
             return
         position = start
         for match in _WORD.finditer(self.text, start, end):
-            if match[0] in self._active and match.start() >= position and not self._is_opaque(match.start()):
+            if (
+                match[0] in self._active
+                and match.start() >= position
+                and not self._is_opaque(match.start())
+            ):
                 position = self._expand(match, end)
 
     def _expand(self, match: re.Match[str], stop: int) -> int:
@@ -249,7 +313,10 @@ class Preprocessed:
         expansion = Expansion(self._known, self.text, match.start(), stop)
         macro = self._known[match[0]]
         try:
-            if self._budget < 0 or (macro.parameters is not None and self.text[match.end() : match.end() + 100].lstrip()[:1] != "("):
+            if self._budget < 0 or (
+                macro.parameters is not None
+                and self.text[match.end() : match.end() + 100].lstrip()[:1] != "("
+            ):
                 return match.end()
             tokens = expansion.expand()
         except TooLong:
@@ -259,7 +326,8 @@ class Preprocessed:
             self._budget -= sum(len(token.text) for token in tokens)
         if self._budget < 0 and not self.unread:
             message = (
-                f"the macros of the file expand to more than its own length and {BASE_LENGTH} characters; "
+                f"the macros of the file expand to more than its own length and {BASE_LENGTH} "
+                f"characters; "
                 f"from `{shortened(match[0])}` on, they are not expanded"
             )
             self.unread.append(Unread(message, Span(match.start(), match.end())))
@@ -290,7 +358,10 @@ class Preprocessed:
         last = 0
         for start, end, new in sorted(self.edits, key=lambda edit: (edit[0], -edit[1])):
             if end > last:
-                parts += (self.text[last:start], new if new is not None else blank(self.text[max(start, last) : end]))
+                parts += (
+                    self.text[last:start],
+                    new if new is not None else blank(self.text[max(start, last) : end]),
+                )
                 last = end
         return "".join((*parts, self.text[last:]))
 
@@ -321,10 +392,17 @@ class Preprocessed:
 
 
 def _placed(tokens: list[Token], use: Span, at: int, before: str) -> list[tuple[str, Piece | None]]:
-    """Returns the texts of tokens, each with the piece that starts there, at an offset of the preprocessed text."""
+    """Returns the texts of tokens, each with the piece that starts there, at an offset of the
+    preprocessed text.
+    """
     parts: list[tuple[str, Piece | None]] = []
     for token in tokens:
-        if before and token.text and (before.isalnum() or before == "_") and (token.text[0].isalnum() or token.text[0] == "_"):
+        if (
+            before
+            and token.text
+            and (before.isalnum() or before == "_")
+            and (token.text[0].isalnum() or token.text[0] == "_")
+        ):
             parts.append((" ", None))
             at += 1
         place = token.place
@@ -339,24 +417,33 @@ def _placed(tokens: list[Token], use: Span, at: int, before: str) -> list[tuple[
 
 
 def preprocessed(code: Code, macros: Macros = NO_MACROS) -> tuple[Code, Places, tuple[Unread, ...]]:
-    """Returns code without what is dead and with its macros replaced, its places in the file, and what exceeds a limit.
+    """Returns code without what is dead and with its macros replaced, its places in the file, and
+    what exceeds a limit.
 
     `macros` are defined elsewhere; definitions of the code take precedence.
     """
     if "#" not in code.text and not macros:
         return code, Places(), ()
-    reading = Preprocessed(code.text, code.language.endswith("cpp"), macros, fragments=code.fragments)
+    reading = Preprocessed(
+        code.text, code.language.endswith("cpp"), macros, fragments=code.fragments
+    )
     text, places = reading.expanded()
     return code._replace(text=text), places, tuple(reading.unread)
 
 
 def definitions(code: Code) -> dict[str, Definitions]:
     """Returns the macros that code leaves defined."""
-    return Preprocessed(code.text, code.language.endswith("cpp"), {}, structural=False).macros if "define" in code.text else {}
+    return (
+        Preprocessed(code.text, code.language.endswith("cpp"), {}, structural=False).macros
+        if "define" in code.text
+        else {}
+    )
 
 
 def without_dead_code(code: Code) -> Code:
     """Returns code with what is certainly dead blanked; offsets stay."""
     if code.language not in ("c", "cpp", "objc", "objcpp") or "#" not in code.text:
         return code
-    return code._replace(text=Preprocessed(code.text, code.language.endswith("cpp"), {}, structural=False).blanked())
+    return code._replace(
+        text=Preprocessed(code.text, code.language.endswith("cpp"), {}, structural=False).blanked()
+    )

@@ -3,7 +3,20 @@
 from __future__ import annotations
 
 from msaa_lint.core.text.span import Span
-from msaa_lint.input.code.core.terms import BLOCK, BREAK, DECLARE, DO, IF, LEAVE, LOOP, RETURN, SOME, SWITCH, UNPARSED, Term
+from msaa_lint.input.code.core.terms import (
+    BLOCK,
+    BREAK,
+    DECLARE,
+    DO,
+    IF,
+    LEAVE,
+    LOOP,
+    RETURN,
+    SOME,
+    SWITCH,
+    UNPARSED,
+    Term,
+)
 from msaa_lint.input.code.parsing import SyntaxNode, fields, span, without_comments
 
 from . import shapes
@@ -19,7 +32,11 @@ class Statements(Declarations):
         if depth < MAX_DEPTH:
             for child in node.named_children:
                 fresh = self.statement(child, depth + 1)
-                loop = shapes.loop_variable(terms[-1][1]) if child.type == "compound_statement" and terms and terms[-1][0] == DO else None
+                loop = (
+                    shapes.loop_variable(terms[-1][1])
+                    if child.type == "compound_statement" and terms and terms[-1][0] == DO
+                    else None
+                )
                 if loop is not None:
                     fresh = [(LOOP, (loop[0],), loop[1], tuple(fresh), terms.pop()[-1])]
                 terms += fresh
@@ -47,8 +64,14 @@ class Statements(Declarations):
             return self.if_chain(node, depth)
         if kind in ("for_statement", "while_statement", "do_statement"):
             first, test, update, body = fields(node, "initializer", "condition", "update", "body")
-            terms = self.declared(first, depth) if first is not None and first.type == "declaration" else []
-            before = [(DO, self.expression(first, depth), at)] if first is not None and not terms else []
+            terms = (
+                self.declared(first, depth)
+                if first is not None and first.type == "declaration"
+                else []
+            )
+            before = (
+                [(DO, self.expression(first, depth), at)] if first is not None and not terms else []
+            )
             nested = self.nested_statements(body, depth)
             if update is not None and (iterated := shapes.iterated(terms, nested)) is not None:
                 return [(LOOP, iterated[0], iterated[1], tuple(nested), at)]
@@ -56,15 +79,24 @@ class Statements(Declarations):
                 nested.append((DO, self.expression(update, depth), at))
             if test is not None:
                 nested.insert(0, (DO, self.expression(test, depth), at))
-            return nested if kind == "do_statement" else [*before, (LOOP, tuple(terms), None, tuple(nested), at)]
+            return (
+                nested
+                if kind == "do_statement"
+                else [*before, (LOOP, tuple(terms), None, tuple(nested), at)]
+            )
         if kind == "for_range_loop":
             over, body, type_node, declarator = fields(node, "right", "body", "type", "declarator")
             bound = structured_binding(declarator)
             name, _, indirect = self.declarator(declarator) if bound is None else ("", None, True)
             if bound is not None:
-                whole, *parts = self.bindings(bound, (DECLARE, "auto", "", None, True, False, span(bound)))
+                whole, *parts = self.bindings(
+                    bound, (DECLARE, "auto", "", None, True, False, span(bound))
+                )
             else:
-                whole, parts = (DECLARE, self.type_text(type_node), name, None, indirect, False, at), []
+                whole, parts = (
+                    (DECLARE, self.type_text(type_node), name, None, indirect, False, at),
+                    [],
+                )
             elements = self.expression(over, depth) if over is not None else None
             declared = (whole,) if whole[2] else ()
             return [(LOOP, declared, elements, (*parts, *self.nested_statements(body, depth)), at)]
@@ -86,7 +118,9 @@ class Statements(Declarations):
         return self.statement(node, depth + 1) if node is not None and depth < MAX_DEPTH else []
 
     def if_chain(self, node: SyntaxNode, depth: int) -> list[Term]:
-        """Returns an `if` with its `else if`s, which nest in the syntax tree but not in the text."""
+        """Returns an `if` with its `else if`s, which nest in the syntax tree but not in the
+        text.
+        """
         links: list[tuple[Term, tuple[Term, ...], list[Term], Span]] = []
         otherwise: list[Term] = []
         current: SyntaxNode | None = node
@@ -102,7 +136,11 @@ class Statements(Declarations):
             links.append((condition, tuple(self.nested_statements(then, depth)), first, at))
             current = None
             if other is not None:
-                next_node = other.named_children[-1] if other.type == "else_clause" and other.named_child_count else other
+                next_node = (
+                    other.named_children[-1]
+                    if other.type == "else_clause" and other.named_child_count
+                    else other
+                )
                 if next_node.type == "if_statement" and len(links) < 200:
                     current = next_node
                 else:
@@ -137,10 +175,22 @@ class Statements(Declarations):
                 continue
             value_node = child.child_by_field_name("value")
             label = self.expression(value_node, depth) if value_node is not None else None
-            inner = [term for item in child.named_children if item != value_node for term in self.statement(item, depth + 1)]
+            inner = [
+                term
+                for item in child.named_children
+                if item != value_node
+                for term in self.statement(item, depth + 1)
+            ]
             if cases and not cases[-1][1]:
                 cases[-1][0].append(label)
                 cases[-1][1].extend(inner)
             else:
                 cases.append(([label], inner))
-        return [(SWITCH, self.expression(test, depth), tuple((tuple(labels), tuple(inner)) for labels, inner in cases), span(node))]
+        return [
+            (
+                SWITCH,
+                self.expression(test, depth),
+                tuple((tuple(labels), tuple(inner)) for labels, inner in cases),
+                span(node),
+            )
+        ]

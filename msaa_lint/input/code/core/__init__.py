@@ -1,1 +1,3 @@
-"""The abstract interpreter of source code: values with conditions, scopes, calls. It knows neither a language nor an API."""
+"""The abstract interpreter of source code: values with conditions, scopes, calls. It knows neither
+a language nor an API.
+"""

@@ -26,7 +26,9 @@ class Algorithms(Calls):
     """Executes algorithms."""
 
     def algorithm(self, name: str, arguments: Sequence[Term], place: Span, scope: Scope) -> bool:
-        """Executes an algorithm on a list. Returns False if it is not one, or if it has other arguments."""
+        """Executes an algorithm on a list. Returns False if it is not one, or if it has other
+        arguments.
+        """
         rest = list(arguments)
         if name not in ALGORITHMS or not rest or _called(rest[0])[0] in _END:
             return False
@@ -39,17 +41,27 @@ class Algorithms(Calls):
             source = list_term
         target = rest.pop(0) if name != "for_each" and rest else None
         function = rest.pop(0) if name != "copy" and rest else None
-        if rest or (target is None) != (name == "for_each") or (function is None) != (name == "copy"):
+        if (
+            rest
+            or (target is None) != (name == "for_each")
+            or (function is None) != (name == "copy")
+        ):
             return False
         self.apply(source, target, function, place, scope)
         return True
 
-    def apply(self, source: Term, target: Term | None, function: Term | None, place: Span, scope: Scope) -> None:
-        """Calls a function for each element of a list, and writes the results, or the elements, to the target."""
+    def apply(
+        self, source: Term, target: Term | None, function: Term | None, place: Span, scope: Scope
+    ) -> None:
+        """Calls a function for each element of a list, and writes the results, or the elements, to
+        the target.
+        """
         content = self.target(source, scope)
         few = few_elements(content)
         known = few is not None
-        items = few if few is not None else [Cell(content.kind if isinstance(content, Array) else "")]
+        items = (
+            few if few is not None else [Cell(content.kind if isinstance(content, Array) else "")]
+        )
         called = self.sole(function, scope) if function is not None else None
         outer, scope.scopes = scope.scopes, (*scope.scopes, {})
         iterations = scope.iterations
@@ -58,7 +70,11 @@ class Algorithms(Calls):
             scope.iterations = (*iterations, turn)
             scope.scopes[-1][_ELEMENT] = item
             element = (NAME, _ELEMENT, place)
-            result = self.applied(called, (CALL, function, (element,), place), scope) if function is not None else item.read(scope.guards)
+            result = (
+                self.applied(called, (CALL, function, (element,), place), scope)
+                if function is not None
+                else item.read(scope.guards)
+            )
             if target is not None:
                 self.write_result(target, turn if known else None, result, place, scope)
         scope.unknown_loops -= not known
@@ -72,8 +88,12 @@ class Algorithms(Calls):
             return self.without_aliases(self.call_function(called.function, term, scope), scope)
         return UNKNOWN_VALUE
 
-    def write_result(self, target: Term, turn: int | None, value: Value, place: Span, scope: Scope) -> None:
-        """Appends a value to the list that an inserter names, or writes it to an element of the list that starts at an iterator."""
+    def write_result(
+        self, target: Term, turn: int | None, value: Value, place: Span, scope: Scope
+    ) -> None:
+        """Appends a value to the list that an inserter names, or writes it to an element of the
+        list that starts at an iterator.
+        """
         name, list_term = _called(target)
         if list_term is None:
             return

@@ -1,4 +1,6 @@
-"""Other names of the types and namespaces of a program: `using Attachments = std::vector<...>`, `namespace api = engine::api`."""
+"""Other names of the types and namespaces of a program: `using Attachments = std::vector<...>`,
+`namespace api = engine::api`.
+"""
 
 from __future__ import annotations
 
@@ -11,7 +13,9 @@ MAX_LINKS = 4
 
 
 def resolved(name: str, aliases: Mapping[str, str]) -> str:
-    """Returns what the name of a type or namespace stands for; other names as they are. Elements of lists and arrays are not looked up."""
+    """Returns what the name of a type or namespace stands for; other names as they are. Elements of
+    lists and arrays are not looked up.
+    """
     for _ in range(MAX_LINKS):
         bare = name.rstrip("*&")
         target = aliases.get(bare.rpartition("::")[2]) if "<" not in bare else None
@@ -22,16 +26,24 @@ def resolved(name: str, aliases: Mapping[str, str]) -> str:
 
 
 def without_aliases(unit: Unit) -> Unit:
-    """Returns the definitions of a program with the types of members, globals, parameters, and results in place of their aliases."""
+    """Returns the definitions of a program with the types of members, globals, parameters, and
+    results in place of their aliases.
+    """
     if not unit.aliases:
         return unit
 
     def declared(terms: Sequence[Term]) -> list[Term]:
-        return [(DECLARE, resolved(term[1], unit.aliases), *term[2:]) if term[0] == DECLARE else term for term in terms]
+        return [
+            (DECLARE, resolved(term[1], unit.aliases), *term[2:]) if term[0] == DECLARE else term
+            for term in terms
+        ]
 
     functions = [
         function._replace(
-            parameters=tuple(item._replace(type=resolved(item.type, unit.aliases)) for item in function.parameters),
+            parameters=tuple(
+                item._replace(type=resolved(item.type, unit.aliases))
+                for item in function.parameters
+            ),
             return_type=resolved(function.return_type, unit.aliases),
         )
         for function in unit.functions

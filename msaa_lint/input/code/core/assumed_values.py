@@ -27,9 +27,16 @@ _TESTED = re.compile(r"(!?)\s*(\w+)\s*(?:(==|!=|>=|<=|>|<)\s*(\d{1,9})[uUlL]*)?"
 
 
 class AssumedValues:
-    """The assumptions about a program. They are in force in `program` as soon as this object exists."""
+    """The assumptions about a program. They are in force in `program` as soon as this object
+    exists.
+    """
 
-    def __init__(self, program: Interpreter, assumptions: Assumptions, original: Callable[[Span], Span] = lambda at: at) -> None:
+    def __init__(
+        self,
+        program: Interpreter,
+        assumptions: Assumptions,
+        original: Callable[[Span], Span] = lambda at: at,
+    ) -> None:
         self.program = program
         self.original = original
         """Returns the place in the files of a place in the program."""
@@ -48,14 +55,22 @@ class AssumedValues:
         for key, term in self._declarations() if lines else ():
             if (entry := self.on_line(term[-1])) is not None:
                 self.members.setdefault(key.rpartition("::")[2], {})[key] = entry
-        self._value, self._declare, self._condition = program.value, program.declare, program.preprocessor_condition
+        self._value, self._declare, self._condition = (
+            program.value,
+            program.declare,
+            program.preprocessor_condition,
+        )
         # Most programs have no assumptions, and nothing is to be looked up for each of their terms.
         program.value = self.value  # type: ignore[method-assign]
         program.declare = self.declare  # type: ignore[method-assign]
         program.preprocessor_condition = self.preprocessor_condition  # type: ignore[method-assign]
 
     def _declarations(self) -> list[tuple[str, Term]]:
-        members = [(f"{class_name}::{name}", term) for class_name, terms in self.program.members.items() for name, term in terms.items()]
+        members = [
+            (f"{class_name}::{name}", term)
+            for class_name, terms in self.program.members.items()
+            for name, term in terms.items()
+        ]
         return [*members, *((f"::{name}", term) for name, term in self.program.globals.items())]
 
     def on_line(self, place: Span) -> Assumed | None:
@@ -65,7 +80,9 @@ class AssumedValues:
         return self.lines[at] if at >= 0 and start < self.lines[at].about.end else None
 
     def value(self, term: Term, scope: Scope, kind: str = "") -> Value:
-        """Returns the possible values of an expression: the one that is stated for it, if there is one."""
+        """Returns the possible values of an expression: the one that is stated for it, if there is
+        one.
+        """
         tag = term[0]
         if tag not in (NAME, FIELD, INDEX, CALL, ASSIGN):
             return self._value(term, scope, kind)
@@ -78,17 +95,23 @@ class AssumedValues:
             return value
         if tag == ASSIGN and (_is_unknown(value) or _COUNT.search(_name_of(term[2]))):
             stated = self.result(entry, term[-1])
-            return self._value((ASSIGN, "=", term[2], (LITERAL, stated[0].value, term[-1]), term[-1]), scope)
+            return self._value(
+                (ASSIGN, "=", term[2], (LITERAL, stated[0].value, term[-1]), term[-1]), scope
+            )
         return self.result(entry, term[-1]) if tag != ASSIGN and _is_unknown(value) else value
 
     def result(self, entry: Assumed, place: Span) -> Value:
         """Returns the value of an assumption, which is then of use."""
         self.used.add(entry)
-        known: Any = self.program.library.constant(entry.value) if isinstance(entry.value, str) else None
+        known: Any = (
+            self.program.library.constant(entry.value) if isinstance(entry.value, str) else None
+        )
         return (Alternative(entry.value if known is None else known, place),)
 
     def declare(self, term: Term, scope: Scope) -> None:
-        """Executes a declaration. A variable on the line of an assumption has its value, if it is a count or has no other."""
+        """Executes a declaration. A variable on the line of an assumption has its value, if it is a
+        count or has no other.
+        """
         self._declare(term, scope)
         entry = self.on_line(term[-1]) if self.lines else None
         cell = scope.scopes[-1].get(term[2]) if entry is not None else None
@@ -101,7 +124,13 @@ class AssumedValues:
         """Returns the value of a preprocessor condition about a macro that has a stated value."""
         bare = text[1:].strip()
         defined, tested = _DEFINED.fullmatch(bare), _TESTED.fullmatch(bare)
-        name = (defined[2] or defined[3]) if defined is not None else tested[2] if tested is not None else ""
+        name = (
+            (defined[2] or defined[3])
+            if defined is not None
+            else tested[2]
+            if tested is not None
+            else ""
+        )
         entry = next((entry for entry in self.names.get(name, ()) if entry.name == name), None)
         if entry is None:
             return self._condition(text)
@@ -143,7 +172,11 @@ class AssumedValues:
             cell = self.program.cell_of(term, scope)
             return scope.class_name if cell is not None and cell.kind == MEMBER else ""
         cell = self.program.cell_of(term[1], scope) if term[0] == FIELD else None
-        return self.program.type_of(cell).removeprefix("const ").strip("*& ") if cell is not None else ""
+        return (
+            self.program.type_of(cell).removeprefix("const ").strip("*& ")
+            if cell is not None
+            else ""
+        )
 
 
 Assume = Callable[[Interpreter], object]
@@ -154,9 +187,17 @@ def nothing(_program: Interpreter) -> None:
     """Assumes nothing."""
 
 
-def assuming(assumptions: Assumptions | None, original: Callable[[Span], Span] = lambda at: at) -> Assume:
-    """Returns what states assumptions; `original` returns the place in the files of a place in the program."""
-    return nothing if assumptions is None or not assumptions.entries else lambda program: AssumedValues(program, assumptions, original)
+def assuming(
+    assumptions: Assumptions | None, original: Callable[[Span], Span] = lambda at: at
+) -> Assume:
+    """Returns what states assumptions; `original` returns the place in the files of a place in the
+    program.
+    """
+    return (
+        nothing
+        if assumptions is None or not assumptions.entries
+        else lambda program: AssumedValues(program, assumptions, original)
+    )
 
 
 def _start(entry: Assumed) -> int:

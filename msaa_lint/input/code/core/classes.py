@@ -8,7 +8,9 @@ from collections.abc import Iterator
 from .aliases import resolved
 from .terms import DECLARE, Function, Term, Unit
 
-_POINTER = re.compile(r"(?:\w+::)*\w*(?:_ptr|Ptr|Pointer|Ref|RefPtr|Handle|_wrapper|optional|Optional)<([\w:]+)>$")
+_POINTER = re.compile(
+    r"(?:\w+::)*\w*(?:_ptr|Ptr|Pointer|Ref|RefPtr|Handle|_wrapper|optional|Optional)<([\w:]+)>$"
+)
 """Types that stand for an object of another type."""
 
 MAX_BASES = 16
@@ -16,7 +18,9 @@ MAX_BASES = 16
 
 
 def pointed(type_text: str) -> str:
-    """Returns the type that a pointer or reference type refers to; any other type is returned as is."""
+    """Returns the type that a pointer or reference type refers to; any other type is returned as
+    is.
+    """
     type_text = type_text.rstrip("*&")
     match = _POINTER.match(type_text)
     return match[1] if match is not None else type_text
@@ -26,17 +30,27 @@ class Classes:
     """The classes of a program."""
 
     def __init__(self, unit: Unit) -> None:
-        self.members = {name: {term[2]: term for term in terms if term[0] == DECLARE} for name, terms in unit.members.items()}
+        self.members = {
+            name: {term[2]: term for term in terms if term[0] == DECLARE}
+            for name, terms in unit.members.items()
+        }
         self._aliases = unit.aliases
         self._of_type: dict[tuple[str, str], str | None] = {}
         self._owners: dict[tuple[str, str], str] = {}
         self._names: dict[str, list[str]] = {}
         """The classes by the last part of their names."""
         for name in dict.fromkeys(
-            (*self.members, *unit.bases, *(function.class_name for function in unit.functions if function.class_name))
+            (
+                *self.members,
+                *unit.bases,
+                *(function.class_name for function in unit.functions if function.class_name),
+            )
         ):
             self._names.setdefault(name.rpartition("::")[2], []).append(name)
-        self._bases = {name: tuple(self._base(name, base) for base in bases) for name, bases in unit.bases.items()}
+        self._bases = {
+            name: tuple(self._base(name, base) for base in bases)
+            for name, bases in unit.bases.items()
+        }
         self._derived: dict[str, list[str]] = {}
         for name, bases in self._bases.items():
             for base in bases:
@@ -111,7 +125,10 @@ class Classes:
         """Returns the class that declares a member of a class; the class itself if none does."""
         key = (class_name, member)
         if key not in self._owners:
-            self._owners[key] = next((name for name in self.chain(class_name) if member in self.members.get(name, ())), class_name)
+            self._owners[key] = next(
+                (name for name in self.chain(class_name) if member in self.members.get(name, ())),
+                class_name,
+            )
         return self._owners[key]
 
     def member(self, class_name: str, member: str) -> Term | None:

@@ -18,16 +18,24 @@ _DEFINED = re.compile(r"(!?)\s*defined\s*(?:\(\s*(\w+)\s*\)|(\w+))")
 
 
 def condition_key(text: str, way: bool = True) -> tuple[str, bool]:
-    """Returns the key of a preprocessor condition, the same for #ifdef and #if defined, and its value."""
+    """Returns the key of a preprocessor condition, the same for #ifdef and #if defined, and its
+    value.
+    """
     match = _DEFINED.fullmatch(text.strip())
-    return (f"#{match[2] or match[3]}", way is not bool(match[1])) if match is not None else (f"#{text.strip()}", way)
+    return (
+        (f"#{match[2] or match[3]}", way is not bool(match[1]))
+        if match is not None
+        else (f"#{text.strip()}", way)
+    )
 
 
 NO_NAMES: dict[str, str] = {}
 
 
 def canonical_text(term: Term, names: dict[str, str] = NO_NAMES) -> str:
-    """Returns the text of an expression, the same for equal expressions. `names` replaces names of variables."""
+    """Returns the text of an expression, the same for equal expressions. `names` replaces names of
+    variables.
+    """
     tag = term[0]
     if tag == NAME:
         return names.get(term[1]) or str(term[1]).removeprefix("this->")
@@ -38,7 +46,7 @@ def canonical_text(term: Term, names: dict[str, str] = NO_NAMES) -> str:
     if tag == INDEX:
         return f"{canonical_text(term[1], names)}[{canonical_text(term[2], names)}]"
     if tag == CALL:
-        return f"{canonical_text(term[1], names)}({','.join(canonical_text(item, names) for item in term[2])})"
+        return f"{canonical_text(term[1], names)}({','.join(canonical_text(item, names) for item in term[2])})"  # noqa: E501
     if tag == BINARY:
         return f"({canonical_text(term[2], names)}{term[1]}{canonical_text(term[3], names)})"
     if tag in (ADDRESS, TARGET, LABEL):
@@ -60,7 +68,9 @@ class ConditionEvaluator(Elements):
         return frozenset({condition_key(bare)})
 
     def condition(self, term: Term, scope: Scope) -> bool | Guards:
-        """Returns the value of a condition if it is known, otherwise the guards under which it holds."""
+        """Returns the value of a condition if it is known, otherwise the guards under which it
+        holds.
+        """
         kind = term[0]
         if kind == BINARY and term[1] == "&&":
             left, right = self.condition(term[2], scope), self.condition(term[3], scope)
@@ -83,7 +93,10 @@ class ConditionEvaluator(Elements):
         constant = sole_value(value)
         if isinstance(constant, (bool, int, float)):
             return bool(constant)
-        if len(value) == 2 and {a.value for a in value if isinstance(a.value, bool)} == {True, False}:
+        if len(value) == 2 and {a.value for a in value if isinstance(a.value, bool)} == {
+            True,
+            False,
+        }:
             way = next(a for a in value if a.value is True).guards - scope.guards
             if way:
                 return way
@@ -92,13 +105,19 @@ class ConditionEvaluator(Elements):
         if isinstance(constant, (ApiObject, Instance, Flags)):
             return True
         present = [a for a in value if isinstance(a.value, (ApiObject, Instance))]
-        if present and all(a.value is None for a in value if a not in present) and len({a.guards for a in present}) == 1:
+        if (
+            present
+            and all(a.value is None for a in value if a not in present)
+            and len({a.guards for a in present}) == 1
+        ):
             # An object, or null where the conditions of the object do not hold.
             return (present[0].guards - scope.guards) or True
         return frozenset({(symbol_key(constant) or self.canonical_condition(term, scope), True)})
 
     def canonical_condition(self, term: Term, scope: Scope) -> str:
-        """Returns the text of a condition, the same for equal conditions; variables with known numbers are replaced by them."""
+        """Returns the text of a condition, the same for equal conditions; variables with known
+        numbers are replaced by them.
+        """
         names: dict[str, str] = {}
         stack = [term]
         while stack:
@@ -111,15 +130,24 @@ class ConditionEvaluator(Elements):
                 stack += [
                     part
                     for part in subterm[1:-1]
-                    if isinstance(part, tuple) and part and isinstance(part[0], int) and not isinstance(part, Span)
+                    if isinstance(part, tuple)
+                    and part
+                    and isinstance(part[0], int)
+                    and not isinstance(part, Span)
                 ]
                 if subterm[0] == CALL:
                     stack += subterm[2]
         return brief(canonical_text(term, names))
 
     def key_of_call(self, term: Term, scope: Scope) -> str:
-        """Returns what stands for the unknown result of a call. In a loop, each call has its own arguments, and its own result."""
-        return self.canonical_condition(term, scope) if scope.iterations else brief(canonical_text(term))
+        """Returns what stands for the unknown result of a call. In a loop, each call has its own
+        arguments, and its own result.
+        """
+        return (
+            self.canonical_condition(term, scope)
+            if scope.iterations
+            else brief(canonical_text(term))
+        )
 
     def number(self, name: Term, scope: Scope) -> int | None:
         """Returns the value of a variable or constant if it is a known integer, otherwise None."""
@@ -143,7 +171,11 @@ class ConditionEvaluator(Elements):
             return bool(sign == "==")
         every = self.value(term[2], scope)
         left, right = sole_value(every), self.sole(term[3], scope)
-        if isinstance(right, (int, float)) and 1 < len(every) <= MAX_ALTERNATIVES and all(isinstance(a.value, (int, float)) for a in every):
+        if (
+            isinstance(right, (int, float))
+            and 1 < len(every) <= MAX_ALTERNATIVES
+            and all(isinstance(a.value, (int, float)) for a in every)
+        ):
             holds = [a for a in every if COMPARISONS[sign](a.value, right)]
             if not holds or len(holds) == len(every):
                 return bool(holds)
@@ -156,7 +188,11 @@ class ConditionEvaluator(Elements):
         if isinstance(left, comparable) and isinstance(right, type(left)):
             return bool(COMPARISONS[sign](left, right))
         if isinstance(left, (int, bool)) and not isinstance(right, int):
-            left, right, sign = right, left, {"<": ">", ">": "<", "<=": ">=", ">=": "<="}.get(sign, sign)
+            left, right, sign = (
+                right,
+                left,
+                {"<": ">", ">": "<", "<=": ">=", ">=": "<="}.get(sign, sign),
+            )
             term = (BINARY, sign, term[3], term[2], term[-1])
         subject = symbol_key(left) or self.canonical_condition(term[2], scope)
         if isinstance(right, bool) and sign in ("==", "!="):
@@ -166,5 +202,9 @@ class ConditionEvaluator(Elements):
             return frozenset({(f"{subject}>1", sign in ("!=", ">"))})
         if isinstance(right, int) and right == 2 and sign in (">=", "<"):
             return frozenset({(f"{subject}>1", sign == ">=")})
-        other = symbol_key(right) or (str(right) if isinstance(right, (int, float, str)) else self.canonical_condition(term[3], scope))
+        other = symbol_key(right) or (
+            str(right)
+            if isinstance(right, (int, float, str))
+            else self.canonical_condition(term[3], scope)
+        )
         return frozenset({(f"{subject}{sign.replace('!', '=')}{other}", sign != "!=")})

@@ -1,4 +1,6 @@
-"""The configuration that is described for a program that can render with one sample or with several."""
+"""The configuration that is described for a program that can render with one sample or with
+several.
+"""
 
 from __future__ import annotations
 
@@ -13,15 +15,18 @@ from .guards import chosen
 from .values import UNKNOWN, ApiObject, Ref, Symbol, Value, possible_writes, sole_value
 
 ASSUMED = 4
-"""The sample count above 1 that every device supports for color, depth, and stencil (Vulkan specification, "Required Limits"; Apple's
-documentation of supportsTextureSampleCount)."""
+"""The sample count above 1 that every device supports for color, depth, and stencil (Vulkan
+specification, "Required Limits"; Apple's documentation of supportsTextureSampleCount).
+"""
 
 
 _VALUE = re.compile(r"(?:>1|=\d+)\Z")
 """What a condition says of its subject."""
 
 _UNION = re.compile(r"[^=]=\d+\Z")
-"""The condition that a member has one of the values that several functions write to it; comparisons have another sign."""
+"""The condition that a member has one of the values that several functions write to it; comparisons
+have another sign.
+"""
 
 
 class Configuration:
@@ -50,7 +55,9 @@ class Configuration:
         guards = list(guards)
         if any(chosen(text, self.configuration) not in (way, None) for text, way in guards):
             return False
-        for subject, compared in [text.split("==", 1) for text, way in guards if way and "==" in text]:
+        for subject, compared in [
+            text.split("==", 1) for text, way in guards if way and "==" in text
+        ]:
             # A value that equals one thing does not equal another.
             if self.equal.setdefault(subject, compared) != compared:
                 return False
@@ -76,13 +83,17 @@ class Configuration:
     def settle(self, value: Value) -> Value:
         settled = possible_writes(value, self.configuration)
         if len(value) > 1 or (value and value[0].guards):
-            texts = {text for write in value for text, _ in write.guards if text in self.configuration}
+            texts = {
+                text for write in value for text, _ in write.guards if text in self.configuration
+            }
             subjects = {_VALUE.sub("", text) for text in texts}
             for alternative in settled if subjects else ():
                 self.conditions.setdefault(alternative.at, set()).update(subjects)
                 for text in sorted(filter(_UNION.search, texts))[:1]:
                     name = _VALUE.sub("", text).rpartition("::")[2]
-                    self.assumed_places.setdefault(alternative.at, f"functions write different values to `{name}`")
+                    self.assumed_places.setdefault(
+                        alternative.at, f"functions write different values to `{name}`"
+                    )
         return settled
 
     def dereference(self, value: Any) -> Any:

@@ -36,13 +36,17 @@ class Elements(StaticTypes):
     """The elements of lists."""
 
     def index_key(self, index: Term, scope: Scope) -> str:
-        """Returns what tells an unknown index from others: the variable and its last write, or its place."""
+        """Returns what tells an unknown index from others: the variable and its last write, or its
+        place.
+        """
         written = self.variable(index[1], scope) if index[0] == NAME else None
         version = written.writes[-1].at.start if written is not None and written.writes else 0
         return f"{index[1]} {version}" if index[0] == NAME else f"at {index[-1].start}"
 
     def element_of(self, array: Array, index: Term, place: Span, scope: Scope) -> Cell:
-        """Returns the element of a list at an unknown index. Others may follow or be the same, so the list is not complete."""
+        """Returns the element of a list at an unknown index. Others may follow or be the same, so
+        the list is not complete.
+        """
         if array.alike and len(array.items) == 1 and scope.unknown_loops:
             return array.items[0]
         key = self.index_key(index, scope)
@@ -89,10 +93,21 @@ class Elements(StaticTypes):
         index = sole_value(indices)
         chosen = [a for a in indices if not contradicts(a.guards, scope.guards)]
         owners = cell.parts if isinstance(cell, SplitCell) else ((cell, ALWAYS),)
-        if type(index) is int or not 1 < len(chosen) * len(owners) <= MAX_SPLIT or not all(type(a.value) is int for a in chosen):
-            chosen = [Alternative(index if type(index) is int else "", cell.writes[0].at if cell.writes else Span(0, 0))]
+        if (
+            type(index) is int
+            or not 1 < len(chosen) * len(owners) <= MAX_SPLIT
+            or not all(type(a.value) is int for a in chosen)
+        ):
+            chosen = [
+                Alternative(
+                    index if type(index) is int else "",
+                    cell.writes[0].at if cell.writes else Span(0, 0),
+                )
+            ]
         parts = [
-            (self.member_cell(f"{owner.name}[{a.value}]"), guards | (a.guards - scope.guards)) for owner, guards in owners for a in chosen
+            (self.member_cell(f"{owner.name}[{a.value}]"), guards | (a.guards - scope.guards))
+            for owner, guards in owners
+            for a in chosen
         ]
         return parts[0][0] if len(parts) == 1 else SplitCell(parts)
 
@@ -103,18 +118,28 @@ class Elements(StaticTypes):
         return array.items[index]
 
     def split_element(self, array: Array, indices: Value, place: Span, scope: Scope) -> Cell | None:
-        """Returns the element of a list at one of a few known indices, to be written; None for other indices."""
+        """Returns the element of a list at one of a few known indices, to be written; None for
+        other indices.
+        """
         chosen = [a for a in indices if not contradicts(a.guards, scope.guards)]
-        if array.others or not 1 < len(chosen) <= MAX_SPLIT or not all(type(a.value) is int and 0 <= a.value < 64 for a in chosen):
+        if (
+            array.others
+            or not 1 < len(chosen) <= MAX_SPLIT
+            or not all(type(a.value) is int and 0 <= a.value < 64 for a in chosen)
+        ):
             return None
-        return SplitCell([(self.element_at(array, a.value, place), a.guards - scope.guards) for a in chosen])
+        return SplitCell(
+            [(self.element_at(array, a.value, place), a.guards - scope.guards) for a in chosen]
+        )
 
     def element_of_object(self, value: Any, index: Any, place: Span) -> Cell | None:
         """Returns an element of an object of the API; None for other values."""
         return None
 
     def looked_up(self, array: Array, indices: Value, term: Term, scope: Scope) -> Cell:
-        """Returns a cell with the element of a list at an unknown index, to be read: the same index gives elements that belong together."""
+        """Returns a cell with the element of a list at an unknown index, to be read: the same index
+        gives elements that belong together.
+        """
         element = array.others.get(self.index_key(term[2], scope))
         if element is None and array.alike and len(array.items) == 1:
             return array.items[0]
@@ -126,11 +151,17 @@ class Elements(StaticTypes):
             subject = self.subject(indices, term[2], scope)
             if all(type(sole_value(item.writes)) is int for item in array.items):
                 # Which number it is, a caller decides.
-                return Cell(writes=(Alternative(Symbol(f"{array.name}[{subject}]", array.name), term[-1]),))
+                return Cell(
+                    writes=(Alternative(Symbol(f"{array.name}[{subject}]", array.name), term[-1]),)
+                )
             chosen = [(n, frozenset({(f"{subject}={n}", True)})) for n in range(len(array.items))]
         if len(chosen) > MAX_ALTERNATIVES:
             values = [sole_value(item.writes) for item in array.items]
-            return Cell(writes=array.items[0].writes if all(are_equal(value, values[0]) for value in values) else ())
+            return Cell(
+                writes=array.items[0].writes
+                if all(are_equal(value, values[0]) for value in values)
+                else ()
+            )
         writes: Value = ()
         for n, guards in chosen:
             content = array.items[n].writes if 0 <= n < len(array.items) else ()

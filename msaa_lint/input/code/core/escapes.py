@@ -10,14 +10,27 @@ from msaa_lint.core.text.span import Span
 from .guards import compared
 from .limits import Work
 from .terms import NAME
-from .values import ApiObject, Array, Cell, Closure, Struct, Value, inner_cells, pointee, possible_writes, structures_in
+from .values import (
+    ApiObject,
+    Array,
+    Cell,
+    Closure,
+    Struct,
+    Value,
+    inner_cells,
+    pointee,
+    possible_writes,
+    structures_in,
+)
 
 MAX_DEPTH = 4
 """The maximum nesting of values that external code reaches."""
 
 
 def mark_escaped(value: Value, work: Work) -> None:
-    """Marks the Vulkan objects in a value, and the images of image views, as used by external code."""
+    """Marks the Vulkan objects in a value, and the images of image views, as used by external
+    code.
+    """
     stack = [(write.value, 0) for write in value]
     seen: set[int] = set()
     while stack:
@@ -63,7 +76,9 @@ def forget_captures(closure: Closure) -> None:
 
 
 def mark_used(value: Struct, work: Work) -> None:
-    """Marks a structure and those in it, including the ones that it points to, as used by a call."""
+    """Marks a structure and those in it, including the ones that it points to, as used by a
+    call.
+    """
     value.used = True
     for cell in _cells_in(value, work):
         for write in cell.writes:
@@ -76,15 +91,23 @@ class _Conditions(dict[str, bool]):
 
     def __init__(self, conditions: Mapping[str, bool]) -> None:
         super().__init__(conditions)
-        self.equal = {subject: text for text, way in conditions.items() if way and (subject := compared(text))}
+        self.equal = {
+            subject: text for text, way in conditions.items() if way and (subject := compared(text))
+        }
 
     def get(self, text: str, default: Any = None) -> Any:
         value = super().get(text)
-        return False if value is None and self.equal and self.equal.get(compared(text), text) != text else value
+        return (
+            False
+            if value is None and self.equal and self.equal.get(compared(text), text) != text
+            else value
+        )
 
 
 def settle_under(value: Struct, conditions: Mapping[str, bool], work: Work) -> None:
-    """Reduces the cells of a structure to the writes that are possible under some conditions, and its lists to the elements."""
+    """Reduces the cells of a structure to the writes that are possible under some conditions, and
+    its lists to the elements.
+    """
     if not conditions:
         return
     known = _Conditions(conditions)
@@ -101,7 +124,9 @@ def settle_under(value: Struct, conditions: Mapping[str, bool], work: Work) -> N
 
 
 def _cells_in(value: Struct, work: Work) -> Iterator[Cell]:
-    """Yields the cells that a structure consists of and points to, each once, before what is in it."""
+    """Yields the cells that a structure consists of and points to, each once, before what is in
+    it.
+    """
     stack = inner_cells(value)[::-1]
     seen: set[int] = set()
     while stack:

@@ -1,4 +1,6 @@
-"""What the entry points of a program do, and which of them do something else once more is known of the program's members."""
+"""What the entry points of a program do, and which of them do something else once more is known of
+the program's members.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +10,20 @@ from typing import Any, NamedTuple
 from msaa_lint.core.text.span import Span
 
 from .limits import Work
-from .values import MAX_ALTERNATIVES, Alternative, ApiObject, Array, Closure, Flags, Ref, Routine, Struct, Symbol, Value, inner_cells
+from .values import (
+    MAX_ALTERNATIVES,
+    Alternative,
+    ApiObject,
+    Array,
+    Closure,
+    Flags,
+    Ref,
+    Routine,
+    Struct,
+    Symbol,
+    Value,
+    inner_cells,
+)
 
 Results = list[dict[Any, Any] | list[Any]]
 
@@ -17,7 +32,9 @@ MAX_DEPTH = 3
 
 
 class Execution(NamedTuple):
-    """What an entry point did: the members whose values it may have used, what it wrote to members, and what it added to the results."""
+    """What an entry point did: the members whose values it may have used, what it wrote to members,
+    and what it added to the results.
+    """
 
     used: Set[str]
     writes: list[tuple[str, Alternative]]
@@ -59,10 +76,16 @@ class Summary:
 
 
 def joined(key: str, writes: list[Alternative]) -> Value:
-    """Returns the union of what all functions write to a member. Null is ignored if the member is assigned an object."""
+    """Returns the union of what all functions write to a member. Null is ignored if the member is
+    assigned an object.
+    """
     objects = [write for write in writes if isinstance(write.value, (ApiObject, Struct, Array))]
     union = tuple(objects or writes)
-    return union if len(union) <= MAX_ALTERNATIVES else (Alternative(Symbol(key, key.rpartition("::")[2]), union[0].at),)
+    return (
+        union
+        if len(union) <= MAX_ALTERNATIVES
+        else (Alternative(Symbol(key, key.rpartition("::")[2]), union[0].at),)
+    )
 
 
 def mark(write: Alternative) -> tuple[Any, ...]:
@@ -70,7 +93,11 @@ def mark(write: Alternative) -> tuple[Any, ...]:
     value = write.value
     if isinstance(value, ApiObject):
         return (value.signature(), write.guards)
-    return (id(value) if isinstance(value, (Struct, Array, Closure)) else repr(value), write.at, write.guards)
+    return (
+        id(value) if isinstance(value, (Struct, Array, Closure)) else repr(value),
+        write.at,
+        write.guards,
+    )
 
 
 Known = frozenset[Any]
@@ -92,9 +119,15 @@ class Seen:
         self._parts: dict[str, int] = {}
         self._callables: frozenset[str] = frozenset()
 
-    def news(self, known: dict[str, Known], parts: Mapping[str, Collection[str]], callables: Set[str]) -> set[str]:
-        """Returns the members of which an execution has shown something else: a value, a member of theirs, or that they are functions."""
-        news = {key for key, values in known.items() if not values <= self._known.get(key, _NOTHING)}
+    def news(
+        self, known: dict[str, Known], parts: Mapping[str, Collection[str]], callables: Set[str]
+    ) -> set[str]:
+        """Returns the members of which an execution has shown something else: a value, a member of
+        theirs, or that they are functions.
+        """
+        news = {
+            key for key, values in known.items() if not values <= self._known.get(key, _NOTHING)
+        }
         news.update(key for key, names in parts.items() if len(names) != self._parts.get(key))
         news.update(map(callable_key, callables - self._callables))
         self._known, self._parts = known, {key: len(names) for key, names in parts.items()}
@@ -125,4 +158,8 @@ def _content(value: Any, depth: int, work: Work) -> Any:
             *(_contents(cell.writes, depth + 1, work) for cell in cells),
             *((value.complete,) if isinstance(value, Array) else ()),
         )
-    return type(value).__name__ if isinstance(value, (Closure, Routine, Struct, Array, Ref)) else "unknown"
+    return (
+        type(value).__name__
+        if isinstance(value, (Closure, Routine, Struct, Array, Ref))
+        else "unknown"
+    )

@@ -13,16 +13,22 @@ Guards = frozenset[tuple[str, bool]]
 ALWAYS: Guards = frozenset()
 
 MAX_TEXT = 200
-"""The maximum length of the text that stands for an expression; a digest stands for a longer one."""
+"""The maximum length of the text that stands for an expression; a digest stands for a longer
+one.
+"""
 
 MAX_PARTS = 16
 """The maximum number of parts of a conjunction that are known."""
 
 MAX_SPLITS = 64
-"""The maximum number of cases that are distinguished to determine whether conditions cover all of them."""
+"""The maximum number of cases that are distinguished to determine whether conditions cover all of
+them.
+"""
 
 MAX_KEPT = 1 << 14
-"""The number of answers about conditions that are kept, since the same ones are asked for many times."""
+"""The number of answers about conditions that are kept, since the same ones are asked for many
+times.
+"""
 
 
 _ENUMERATOR = re.compile(r"(?:\w+::)+[A-Z]\w*")
@@ -30,7 +36,9 @@ _ENUMERATOR = re.compile(r"(?:\w+::)+[A-Z]\w*")
 
 
 class Conjunction(str):
-    """The text of a condition that holds if all its parts do. The negation of several conditions is that of their conjunction."""
+    """The text of a condition that holds if all its parts do. The negation of several conditions is
+    that of their conjunction.
+    """
 
     __slots__ = ("parts",)
 
@@ -38,8 +46,12 @@ class Conjunction(str):
 
 
 def brief(text: str) -> str:
-    """Returns a text that stands for an expression, so that texts that contain others stay short."""
-    return text if len(text) <= MAX_TEXT else f"?{blake2b(text.encode(), digest_size=16).hexdigest()}"
+    """Returns a text that stands for an expression, so that texts that contain others stay
+    short.
+    """
+    return (
+        text if len(text) <= MAX_TEXT else f"?{blake2b(text.encode(), digest_size=16).hexdigest()}"
+    )
 
 
 def negated(guards: Guards) -> Guards:
@@ -75,7 +87,10 @@ def decided(condition: bool | Guards, guards: Guards) -> bool | None:
         return True
     if not guards:
         return None
-    ways = [None if (value := _implied(text, guards)) is None else value is way for text, way in condition]
+    ways = [
+        None if (value := _implied(text, guards)) is None else value is way
+        for text, way in condition
+    ]
     return False if False in ways else None if None in ways else True
 
 
@@ -85,26 +100,47 @@ def _implied(text: str, guards: Guards) -> bool | None:
         if (text, way) in guards:
             return way
     if isinstance(text, Conjunction):
-        ways = [(part, way) in guards or (None if (part, not way) not in guards else False) for part, way in text.parts]
+        ways = [
+            (part, way) in guards or (None if (part, not way) not in guards else False)
+            for part, way in text.parts
+        ]
         return False if False in ways else None if None in ways else True
     subject = compared(text)
-    return False if subject and any(way and other != text and compared(other) == subject for other, way in guards) else None
+    return (
+        False
+        if subject
+        and any(way and other != text and compared(other) == subject for other, way in guards)
+        else None
+    )
 
 
 def compared(text: str) -> str:
     """Returns what a condition compares with a constant for equality, or an empty string."""
     subject, _, constant = text.rpartition("=")
-    if subject[-1:] == "=" and _ENUMERATOR.fullmatch(constant) and not isinstance(text, Conjunction):
+    if (
+        subject[-1:] == "="
+        and _ENUMERATOR.fullmatch(constant)
+        and not isinstance(text, Conjunction)
+    ):
         return subject[:-1]
     fixed = constant.removeprefix("-").isdecimal() or constant.startswith("VK_")
-    return subject if fixed and subject[-1:] not in ("", "<", ">", "=", "!") and not isinstance(text, Conjunction) else ""
+    return (
+        subject
+        if fixed
+        and subject[-1:] not in ("", "<", ">", "=", "!")
+        and not isinstance(text, Conjunction)
+        else ""
+    )
 
 
 def chosen(text: str, configuration: Mapping[str, bool]) -> bool | None:
     """Returns the value of a condition in a configuration, or None if that leaves it open."""
     way = configuration.get(text)
     if way is None and isinstance(text, Conjunction):
-        ways = [configuration[part] is expected if part in configuration else None for part, expected in text.parts]
+        ways = [
+            configuration[part] is expected if part in configuration else None
+            for part, expected in text.parts
+        ]
         return False if False in ways else None if None in ways else True
     return way
 
@@ -129,13 +165,17 @@ def remaining(guards: Guards, configuration: Mapping[str, bool]) -> Guards | Non
 
 @lru_cache(MAX_KEPT)
 def remaining_under(guards: Guards, known: Guards) -> Guards | None:
-    """Returns the conditions that are open where others hold, or None if they cannot hold together."""
+    """Returns the conditions that are open where others hold, or None if they cannot hold
+    together.
+    """
     return remaining(guards, dict(known))
 
 
 @lru_cache(MAX_KEPT)
 def covers(alternatives: tuple[Guards, ...]) -> bool:
-    """Returns whether one of several conditions always holds. If that takes too many cases to find out, it is not concluded."""
+    """Returns whether one of several conditions always holds. If that takes too many cases to find
+    out, it is not concluded.
+    """
     terms: list[Guards] = []
     for guards in alternatives:
         terms += _expanded(guards)
@@ -147,7 +187,11 @@ def _expanded(guards: Guards) -> list[Guards]:
     for text, way in sorted(guards):
         if isinstance(text, Conjunction):
             rest = guards - {(text, way)}
-            return [rest | text.parts] if way else [rest | negated(frozenset({part})) for part in text.parts]
+            return (
+                [rest | text.parts]
+                if way
+                else [rest | negated(frozenset({part})) for part in text.parts]
+            )
     return [guards]
 
 

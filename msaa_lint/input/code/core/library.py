@@ -1,4 +1,6 @@
-"""The names of an API as source code spells them, which the interpreter asks for what they stand for."""
+"""The names of an API as source code spells them, which the interpreter asks for what they stand
+for.
+"""
 
 from __future__ import annotations
 
@@ -28,7 +30,9 @@ class Library(ABC):
 
     @abstractmethod
     def constant(self, name: str) -> int | str | bool | None:
-        """Returns the value of a constant of the API: a sample count as a number, a boolean, or an enumerant; None for other names."""
+        """Returns the value of a constant of the API: a sample count as a number, a boolean, or an
+        enumerant; None for other names.
+        """
 
     @abstractmethod
     def structure(self, type_text: str) -> str:
@@ -44,7 +48,9 @@ class Library(ABC):
 
     @abstractmethod
     def member(self, name: str) -> str:
-        """Returns the name that descriptions give a member. It differs from that of the code for a pointer."""
+        """Returns the name that descriptions give a member. It differs from that of the code for a
+        pointer.
+        """
 
     @abstractmethod
     def member_type(self, structure: str, member: str) -> str:
@@ -64,7 +70,9 @@ class Library(ABC):
 
     @abstractmethod
     def is_scalar(self, type_text: str) -> bool:
-        """Returns whether braces of a type contain a single value: an enumerant, flags, or a number."""
+        """Returns whether braces of a type contain a single value: an enumerant, flags, or a
+        number.
+        """
 
     @abstractmethod
     def is_cast(self, type_text: str) -> bool:
@@ -84,4 +92,6 @@ class Library(ABC):
 
     @abstractmethod
     def is_count_choice(self, function: str) -> bool:
-        """Returns whether a function, judging by its name, chooses a sample count that the device supports."""
+        """Returns whether a function, judging by its name, chooses a sample count that the device
+        supports.
+        """

@@ -10,7 +10,18 @@ from .classes import pointed
 from .scope import MEMBER, Scope
 from .terms import CALL, FIELD, INDEX, NAME, Term, at
 from .types import array_size, element_type
-from .values import UNKNOWN_VALUE, Alternative, Array, Cell, Ref, SplitCell, Struct, Value, pointee, sole_value
+from .values import (
+    UNKNOWN_VALUE,
+    Alternative,
+    Array,
+    Cell,
+    Ref,
+    SplitCell,
+    Struct,
+    Value,
+    pointee,
+    sole_value,
+)
 from .variables import Variables
 
 
@@ -28,8 +39,15 @@ class ClassObjects(Variables):
             class_name = self.class_of_term(operand, scope)
             return self.class_member(class_name, name) if class_name is not None else None
         if isinstance(cell, SplitCell):
-            structs = [(pointee(sole_value(part.read(scope.guards))), guards) for part, guards in cell.parts]
-            members = [(self.member_of(struct, name), guards) for struct, guards in structs if isinstance(struct, Struct)]
+            structs = [
+                (pointee(sole_value(part.read(scope.guards))), guards)
+                for part, guards in cell.parts
+            ]
+            members = [
+                (self.member_of(struct, name), guards)
+                for struct, guards in structs
+                if isinstance(struct, Struct)
+            ]
             if len(members) < len(structs) and cell.kind == MEMBER:
                 members = [(self.part_of_member(part, name), guards) for part, guards in cell.parts]
             return SplitCell(members) if len(members) == len(structs) else None
@@ -50,7 +68,12 @@ class ClassObjects(Variables):
         if elsewhere and not self.library.structure(cell.kind):
             kind = cell.kind.rstrip("*&")
             return self.class_member(self.class_of(kind, scope.enclosing) or kind, name)
-        struct = Struct(self.library.structure(cell.kind), Span(0, 0) if elsewhere else at(operand), False, cell.name)
+        struct = Struct(
+            self.library.structure(cell.kind),
+            Span(0, 0) if elsewhere else at(operand),
+            False,
+            cell.name,
+        )
         cell.writes = (Alternative(struct, struct.at),)
         return struct.cell(name)
 
@@ -67,16 +90,28 @@ class ClassObjects(Variables):
         return None
 
     def object_cell(self, operand: Term, scope: Scope) -> Cell | None:
-        """Returns the cell of the object that an expression is or points to, or None if it is unknown."""
+        """Returns the cell of the object that an expression is or points to, or None if it is
+        unknown.
+        """
         if operand[0] in (NAME, FIELD, INDEX):
             return self.cell_of(operand, scope)
-        content = sole_value(self.call(operand, scope)) if operand[0] == CALL else self.sole(operand, scope)
+        content = (
+            sole_value(self.call(operand, scope))
+            if operand[0] == CALL
+            else self.sole(operand, scope)
+        )
         if isinstance(content, Ref):
             return content.cell
-        return Cell(writes=(Alternative(content, at(operand)),)) if isinstance(content, (Struct, Array)) else None
+        return (
+            Cell(writes=(Alternative(content, at(operand)),))
+            if isinstance(content, (Struct, Array))
+            else None
+        )
 
     def object_in(self, cell: Cell, scope: Scope) -> Any:
-        """Returns the structure, or the other value, in a cell. Alternative structures are merged, so that they are changed together."""
+        """Returns the structure, or the other value, in a cell. Alternative structures are merged,
+        so that they are changed together.
+        """
         content = cell.read(scope.guards)
         value = pointee(sole_value(content))
         if len(content) > 1 and all(isinstance(a.value, Struct) for a in content):
@@ -110,7 +145,11 @@ class ClassObjects(Variables):
             cell.writes = self.initial_value(term, scope)
             if struct.type in self.classes.with_methods:
                 # Methods that are not understood may change it: callbacks of events, for example.
-                cell.writes = tuple(a for a in cell.writes if a.value is not None and not isinstance(a.value, (bool, float)))
+                cell.writes = tuple(
+                    a
+                    for a in cell.writes
+                    if a.value is not None and not isinstance(a.value, (bool, float))
+                )
                 if known := self.summary_of(f"{self.classes.owner(struct.type, name)}::{name}"):
                     cell.writes = tuple(a for a in cell.writes if self.lasts(a.value)) or known
         return cell
@@ -120,7 +159,9 @@ class ClassObjects(Variables):
         _, kind, name, initializer, indirect, _, place = term
         if initializer is None:
             is_scalar = indirect or (
-                self.class_of(kind, scope.enclosing) is None and not self.library.structure(kind) and not element_type(kind)
+                self.class_of(kind, scope.enclosing) is None
+                and not self.library.structure(kind)
+                and not element_type(kind)
             )
             value = UNKNOWN_VALUE if is_scalar else self.default_value(kind, name, place, scope)
             for alternative in value:
@@ -128,7 +169,9 @@ class ClassObjects(Variables):
                     alternative.value.unset = True
             return value
         value = self.value(initializer, scope, kind)
-        return tuple(Alternative(self.stored_value(a.value, kind, name), a.at, a.guards) for a in value)
+        return tuple(
+            Alternative(self.stored_value(a.value, kind, name), a.at, a.guards) for a in value
+        )
 
     def fill_array(self, array: Array, kind: str, scope: Scope) -> None:
         """Adds elements to an array up to the size of its type."""
@@ -142,11 +185,19 @@ class ClassObjects(Variables):
         while len(array.items) < count:
             array.items.append(self.unset_element(array.kind, array.at, array.zeroed))
 
-    def default_value(self, kind: str, name: str, place: Span, scope: Scope, zeroed: bool = False) -> Value:
-        """Returns the value of a variable without an initializer. vulkan.hpp structures have default constructors."""
+    def default_value(
+        self, kind: str, name: str, place: Span, scope: Scope, zeroed: bool = False
+    ) -> Value:
+        """Returns the value of a variable without an initializer. vulkan.hpp structures have
+        default constructors.
+        """
         struct_name = self.library.structure(kind)
         if struct_name:
-            return (Alternative(Struct(struct_name, place, zeroed or kind.startswith("vk::"), name), place),)
+            return (
+                Alternative(
+                    Struct(struct_name, place, zeroed or kind.startswith("vk::"), name), place
+                ),
+            )
         inner = element_type(kind)
         if inner is not None:
             array = Array(inner, place)

@@ -1,4 +1,6 @@
-"""The functions of a C or C++ file by what a call of them states: their name, the number of arguments, their class or namespace."""
+"""The functions of a C or C++ file by what a call of them states: their name, the number of
+arguments, their class or namespace.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +10,9 @@ from .terms import Function, Parameter, Term, labeled
 
 
 class Group:
-    """Functions that a call may refer to, in order; `fixed` are those that no derived class may override."""
+    """Functions that a call may refer to, in order; `fixed` are those that no derived class may
+    override.
+    """
 
     __slots__ = ("every", "fixed", "labels")
 
@@ -43,19 +47,27 @@ _NONE = Group()
 
 
 def matches(parameters: Sequence[Parameter], labels: Sequence[str]) -> bool:
-    """Returns whether arguments have the labels of parameters in order. Those with a default may be left out; a last argument without a
-    label may be a closure after the call."""
+    """Returns whether arguments have the labels of parameters in order. Those with a default may be
+    left out; a last argument without a label may be a closure after the call.
+    """
     n = 0
     for parameter in parameters:
-        if n < len(labels) and (labels[n] == parameter.label or (not labels[n] and n == len(labels) - 1 and "->" in parameter.type)):
+        if n < len(labels) and (
+            labels[n] == parameter.label
+            or (not labels[n] and n == len(labels) - 1 and "->" in parameter.type)
+        ):
             n += 1
         elif parameter.default is None:
             return False
     return n == len(labels)
 
 
-def bound(parameters: Sequence[Parameter], arguments: Sequence[Term]) -> Iterator[tuple[Parameter, Term | None]]:
-    """Yields parameters with their arguments: by label where parameters have labels, otherwise by position."""
+def bound(
+    parameters: Sequence[Parameter], arguments: Sequence[Term]
+) -> Iterator[tuple[Parameter, Term | None]]:
+    """Yields parameters with their arguments: by label where parameters have labels, otherwise by
+    position.
+    """
     names = any(parameter.label for parameter in parameters)
     n = 0
     for parameter in parameters:
@@ -87,7 +99,9 @@ class Overloads:
                 self._by_count.setdefault(key, Group()).add(function)
                 self._by_owner.setdefault((*key, function.class_name, None), Group()).add(function)
                 if not function.class_name:
-                    self._by_owner.setdefault((*key, None, function.namespace), Group()).add(function)
+                    self._by_owner.setdefault((*key, None, function.namespace), Group()).add(
+                        function
+                    )
         self.free = {name: function for name, function in self.free.items() if names[name] == 1}
 
     def of_count(self, name: str, count: int) -> Group:
@@ -100,4 +114,6 @@ class Overloads:
 
     def of_scope(self, name: str, count: int, class_name: str, namespace: str) -> Group:
         """Returns those of a class or, if it has none, those of a namespace."""
-        return self._by_owner.get((name, count, class_name, None)) or self._by_owner.get((name, count, None, namespace), _NONE)
+        return self._by_owner.get((name, count, class_name, None)) or self._by_owner.get(
+            (name, count, None, namespace), _NONE
+        )

@@ -17,7 +17,9 @@ from .values import Array, Cell, Instance, Ref, Routine, Struct, pointee, sole_v
 class Resolution(ListMethods):
     """Determines the functions of the program that calls refer to."""
 
-    def __init__(self, unit: Unit, library: Library, fragments: bool, is_cpp: bool, work: Work) -> None:
+    def __init__(
+        self, unit: Unit, library: Library, fragments: bool, is_cpp: bool, work: Work
+    ) -> None:
         super().__init__(unit, library, fragments, is_cpp, work)
         self.functions = Overloads(unit.functions)
 
@@ -45,33 +47,56 @@ class Resolution(ListMethods):
         return Receiver(owner, Cell(writes=value) if isinstance(known, Struct) else None, value)
 
     def find_function(
-        self, name: str, arguments: Sequence[Term], function: Term, receiver: Receiver | None, scope: Scope
+        self,
+        name: str,
+        arguments: Sequence[Term],
+        function: Term,
+        receiver: Receiver | None,
+        scope: Scope,
     ) -> Function | None:
         """Returns the only function of the program that a call can refer to, or None."""
         count = len(arguments)
         self.work.spend(1 + len(self.functions.of_count(name, count).every) // 16)
-        group = self.functions.of_count(name, count).of_labels([labeled(argument)[0] for argument in arguments])
+        group = self.functions.of_count(name, count).of_labels(
+            [labeled(argument)[0] for argument in arguments]
+        )
         if not group.every:
             return None
         if self.fragments:
             return group.fixed[-1] if group.fixed else None
         if receiver is not None:
             return self.find_method(name, arguments, receiver, scope)
-        qualifier = resolved(str(function[1]).rpartition("::")[0], self.unit.aliases) if function[0] == NAME else ""
+        qualifier = (
+            resolved(str(function[1]).rpartition("::")[0], self.unit.aliases)
+            if function[0] == NAME
+            else ""
+        )
         if qualifier:
             owner = self.class_of(qualifier, scope.enclosing)
             if owner is not None and (methods := self.taking(self.methods(owner, name), arguments)):
                 return self.matching(methods, arguments, scope)
             self.work.spend(1 + len(group.every) // 16)
-            named = [f for f in group.every if (f.class_name or f.namespace.rstrip(":")).endswith(qualifier)]
+            named = [
+                f
+                for f in group.every
+                if (f.class_name or f.namespace.rstrip(":")).endswith(qualifier)
+            ]
             return self.matching(named, arguments, scope)
-        if scope.class_name and (methods := self.taking(self.methods(scope.object_class, name), arguments)):
+        if scope.class_name and (
+            methods := self.taking(self.methods(scope.object_class, name), arguments)
+        ):
             return self.dispatched(methods, scope.object_class, scope.this_object, arguments, scope)
-        free = self.taking(self.functions.of_scope(name, count, "", scope.namespace).every or self.free_functions(name, count), arguments)
+        free = self.taking(
+            self.functions.of_scope(name, count, "", scope.namespace).every
+            or self.free_functions(name, count),
+            arguments,
+        )
         # Swift's `.target(...)` is a method of the type that is expected.
         return self.matching(free, arguments, scope) if free or self.is_cpp else group.sole()
 
-    def find_method(self, name: str, arguments: Sequence[Term], receiver: Receiver, scope: Scope) -> Function | None:
+    def find_method(
+        self, name: str, arguments: Sequence[Term], receiver: Receiver, scope: Scope
+    ) -> Function | None:
         count = len(arguments)
         known = pointee(sole_value(receiver.content))
         if isinstance(known, Array):
@@ -83,13 +108,26 @@ class Resolution(ListMethods):
             return self.dispatched(methods, declared, receiver.cell, arguments, scope)
         if isinstance(known, Struct) and known.kind and not isinstance(known, Instance):
             return None
-        methods = self.taking([f for f in self.functions.of_count(name, count).every if f.class_name], arguments)
-        return self.matching(methods, arguments, scope) if len({f.class_name for f in methods}) == 1 else None
+        methods = self.taking(
+            [f for f in self.functions.of_count(name, count).every if f.class_name], arguments
+        )
+        return (
+            self.matching(methods, arguments, scope)
+            if len({f.class_name for f in methods}) == 1
+            else None
+        )
 
     def dispatched(
-        self, methods: Sequence[Function], class_name: str, this_object: Cell | None, arguments: Sequence[Term], scope: Scope
+        self,
+        methods: Sequence[Function],
+        class_name: str,
+        this_object: Cell | None,
+        arguments: Sequence[Term],
+        scope: Scope,
     ) -> Function | None:
-        """Returns the method of a class that a call executes: for a virtual one, the only one of the classes that the object may have."""
+        """Returns the method of a class that a call executes: for a virtual one, the only one of
+        the classes that the object may have.
+        """
         known = pointee(sole_value(this_object.writes)) if this_object is not None else None
         exact = isinstance(known, Struct) and bool(known.type)
         method = self.matching(methods, arguments, scope)
@@ -98,7 +136,9 @@ class Resolution(ListMethods):
         others = [
             other
             for derived in self.classes.derived(class_name)
-            for other in self.taking(self.classes.methods.get((derived, method.name), ()), arguments)
+            for other in self.taking(
+                self.classes.methods.get((derived, method.name), ()), arguments
+            )
             if other is not method
         ]
         return method if not others else None
@@ -107,13 +147,27 @@ class Resolution(ListMethods):
         """Returns the functions that take as many arguments, with their labels."""
         self.work.spend(1 + len(functions) // 2)
         count = len(arguments)
-        fitting = [f for f in functions if sum(p.default is None for p in f.parameters) <= count <= len(f.parameters)]
-        if any(argument[0] == LABEL for argument in arguments) or any(p.label for f in fitting for p in f.parameters):
-            fitting = [f for f in fitting if matches(f.parameters, [labeled(argument)[0] for argument in arguments])]
+        fitting = [
+            f
+            for f in functions
+            if sum(p.default is None for p in f.parameters) <= count <= len(f.parameters)
+        ]
+        if any(argument[0] == LABEL for argument in arguments) or any(
+            p.label for f in fitting for p in f.parameters
+        ):
+            fitting = [
+                f
+                for f in fitting
+                if matches(f.parameters, [labeled(argument)[0] for argument in arguments])
+            ]
         return fitting
 
-    def matching(self, functions: Sequence[Function], arguments: Sequence[Term], scope: Scope) -> Function | None:
-        """Returns the only function whose parameters have the types of the arguments, as far as they are known, or None."""
+    def matching(
+        self, functions: Sequence[Function], arguments: Sequence[Term], scope: Scope
+    ) -> Function | None:
+        """Returns the only function whose parameters have the types of the arguments, as far as
+        they are known, or None.
+        """
         if len(functions) <= 1:
             return functions[0] if functions else None
         self.work.spend(len(functions) * len(arguments))
@@ -121,24 +175,45 @@ class Resolution(ListMethods):
         fitting = [
             f
             for f in functions[:64]
-            if all(not kind or self.accepts(p.type, kind, scope) for p, kind in zip(f.parameters, types, strict=False))
+            if all(
+                not kind or self.accepts(p.type, kind, scope)
+                for p, kind in zip(f.parameters, types, strict=False)
+            )
         ]
         if len(fitting) > 1:
             # Of several enumerations, each is an integer.
-            fitting = [f for f in fitting if all(not kind or _is_named(p.type, kind) for p, kind in zip(f.parameters, types, strict=False))]
+            fitting = [
+                f
+                for f in fitting
+                if all(
+                    not kind or _is_named(p.type, kind)
+                    for p, kind in zip(f.parameters, types, strict=False)
+                )
+            ]
         return fitting[0] if len(fitting) == 1 else None
 
     def argument_type(self, argument: Term, scope: Scope) -> str:
         """Returns the type of an argument, or an empty string."""
         if argument[0] == LITERAL:
-            return "bool" if isinstance(argument[1], bool) else "int" if isinstance(argument[1], int) else ""
+            return (
+                "bool"
+                if isinstance(argument[1], bool)
+                else "int"
+                if isinstance(argument[1], int)
+                else ""
+            )
         return self.type_of_term(argument, scope)
 
     def accepts(self, parameter: str, argument: str, scope: Scope) -> bool:
-        """Returns whether a parameter may take an argument, by their types; one of a class of the program does not take another one."""
+        """Returns whether a parameter may take an argument, by their types; one of a class of the
+        program does not take another one.
+        """
         if parameter == argument or "auto" in (parameter, argument):
             return True
-        left, right = self.class_of(parameter, scope.enclosing), self.class_of(argument, scope.enclosing)
+        left, right = (
+            self.class_of(parameter, scope.enclosing),
+            self.class_of(argument, scope.enclosing),
+        )
         if left is not None and right is not None:
             return left in self.classes.chain(right)
         if (left is None) != (right is None):
@@ -146,24 +221,39 @@ class Resolution(ListMethods):
         structures = self.library.structure(parameter), self.library.structure(argument)
         if any(structures):
             return structures[0] == structures[1]
-        return not (self.library.is_type(parameter) or self.library.is_type(argument) or "char" in (parameter, argument))
+        return not (
+            self.library.is_type(parameter)
+            or self.library.is_type(argument)
+            or "char" in (parameter, argument)
+        )
 
     def this_of(self, function: Function, receiver: Receiver | None, scope: Scope) -> Cell | None:
         """Returns the object that a method is executed for, or None if it is unknown."""
         if not function.class_name:
             return None
         if receiver is None:
-            return scope.this_object if function.class_name in self.classes.chain(scope.class_name) else None
+            return (
+                scope.this_object
+                if function.class_name in self.classes.chain(scope.class_name)
+                else None
+            )
         cell = receiver.cell
         if cell is None:
             return None
-        known = cell.kind == MEMBER or isinstance(pointee(sole_value(cell.read(scope.guards))), Struct)
+        known = cell.kind == MEMBER or isinstance(
+            pointee(sole_value(cell.read(scope.guards))), Struct
+        )
         return cell if known else None
 
     def is_pointed(self, cell: Cell, scope: Scope) -> bool:
         """Returns whether a member points to an object of a class, but which one is unknown."""
         known = pointee(sole_value(cell.read(scope.guards)))
-        return cell.kind == MEMBER and not isinstance(known, Struct) and not self.is_held(cell) and bool(self.pointed_class(cell.name))
+        return (
+            cell.kind == MEMBER
+            and not isinstance(known, Struct)
+            and not self.is_held(cell)
+            and bool(self.pointed_class(cell.name))
+        )
 
 
 def _is_named(kind: str, other: str) -> bool:

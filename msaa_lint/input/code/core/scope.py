@@ -11,10 +11,14 @@ MAX_TURNS = 16
 """The maximum number of loop iterations that are executed individually."""
 
 MAX_CASES = 8
-"""The maximum number of labels of a switch that are executed one after the other without a break."""
+"""The maximum number of labels of a switch that are executed one after the other without a
+break.
+"""
 
 MAX_PASSES = 3
-"""The maximum number of times that a file is executed. A member's value may depend on another member, which depends on a third."""
+"""The maximum number of times that a file is executed. A member's value may depend on another
+member, which depends on a third.
+"""
 
 MEMBER = "member"
 """The kind of a cell for a class member or a global variable."""
@@ -25,7 +29,9 @@ MAX_CALLS = 100
 """The maximum depth of calls that are executed."""
 
 MAX_FRAMES = 8000
-"""The depth of Python's stack while a program is executed, enough for MAX_CALLS in ordinary code."""
+"""The depth of Python's stack while a program is executed, enough for MAX_CALLS in ordinary
+code.
+"""
 
 MAX_CLOSURES = 20
 """The maximum depth of calls in which lambdas are executed; they may call each other."""
@@ -38,7 +44,12 @@ class Scope:
     """The scope of a function call: its variables, its class, and the calls that lead to it."""
 
     def __init__(
-        self, class_name: str = "", namespace: str = "", scopes: Scopes = (), guards: Guards = ALWAYS, calls: tuple[Span, ...] = ()
+        self,
+        class_name: str = "",
+        namespace: str = "",
+        scopes: Scopes = (),
+        guards: Guards = ALWAYS,
+        calls: tuple[Span, ...] = (),
     ) -> None:
         self.class_name = class_name
         self.namespace = namespace
@@ -62,7 +73,9 @@ class Scope:
         self.this_object: Cell | None = None
         """The object that the method is called on, if known."""
         self.object_class = class_name
-        """The class of that object, as far as it is known: `class_name` or one that derives from it."""
+        """The class of that object, as far as it is known: `class_name` or one that derives from
+        it.
+        """
         self.extent: Span | None = None
         """The place of the function's body."""
         self.active_functions: tuple[Span, ...] = ()
@@ -74,7 +87,9 @@ class Scope:
 
 
 def name_objects(value: Value, name: str, scope: Scope) -> None:
-    """Names objects after the variable that they are assigned to; the outermost function takes precedence."""
+    """Names objects after the variable that they are assigned to; the outermost function takes
+    precedence.
+    """
     for alternative in value:
         obj = alternative.value
         if isinstance(obj, ApiObject) and name and len(scope.calls) < obj.name_depth:

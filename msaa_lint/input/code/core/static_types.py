@@ -11,13 +11,19 @@ from .scope import Scope
 from .terms import ADDRESS, BRACES, CALL, FIELD, INDEX, NAME, TARGET, Function, Term
 from .types import element_type
 
-OWNED = re.compile(r"(?:\w+::)*(?:make_unique|make_shared|MakeUnique|MakeShared|CreateRef|CreateScope|make_ref|New)<([\w:]+)>$")
+OWNED = re.compile(
+    r"(?:\w+::)*(?:make_unique|make_shared|MakeUnique|MakeShared|CreateRef|CreateScope|make_ref|New)<([\w:]+)>$"
+)
 """Functions that construct an object of a type."""
 
-OWNED_LIST = re.compile(r"(?:\w+::)*(?:make_unique|make_shared|MakeUnique|MakeShared)(?:_for_overwrite)?<([\w:]+)\[\]>$")
+OWNED_LIST = re.compile(
+    r"(?:\w+::)*(?:make_unique|make_shared|MakeUnique|MakeShared)(?:_for_overwrite)?<([\w:]+)\[\]>$"
+)
 """Functions that construct a list of a type."""
 
-SAME = frozenset({"get", "Get", "value", "lock", "operator->", "operator*", "release", "ptr", "raw", "c_ptr"})
+SAME = frozenset(
+    {"get", "Get", "value", "lock", "operator->", "operator*", "release", "ptr", "raw", "c_ptr"}
+)
 """Methods of a pointer that return what it points to."""
 
 MAX_DEPTH = 8
@@ -28,14 +34,18 @@ class StaticTypes(ClassObjects):
     """The declared types of expressions."""
 
     def class_of_term(self, term: Term, scope: Scope) -> str | None:
-        """Returns the class of the object that an expression is or points to, by its declaration, or None."""
+        """Returns the class of the object that an expression is or points to, by its declaration,
+        or None.
+        """
         if term[:2] == (NAME, "this"):
             return scope.class_name or None
         kind = self.type_of_term(term, scope, 0)
         return self.class_of(kind, scope.enclosing) if kind else None
 
     def type_of_term(self, term: Term, scope: Scope, depth: int = 0) -> str:
-        """Returns the declared type of an expression without pointers and references, or an empty string."""
+        """Returns the declared type of an expression without pointers and references, or an empty
+        string.
+        """
         if depth > MAX_DEPTH:
             return ""
         self.step(scope)
@@ -67,7 +77,9 @@ class StaticTypes(ClassObjects):
                 return str(function[1])
             qualifier, _, name = function[1].rpartition("::")
             owner = self.class_of(qualifier, scope.enclosing) if qualifier else scope.class_name
-            return _common_type(self.methods(owner, name) if owner else []) or _common_type(self.free_functions(name, len(term[2])))
+            return _common_type(self.methods(owner, name) if owner else []) or _common_type(
+                self.free_functions(name, len(term[2]))
+            )
         if function[0] != FIELD:
             return ""
         owner = self.class_of(self.type_of_term(function[1], scope, depth + 1), scope.enclosing)
@@ -76,11 +88,17 @@ class StaticTypes(ClassObjects):
         return self.type_of_term(function[1], scope, depth + 1) if function[2] in SAME else ""
 
     def methods(self, class_name: str, name: str) -> list[Function]:
-        """Returns the methods of a name of the nearest class of a hierarchy that defines any; otherwise those of derived classes."""
+        """Returns the methods of a name of the nearest class of a hierarchy that defines any;
+        otherwise those of derived classes.
+        """
         for owner in self.classes.chain(class_name):
             if methods := self.classes.methods.get((owner, name)):
                 return methods
-        return [method for owner in self.classes.derived(class_name) for method in self.classes.methods.get((owner, name), ())]
+        return [
+            method
+            for owner in self.classes.derived(class_name)
+            for method in self.classes.methods.get((owner, name), ())
+        ]
 
     @abstractmethod
     def free_functions(self, name: str, count: int) -> Sequence[Function]:

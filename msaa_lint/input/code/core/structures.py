@@ -14,7 +14,21 @@ from .guards import ALWAYS, Guards
 from .library import Construction, Library
 from .limits import Work
 from .scope import Scope
-from .terms import ADDRESS, BINARY, BRACES, CALL, FIELD, INDEX, LITERAL, NAME, SOME, TUPLE, UNPARSED, Term, Unit
+from .terms import (
+    ADDRESS,
+    BINARY,
+    BRACES,
+    CALL,
+    FIELD,
+    INDEX,
+    LITERAL,
+    NAME,
+    SOME,
+    TUPLE,
+    UNPARSED,
+    Term,
+    Unit,
+)
 from .types import element_type
 from .values import (
     UNKNOWN,
@@ -38,7 +52,9 @@ Items = Sequence[tuple[tuple[str | int, ...] | None, Term]]
 class Structures(Evaluator):
     """Constructs the structures and lists of one file."""
 
-    def __init__(self, unit: Unit, library: Library, fragments: bool, is_cpp: bool, work: Work) -> None:
+    def __init__(
+        self, unit: Unit, library: Library, fragments: bool, is_cpp: bool, work: Work
+    ) -> None:
         super().__init__(unit, library, fragments, is_cpp, work)
         self.objects: dict[tuple[Any, ...], ApiObject] = {}
         self.current_objects: dict[tuple[Any, ...], ApiObject] = {}
@@ -46,7 +62,9 @@ class Structures(Evaluator):
         self.follow_counts: dict[Span, int] = {}
 
     def begin(self) -> None:
-        """Discards the results of the previous execution of the file, but keeps the identity of objects."""
+        """Discards the results of the previous execution of the file, but keeps the identity of
+        objects.
+        """
         emptied(self.collected())
         self.declared_structs.clear()
         self.follow_counts.clear()
@@ -64,14 +82,18 @@ class Structures(Evaluator):
         if len(items) == 1 and items[0][0] is None:
             term = items[0][1]
             value = self.target(term, scope) if term[0] in (NAME, FIELD) else None
-            if isinstance(value, Struct) and (not value.kind or self.library.is_alike(value.kind, struct.kind)):
+            if isinstance(value, Struct) and (
+                not value.kind or self.library.is_alike(value.kind, struct.kind)
+            ):
                 return (Alternative(self.copies.value(value), place),)
             if term[:2] == (LITERAL, 0):
                 return (Alternative(struct, place),)
         self.initialize_positional(struct, items, scope, construction)
         return (Alternative(struct, place),)
 
-    def initialize_positional(self, struct: Struct, items: Items, scope: Scope, construction: Construction) -> None:
+    def initialize_positional(
+        self, struct: Struct, items: Items, scope: Scope, construction: Construction
+    ) -> None:
         names = construction.members
         n = 0
         for path, term in items:
@@ -88,15 +110,28 @@ class Structures(Evaluator):
                     struct.cell(self.library.member(name)).write(UNKNOWN_VALUE, term[-1], ALWAYS)
                 return
             name = names[n]
-            value = self.as_pointer(name, self.value(term, scope, self.library.member_type(struct.kind, name)), term, scope)
+            value = self.as_pointer(
+                name,
+                self.value(term, scope, self.library.member_type(struct.kind, name)),
+                term,
+                scope,
+            )
             target = pointee(sole_value(value))
-            if name.endswith("Count") and construction.takes_lists and (isinstance(target, (Array, Struct)) or term[0] == BRACES):
+            if (
+                name.endswith("Count")
+                and construction.takes_lists
+                and (isinstance(target, (Array, Struct)) or term[0] == BRACES)
+            ):
                 n += 1
                 name = names[n] if n < len(names) else name
-            struct.cell(self.library.member(name)).write(self.copies.alternatives(value), term[-1], ALWAYS)
+            struct.cell(self.library.member(name)).write(
+                self.copies.alternatives(value), term[-1], ALWAYS
+            )
             n += 1
 
-    def initialize_designated(self, struct: Struct, path: Sequence[str | int], term: Term, scope: Scope) -> None:
+    def initialize_designated(
+        self, struct: Struct, path: Sequence[str | int], term: Term, scope: Scope
+    ) -> None:
         """Initializes a designated member: `.extent.width = 4`."""
         if path == ("..",):
             base = self.target(term, scope)
@@ -118,8 +153,12 @@ class Structures(Evaluator):
                 cell.writes = (Alternative(value, term[-1]),)
             target = value
         name = str(path[-1])
-        value = self.as_pointer(name, self.value(term, scope, self.library.member_type(target.kind, name)), term, scope)
-        target.cell(self.library.member(name)).write(self.copies.alternatives(value), term[-1], guards)
+        value = self.as_pointer(
+            name, self.value(term, scope, self.library.member_type(target.kind, name)), term, scope
+        )
+        target.cell(self.library.member(name)).write(
+            self.copies.alternatives(value), term[-1], guards
+        )
 
     def unwrap_conditions(self, term: Term) -> tuple[Guards, Term]:
         """Returns the guards of a list item, and the item."""
@@ -138,7 +177,12 @@ class Structures(Evaluator):
         if self.library.structure(kind):
             return self.construct(kind, items, place, scope)
         inner = element_type(kind)
-        if items and all(path for path, _ in items) and isinstance(items[0][0][0], str) and inner is None:
+        if (
+            items
+            and all(path for path, _ in items)
+            and isinstance(items[0][0][0], str)
+            and inner is None
+        ):
             struct = Struct("", place, True)
             for path, item in items:
                 self.initialize_designated(struct, path, item, scope)
@@ -147,11 +191,22 @@ class Structures(Evaluator):
             # `{}` stands for no flags.
             return (Alternative(Array("", place), place),)
         if inner is None and kind and kind != "auto":
-            if len(items) == 1 and items[0][0] is None and self.library.is_scalar(kind) and self.class_of(kind, scope.enclosing) is None:
+            if (
+                len(items) == 1
+                and items[0][0] is None
+                and self.library.is_scalar(kind)
+                and self.class_of(kind, scope.enclosing) is None
+            ):
                 return self.value(items[0][1], scope, kind)
-            if not items and (self.library.is_type(kind) or kind.startswith(("bool", "int", "uint", "float"))):
+            if not items and (
+                self.library.is_type(kind) or kind.startswith(("bool", "int", "uint", "float"))
+            ):
                 return UNKNOWN_VALUE
-            if not items or not self.library.is_scalar(kind) or self.class_of(kind, scope.enclosing) is not None:
+            if (
+                not items
+                or not self.library.is_scalar(kind)
+                or self.class_of(kind, scope.enclosing) is not None
+            ):
                 return self.class_value(kind, items, place, scope)
         made_list = self.list_value(inner or "", items, place, scope)
         if inner is not None and isinstance(made_list[0].value, Array):
@@ -159,8 +214,14 @@ class Structures(Evaluator):
         return made_list
 
     def counted_pointer(self, items: Items, place: Span, scope: Scope) -> Value | None:
-        """Returns the list of a count and a pointer to its elements, as vulkan.hpp takes it: `{1, &subpass}`."""
-        if len(items) != 2 or any(path for path, _ in items) or items[1][1][0] not in (ADDRESS, CALL, NAME, FIELD):
+        """Returns the list of a count and a pointer to its elements, as vulkan.hpp takes it: `{1,
+        &subpass}`.
+        """
+        if (
+            len(items) != 2
+            or any(path for path, _ in items)
+            or items[1][1][0] not in (ADDRESS, CALL, NAME, FIELD)
+        ):
             return None
         count = self.sole(items[0][1], scope)
         target = sole_value(self.value(items[1][1], scope))
@@ -185,7 +246,12 @@ class Structures(Evaluator):
         counted = self.counted_pointer(items, place, scope)
         if counted is not None:
             return counted
-        if len(items) == 1 and items[0][0] is None and items[0][1][0] == BRACES and not items[0][1][1]:
+        if (
+            len(items) == 1
+            and items[0][0] is None
+            and items[0][1][0] == BRACES
+            and not items[0][1][1]
+        ):
             inner = items[0][1][2]
             # A std::array may have a second pair of braces; an element may have braces too.
             if (
@@ -201,9 +267,9 @@ class Structures(Evaluator):
             guards, term = self.unwrap_conditions(term)
             value = self.value(term, scope, kind)
             cell = Cell(kind)
-            cell.writes = tuple(Alternative(self.copies.value(a.value), a.at, a.guards | guards) for a in value) or (
-                Alternative(UNKNOWN, term[-1], guards),
-            )
+            cell.writes = tuple(
+                Alternative(self.copies.value(a.value), a.at, a.guards | guards) for a in value
+            ) or (Alternative(UNKNOWN, term[-1], guards),)
             index = path[0] if path else len(array.items)
             if isinstance(index, str):
                 index = sole_value(self.value((NAME, index.removeprefix("["), term[-1]), scope))
@@ -225,9 +291,15 @@ class Structures(Evaluator):
         """Returns `std::vector<T> list(3)` or `list(3, value)`."""
         array = Array(kind, place)
         counts = self.value(arguments[0], scope) if arguments else (Alternative(0, place),)
-        if not counts or not all(type(item.value) is int and 0 <= item.value <= 64 for item in counts) or len(arguments) > 2:
+        if (
+            not counts
+            or not all(type(item.value) is int and 0 <= item.value <= 64 for item in counts)
+            or len(arguments) > 2
+        ):
             value = pointee(sole_value(counts))
-            if isinstance(value, Array) and all(value is self.target(a, scope) for a in arguments[1:]):
+            if isinstance(value, Array) and all(
+                value is self.target(a, scope) for a in arguments[1:]
+            ):
                 return (Alternative(self.copies.value(value), place),)
             array.complete = False
             return (Alternative(array, place),)
@@ -238,12 +310,18 @@ class Structures(Evaluator):
             present = [count.guards for count in counts if count.value > n]
             if len(present) < len(counts):
                 # The list is longer under some conditions.
-                item.writes = tuple(write._replace(guards=write.guards | guards) for guards in present for write in item.writes)
+                item.writes = tuple(
+                    write._replace(guards=write.guards | guards)
+                    for guards in present
+                    for write in item.writes
+                )
             array.items.append(item)
         return (Alternative(array, place),)
 
     def class_value(self, kind: str, items: Items, place: Span, scope: Scope) -> Value:
-        """Returns an object of a class in the file, built by its constructor or from its members in order."""
+        """Returns an object of a class in the file, built by its constructor or from its members in
+        order.
+        """
         arguments = tuple(item for _, item in items)
         built = self.construct_class(kind, (CALL, (NAME, kind, place), arguments, place), scope)
         if built is not None:
@@ -261,11 +339,17 @@ class Structures(Evaluator):
         if term[0] == BRACES:
             return True
         value = self.target(term, scope)
-        return isinstance(value, Struct) and self.library.is_alike(value.kind, self.library.structure(kind))
+        return isinstance(value, Struct) and self.library.is_alike(
+            value.kind, self.library.structure(kind)
+        )
 
     def count_value(self, value: Any, place: Span) -> Value:
         value = pointee(value)
-        return (Alternative(len(value.items), place),) if isinstance(value, Array) and value.is_known else UNKNOWN_VALUE
+        return (
+            (Alternative(len(value.items), place),)
+            if isinstance(value, Array) and value.is_known
+            else UNKNOWN_VALUE
+        )
 
     def copy_memory(self, target: Term, source: Term, scope: Scope) -> None:
         """Executes `memcpy(&a, &b, sizeof a)` and the like."""
@@ -275,15 +359,26 @@ class Structures(Evaluator):
             to.fields, to.zeroed, to.kind = copy.fields, copy.zeroed, to.kind or copy.kind
         elif isinstance(to, Array) and isinstance(content, Array) and not scope.guards:
             copied = self.copies.value(content)
-            to.items[: len(copied.items)], to.complete = copied.items, to.complete and copied.complete
+            to.items[: len(copied.items)], to.complete = (
+                copied.items,
+                to.complete and copied.complete,
+            )
         elif isinstance(to, (Struct, Array)):
             forget(to)
 
-    def allocated(self, name: str, arguments: Sequence[Term], kind: str, place: Span, scope: Scope) -> Value:
+    def allocated(
+        self, name: str, arguments: Sequence[Term], kind: str, place: Span, scope: Scope
+    ) -> Value:
         """Returns memory for one or several structures of a type."""
         zeroed = "calloc" in name
         counts = [self.count_of_bytes(argument, scope) for argument in arguments]
-        count = counts[0] * counts[1] if len(counts) == 2 and counts[0] and counts[1] else counts[0] if len(counts) == 1 else None
+        count = (
+            counts[0] * counts[1]
+            if len(counts) == 2 and counts[0] and counts[1]
+            else counts[0]
+            if len(counts) == 1
+            else None
+        )
         element = self.unset_element(kind, place, zeroed).writes or (
             Alternative(self.new_object(self.class_of(kind, "") or "", place), place),
         )
@@ -291,7 +386,10 @@ class Structures(Evaluator):
             return element
         array = Array(kind, place)
         array.zeroed = zeroed
-        array.items = [self.unset_element(kind, place, zeroed) for _ in range(count if count is not None and count <= 64 else 0)]
+        array.items = [
+            self.unset_element(kind, place, zeroed)
+            for _ in range(count if count is not None and count <= 64 else 0)
+        ]
         return (Alternative(array, place),)
 
     def count_of_bytes(self, term: Term, scope: Scope) -> int | None:

@@ -2,30 +2,26 @@
 
 A term is a tuple of its kind, its parts, and its location. Expressions:
 
-    (NAME, text, at)                      a name as written, with its qualifiers: `vk::Format::eUndefined`, `samples`
-    (LITERAL, value, at)                  a number, a boolean, or None for a null pointer
-    (FIELD, object, name, at)             `object.name` or `object->name`; the location is that of the name
-    (INDEX, object, index, at)
-    (ADDRESS, of, at), (TARGET, of, at)   `&of` and `*of`
-    (UNARY, operator, of, at), (BINARY, operator, left, right, at), (ASSIGN, operator, target, value, at)
-    (CHOICE, condition, then, otherwise, at)
-    (CALL, function, arguments, at)       also constructors and functional casts
-    (BRACES, type or "", items, at)       items are (path of members or None, expression); the type is the one before the braces
-    (LAMBDA, parameters, body, at)
-    (SOME, text, way, expression, at)     an item in braces that exists only if a preprocessor condition has the value `way`
-    (LABEL, name, expression, at)         a labeled argument of a call
-    (UNPARSED, text, at)
+    (NAME, text, at)                      a name as written, with its qualifiers:
+    `vk::Format::eUndefined`, `samples` (LITERAL, value, at)                  a number, a boolean,
+    or None for a null pointer (FIELD, object, name, at)             `object.name` or
+    `object->name`; the location is that of the name (INDEX, object, index, at) (ADDRESS, of, at),
+    (TARGET, of, at)   `&of` and `*of` (UNARY, operator, of, at), (BINARY, operator, left, right,
+    at), (ASSIGN, operator, target, value, at) (CHOICE, condition, then, otherwise, at) (CALL,
+    function, arguments, at)       also constructors and functional casts (BRACES, type or "",
+    items, at)       items are (path of members or None, expression); the type is the one before the
+    braces (LAMBDA, parameters, body, at) (SOME, text, way, expression, at)     an item in braces
+    that exists only if a preprocessor condition has the value `way` (LABEL, name, expression, at)
+    a labeled argument of a call (UNPARSED, text, at)
 
 Statements:
 
-    (DECLARE, type, name, value or None, reference, fixed, at)     `fixed`: const, or the value of a macro or enumerator
-    (DO, expression, at), (RETURN, expression or None, at)
-    (LEAVE, at), (BREAK, at)                     the function; the loop or the switch
-    (IF, condition, then, otherwise, at)
-    (SWITCH, value, cases, at)                   cases are (labels, statements); the label None is the default
-    (LOOP, declared, over or None, body, at)     `over` is the range of a range-based loop
-    (SOME, text, then, otherwise, at)            a preprocessor block
-    (BLOCK, statements, at)
+    (DECLARE, type, name, value or None, reference, fixed, at)     `fixed`: const, or the value of a
+    macro or enumerator (DO, expression, at), (RETURN, expression or None, at) (LEAVE, at), (BREAK,
+    at)                     the function; the loop or the switch (IF, condition, then, otherwise,
+    at) (SWITCH, value, cases, at)                   cases are (labels, statements); the label None
+    is the default (LOOP, declared, over or None, body, at)     `over` is the range of a range-based
+    loop (SOME, text, then, otherwise, at)            a preprocessor block (BLOCK, statements, at)
 """
 
 from __future__ import annotations
@@ -37,7 +33,23 @@ from msaa_lint.core.text.span import Span
 
 Term = tuple[Any, ...]
 
-NAME, LITERAL, FIELD, INDEX, ADDRESS, TARGET, UNARY, BINARY, ASSIGN, CHOICE, CALL, BRACES, LAMBDA, UNPARSED, LABEL = range(15)
+(
+    NAME,
+    LITERAL,
+    FIELD,
+    INDEX,
+    ADDRESS,
+    TARGET,
+    UNARY,
+    BINARY,
+    ASSIGN,
+    CHOICE,
+    CALL,
+    BRACES,
+    LAMBDA,
+    UNPARSED,
+    LABEL,
+) = range(15)
 DECLARE, DO, RETURN, LEAVE, IF, LOOP, SOME, BLOCK, SWITCH, BREAK = range(20, 30)
 
 TUPLE = "()"
@@ -45,7 +57,9 @@ TUPLE = "()"
 
 
 class Parameter(NamedTuple):
-    """A parameter: its type without `const`, `&`, and `*`; its name, if any; its default as a term."""
+    """A parameter: its type without `const`, `&`, and `*`; its name, if any; its default as a
+    term.
+    """
 
     type: str
     name: str
@@ -58,7 +72,9 @@ class Parameter(NamedTuple):
 
 
 class Function(NamedTuple):
-    """A function definition: `class_name` is the class that it belongs to, `return_type` its return type; both may be empty."""
+    """A function definition: `class_name` is the class that it belongs to, `return_type` its return
+    type; both may be empty.
+    """
 
     name: str
     class_name: str
@@ -79,8 +95,10 @@ class Function(NamedTuple):
 
 
 class Unit(NamedTuple):
-    """The contents of a file, or of the files of a program: functions in order, the members of each class, global declarations, the
-    parameters of declared functions by name, the names of functions that others call, and virtual methods with their class."""
+    """The contents of a file, or of the files of a program: functions in order, the members of each
+    class, global declarations, the parameters of declared functions by name, the names of functions
+    that others call, and virtual methods with their class.
+    """
 
     functions: Sequence[Function]
     members: Mapping[str, Sequence[Term]]
@@ -91,7 +109,9 @@ class Unit(NamedTuple):
     bases: Mapping[str, Sequence[str]] = {}
     """The classes that each class derives from."""
     visible: Set[str] = frozenset()
-    """Members that other files can read and change, as `Class::member`, in languages that state it."""
+    """Members that other files can read and change, as `Class::member`, in languages that state
+    it.
+    """
     extended: Set[str] = frozenset()
     """Classes of which several files may declare members, in languages with extensions."""
     aliases: Mapping[str, str] = {}
@@ -110,7 +130,9 @@ def labeled(argument: Term) -> tuple[str, Term]:
 
 
 def short_name(name: str) -> str:
-    """Returns a name without its qualifiers and template arguments: `f` for `std::f<vk::Format>`."""
+    """Returns a name without its qualifiers and template arguments: `f` for
+    `std::f<vk::Format>`.
+    """
     if not name.endswith(">"):
         return name.rpartition("::")[2]
     depth = 0

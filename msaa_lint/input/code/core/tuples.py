@@ -1,4 +1,6 @@
-"""Pairs and tuples of C++: their elements by number, as `first` and `second`, and by structured bindings."""
+"""Pairs and tuples of C++: their elements by number, as `first` and `second`, and by structured
+bindings.
+"""
 
 from __future__ import annotations
 
@@ -35,8 +37,12 @@ class Tuples(Structures):
             array.kind = TUPLE
         return value
 
-    def tuple_call(self, function: Term, arguments: Sequence[Term], place: Span, scope: Scope) -> Value | None:
-        """Returns what a call constructs or refers to that has to do with tuples; None for other calls."""
+    def tuple_call(
+        self, function: Term, arguments: Sequence[Term], place: Span, scope: Scope
+    ) -> Value | None:
+        """Returns what a call constructs or refers to that has to do with tuples; None for other
+        calls.
+        """
         if function[0] != NAME:
             return None
         text = function[1]
@@ -48,12 +54,22 @@ class Tuples(Structures):
         return self.tuple_of(arguments, place, scope) if is_made and len(arguments) > 1 else None
 
     def tuple_element(self, term: Term, number: int, scope: Scope) -> Cell | None:
-        """Returns an element of a tuple, a list, or a structure of the program by its number, or None."""
+        """Returns an element of a tuple, a list, or a structure of the program by its number, or
+        None.
+        """
         value = self.target(term, scope)
         if isinstance(value, Array) and number < len(value.items):
             return value.items[number]
-        names = list(self.members.get(value.type, ())) if isinstance(value, Struct) and value.type else []
-        return self.member_of(value, names[number]) if isinstance(value, Struct) and number < len(names) else None
+        names = (
+            list(self.members.get(value.type, ()))
+            if isinstance(value, Struct) and value.type
+            else []
+        )
+        return (
+            self.member_of(value, names[number])
+            if isinstance(value, Struct) and number < len(names)
+            else None
+        )
 
     def field(self, operand: Term, name: str, scope: Scope) -> Cell | None:
         if name in _PAIR and operand[0] in (NAME, CALL):

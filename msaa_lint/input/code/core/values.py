@@ -1,7 +1,8 @@
 """Values of C and C++ expressions.
 
-A value is a tuple of alternatives, empty if nothing is known. Each alternative has the conditions under which it is the value. In a
-configuration, which decides conditions, a value may have a single alternative.
+A value is a tuple of alternatives, empty if nothing is known. Each alternative has the conditions
+under which it is the value. In a configuration, which decides conditions, a value may have a single
+alternative.
 """
 
 from __future__ import annotations
@@ -18,7 +19,9 @@ MAX_ALTERNATIVES = 12
 
 
 class Symbol(NamedTuple):
-    """An unknown value that is the same wherever it occurs. `chosen` is set if it comes from a function that selects a sample count."""
+    """An unknown value that is the same wherever it occurs. `chosen` is set if it comes from a
+    function that selects a sample count.
+    """
 
     key: str
     name: str
@@ -32,7 +35,9 @@ class Flags(NamedTuple):
 
 
 class Alternative(NamedTuple):
-    """A possible value of an expression, its location, and the conditions under which it applies."""
+    """A possible value of an expression, its location, and the conditions under which it
+    applies.
+    """
 
     value: Any
     at: Span
@@ -54,22 +59,32 @@ class Cell:
         self.name = name
         self.writes = writes
         self.key = key
-        """The key of the symbol that stands for an unknown value in it, for a parameter or member."""
+        """The key of the symbol that stands for an unknown value in it, for a parameter or
+        member.
+        """
 
     def write(self, value: Value, at: Span, guards: Guards) -> None:
         """Writes under conditions; replaces earlier writes that these conditions imply."""
-        fresh = tuple(Alternative(a.value, a.at, a.guards | guards) for a in value) or (Alternative(UNKNOWN, at, guards),)
+        fresh = tuple(Alternative(a.value, a.at, a.guards | guards) for a in value) or (
+            Alternative(UNKNOWN, at, guards),
+        )
         if guards and self.writes and len(fresh) == 1 and self.certainly_holds(fresh[0]):
             return
         before = tuple(w for w in self.writes if not guards <= w.guards) if guards else ()
         self.writes = limited((*before, *fresh), at)
 
     def certainly_holds(self, write: Alternative) -> bool:
-        """Returns whether a conditional write changes nothing. What a member holds comes from such writes, which are collected."""
+        """Returns whether a conditional write changes nothing. What a member holds comes from such
+        writes, which are collected.
+        """
         if self.kind == "member":
             return False
         current = self.read(write.guards)
-        return not current[0].guards and all(are_equal(a.value, write.value) for a in current) if current else False
+        return (
+            not current[0].guards and all(are_equal(a.value, write.value) for a in current)
+            if current
+            else False
+        )
 
     def read(self, guards: Guards) -> Value:
         """Returns the possible values under some conditions."""
@@ -77,7 +92,9 @@ class Cell:
 
 
 class SplitCell(Cell):
-    """One of several cells, each under its conditions: the element of a list at an index that a condition decides."""
+    """One of several cells, each under its conditions: the element of a list at an index that a
+    condition decides.
+    """
 
     __slots__ = ("parts",)
 
@@ -88,7 +105,11 @@ class SplitCell(Cell):
     @property
     def writes(self) -> Value:
         """The writes to any of the cells."""
-        return tuple(Alternative(w.value, w.at, w.guards | guards) for cell, guards in self.parts for w in cell.writes)
+        return tuple(
+            Alternative(w.value, w.at, w.guards | guards)
+            for cell, guards in self.parts
+            for w in cell.writes
+        )
 
     @writes.setter
     def writes(self, value: Value) -> None:
@@ -112,7 +133,9 @@ UNKNOWN = Unknown()
 
 
 def limited(writes: Value, at: Span) -> Value:
-    """Returns writes, of which at most MAX_ALTERNATIVES are kept apart: an unconditional one stays, and what others write is unknown."""
+    """Returns writes, of which at most MAX_ALTERNATIVES are kept apart: an unconditional one stays,
+    and what others write is unknown.
+    """
     if len(writes) <= MAX_ALTERNATIVES:
         return writes
     first = () if writes[0].guards else writes[:1]
@@ -127,8 +150,9 @@ def possible_writes(writes: Value, conditions: Mapping[str, bool]) -> Value:
 
 
 def _visible(writes: Value, remainder: Callable[[Guards], Guards | None]) -> Value:
-    """Returns the writes from the last back to the first from which on one certainly happens. `remainder` returns the conditions under
-    which a write happens, or None."""
+    """Returns the writes from the last back to the first from which on one certainly happens.
+    `remainder` returns the conditions under which a write happens, or None.
+    """
     if not writes or not writes[-1].guards:
         # Nothing shows through an unconditional write.
         return writes[-1:]
@@ -139,11 +163,15 @@ def _visible(writes: Value, remainder: Callable[[Guards], Guards | None]) -> Val
         rest = remainder(write.guards)
         if rest is None:
             continue
-        alternatives.append(write if rest is write.guards else Alternative(write.value, write.at, rest))
+        alternatives.append(
+            write if rest is write.guards else Alternative(write.value, write.at, rest)
+        )
         if not rest:
             break
         # Conditions can only cover all cases if some of them are opposite.
-        opposite = opposite or any((text, not way) in tests or isinstance(text, Conjunction) for text, way in rest)
+        opposite = opposite or any(
+            (text, not way) in tests or isinstance(text, Conjunction) for text, way in rest
+        )
         tests.update(rest)
         if opposite and covers(tuple(a.guards for a in alternatives)):
             break
@@ -151,7 +179,9 @@ def _visible(writes: Value, remainder: Callable[[Guards], Guards | None]) -> Val
 
 
 class Struct:
-    """A structure of Vulkan or the program. In a zeroed structure, unset members are zero. `name` is the first variable that held it."""
+    """A structure of Vulkan or the program. In a zeroed structure, unset members are zero. `name`
+    is the first variable that held it.
+    """
 
     __slots__ = ("at", "fields", "kind", "name", "type", "used", "zeroed")
 
@@ -174,9 +204,11 @@ class Struct:
 
 
 class Instance(Struct):
-    """An object that all variables refer to. Its members are those of a key in the current entry point, as those of classes are.
+    """An object that all variables refer to. Its members are those of a key in the current entry
+    point, as those of classes are.
 
-    `complete` is set if the program creates it, so that members that it does not set have their defaults.
+    `complete` is set if the program creates it, so that members that it does not set have their
+    defaults.
     """
 
     __slots__ = ("complete", "key", "members")
@@ -185,13 +217,19 @@ class Instance(Struct):
         self.members = members
         super().__init__(kind, at)
         self.key = key
-        """What the names of its members start with in the program: `@3.`, or `Renderer::` for any object of a class."""
+        """What the names of its members start with in the program: `@3.`, or `Renderer::` for any
+        object of a class.
+        """
         self.complete = complete
 
     @property
     def fields(self) -> dict[str, Cell]:
         """The members that are set."""
-        return {name: cell for name in self.members.names_of(self.key) if (cell := self.cell(name)).writes}
+        return {
+            name: cell
+            for name in self.members.names_of(self.key)
+            if (cell := self.cell(name)).writes
+        }
 
     @fields.setter
     def fields(self, _: dict[str, Cell]) -> None:
@@ -212,7 +250,9 @@ class Members(Protocol):
 
 
 class Array:
-    """A list. `complete` means that all its elements are known; `zeroed` that further elements are zero."""
+    """A list. `complete` means that all its elements are known; `zeroed` that further elements are
+    zero.
+    """
 
     __slots__ = ("alike", "at", "complete", "items", "kind", "name", "others", "unset", "zeroed")
 
@@ -226,9 +266,13 @@ class Array:
         self.others: dict[str, Cell] = {}
         """The elements at unknown indices, by the index."""
         self.unset = False
-        """Whether it is a member that was not used yet. Then its length is not known, although it starts empty."""
+        """Whether it is a member that was not used yet. Then its length is not known, although it
+        starts empty.
+        """
         self.alike = False
-        """Whether it consists of what one loop of unknown length appends, of which one element is known."""
+        """Whether it consists of what one loop of unknown length appends, of which one element is
+        known.
+        """
 
     @property
     def is_known(self) -> bool:
@@ -244,9 +288,22 @@ class Ref(NamedTuple):
 
 
 class ApiObject:
-    """A Vulkan object created by a call: an image, a view, a render pass. `info` is a copy of its creation structure."""
+    """A Vulkan object created by a call: an image, a view, a render pass. `info` is a copy of its
+    creation structure.
+    """
 
-    __slots__ = ("at", "escaped", "guards", "info", "key", "kind", "memory", "name", "name_depth", "repeated")
+    __slots__ = (
+        "at",
+        "escaped",
+        "guards",
+        "info",
+        "key",
+        "kind",
+        "memory",
+        "name",
+        "name_depth",
+        "repeated",
+    )
 
     def __init__(self, kind: str, key: tuple[Any, ...], at: Span, info: Struct) -> None:
         self.kind = kind
@@ -265,7 +322,10 @@ class ApiObject:
 
     def signature(self) -> tuple[Any, ...]:
         """Returns what identical objects created by the same call have in common."""
-        members = [(name, tuple(_said(write.value) for write in cell.writes)) for name, cell in self.info.fields.items()]
+        members = [
+            (name, tuple(_said(write.value) for write in cell.writes))
+            for name, cell in self.info.fields.items()
+        ]
         return (self.kind, self.at, tuple(sorted(members)))
 
 
@@ -308,7 +368,9 @@ class Routine:
 
 
 def inner_cells(value: Any) -> list[Cell]:
-    """Returns the cells in a value: members of a structure, elements of a list, the target of a pointer."""
+    """Returns the cells in a value: members of a structure, elements of a list, the target of a
+    pointer.
+    """
     if isinstance(value, Struct):
         return list(value.fields.values())
     if isinstance(value, Array):
@@ -318,7 +380,9 @@ def inner_cells(value: Any) -> list[Cell]:
 
 def structures_in(value: Any) -> list[Struct]:
     """Returns a structure, or the structures that a list consists of."""
-    values = [sole_value(cell.writes) for cell in value.items] if isinstance(value, Array) else [value]
+    values = (
+        [sole_value(cell.writes) for cell in value.items] if isinstance(value, Array) else [value]
+    )
     return [item for item in values if isinstance(item, Struct)]
 
 
@@ -352,8 +416,12 @@ def are_equal(left: Any, right: Any, depth: int = 0) -> bool:
     if isinstance(left, Struct) and isinstance(right, Struct):
         return bool(left.kind or depth) and _have_equal_members(left, right, depth)
     if isinstance(left, Ref) and isinstance(right, Ref):
-        return left == right or (left.alias == right.alias and _hold_equal(left.cell, right.cell, depth))
-    return not isinstance(left, (Struct, Array)) and type(left) is type(right) and bool(left == right)
+        return left == right or (
+            left.alias == right.alias and _hold_equal(left.cell, right.cell, depth)
+        )
+    return (
+        not isinstance(left, (Struct, Array)) and type(left) is type(right) and bool(left == right)
+    )
 
 
 MAX_COMPARED = 4
@@ -361,8 +429,15 @@ MAX_COMPARED = 4
 
 
 def _have_equal_members(left: Struct, right: Struct, depth: int) -> bool:
-    """Returns whether the same code fills two structures with equal values, as a function does that is called again."""
-    same = left.at == right.at and left.kind == right.kind and left.zeroed == right.zeroed and depth < MAX_COMPARED
+    """Returns whether the same code fills two structures with equal values, as a function does that
+    is called again.
+    """
+    same = (
+        left.at == right.at
+        and left.kind == right.kind
+        and left.zeroed == right.zeroed
+        and depth < MAX_COMPARED
+    )
     return (
         same
         and not isinstance(left, Instance)
@@ -376,4 +451,8 @@ def _hold_equal(left: Cell, right: Cell, depth: int) -> bool:
     if len(left.writes) != len(right.writes) or depth >= MAX_COMPARED:
         return False
     pairs = zip(left.writes, right.writes, strict=True)
-    return all((a.value is UNKNOWN and b.value is UNKNOWN and a.at == b.at) or are_equal(a.value, b.value, depth + 1) for a, b in pairs)
+    return all(
+        (a.value is UNKNOWN and b.value is UNKNOWN and a.at == b.at)
+        or are_equal(a.value, b.value, depth + 1)
+        for a, b in pairs
+    )

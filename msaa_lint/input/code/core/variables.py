@@ -15,7 +15,19 @@ from .limits import Work, WorkLimitExceeded
 from .scope import MEMBER, Scope
 from .terms import CALL, DECLARE, FIELD, INDEX, NAME, TARGET, Term, Unit
 from .types import array_size, element_type
-from .values import UNKNOWN_VALUE, Alternative, Array, Cell, Flags, Instance, Ref, Struct, Value, pointee, sole_value
+from .values import (
+    UNKNOWN_VALUE,
+    Alternative,
+    Array,
+    Cell,
+    Flags,
+    Instance,
+    Ref,
+    Struct,
+    Value,
+    pointee,
+    sole_value,
+)
 
 MAX_KEY = 2000
 """The maximum length of the path of a member; those of longer ones are unknown."""
@@ -32,7 +44,9 @@ def _element(kind: str, part: str) -> str:
 class Variables(ABC):
     """The variables and members of one file."""
 
-    def __init__(self, unit: Unit, library: Library, fragments: bool, is_cpp: bool, work: Work) -> None:
+    def __init__(
+        self, unit: Unit, library: Library, fragments: bool, is_cpp: bool, work: Work
+    ) -> None:
         self.unit = unit = without_aliases(unit)
         self.library = library
         self.work = work
@@ -45,10 +59,18 @@ class Variables(ABC):
         self.globals: dict[str, Term] = {}
         for term in unit.outside:
             if term[0] == DECLARE:
-                # Conflicting declarations, for example under different preprocessor conditions, make the value unknown.
+                # Conflicting declarations, for example under different preprocessor conditions,
+                # make the value unknown.
                 before = self.globals.get(term[2])
-                again = before is not None and before[3] is not None and term[3] is not None and before[3][:-1] != term[3][:-1]
-                self.globals[term[2]] = (*term[:3], None, *term[4:]) if again and not fragments else term
+                again = (
+                    before is not None
+                    and before[3] is not None
+                    and term[3] is not None
+                    and before[3][:-1] != term[3][:-1]
+                )
+                self.globals[term[2]] = (
+                    (*term[:3], None, *term[4:]) if again and not fragments else term
+                )
         self.classes = Classes(unit)
         self.members = self.classes.members
         self.summary: dict[str, Value] = {}
@@ -62,12 +84,16 @@ class Variables(ABC):
         self.overlay: dict[str, Cell] = {}
         """The cells of members in the current entry point."""
         self.held: set[str] = set()
-        """The members to which an object of the program is assigned where it is created; their members are known by their path."""
+        """The members to which an object of the program is assigned where it is created; their
+        members are known by their path.
+        """
         self.initial: dict[str, Value] = {}
         """The values of those members before the entry point was executed."""
         self.declared_values: dict[str, Value] = {}
         self.changeable: set[str] = set()
-        """The members that are taken to keep their initial value, although other code may change it."""
+        """The members that are taken to keep their initial value, although other code may change
+        it.
+        """
         self.initial_reads: dict[Span, str] = {}
         """Where such a value is read, with the assumption in words."""
         self.reading = False
@@ -79,7 +105,9 @@ class Variables(ABC):
         self.entry = Span(0, 0)
         """The current entry point."""
         self.started: dict[str, Array] = {}
-        """The lists in members that start empty in the current entry point, because no other one writes them."""
+        """The lists in members that start empty in the current entry point, because no other one
+        writes them.
+        """
         self._member_keys: dict[tuple[str, str, str], str] = {}
         self._types_of_keys: dict[str, str] = {}
         self.parts: dict[str, dict[str, None]] = {}
@@ -87,7 +115,9 @@ class Variables(ABC):
 
     @abstractmethod
     def value(self, term: Term, scope: Scope, kind: str = "") -> Value:
-        """Returns the possible values of an expression. `kind` is the target type, which braces need."""
+        """Returns the possible values of an expression. `kind` is the target type, which braces
+        need.
+        """
 
     def sole(self, term: Term, scope: Scope) -> Any:
         """Returns the value of an expression if there is only one, otherwise UNKNOWN."""
@@ -102,7 +132,9 @@ class Variables(ABC):
         """Returns the value of a call."""
 
     def step(self, scope: Scope) -> None:
-        """Counts the evaluation of a term, which takes longer under many conditions. Raises WorkLimitExceeded."""
+        """Counts the evaluation of a term, which takes longer under many conditions. Raises
+        WorkLimitExceeded.
+        """
         work = self.work
         work.left -= 1 + len(scope.guards) // 4
         if work.left < 0:
@@ -111,16 +143,27 @@ class Variables(ABC):
     def unset_element(self, kind: str, place: Span, zeroed: bool) -> Cell:
         """Returns an element of a list that is not initialized."""
         structure = self.library.structure(kind)
-        return Cell(kind, writes=(Alternative(Struct(structure, place, zeroed), place),) if structure else ())
+        return Cell(
+            kind,
+            writes=(Alternative(Struct(structure, place, zeroed), place),) if structure else (),
+        )
 
     def lasts(self, value: object) -> bool:
-        """Returns whether a variable's initial value is taken as its value: a format, a sample count above 1, an object."""
+        """Returns whether a variable's initial value is taken as its value: a format, a sample
+        count above 1, an object.
+        """
         if isinstance(value, str):
             return self.library.is_format(value)
-        return value is not None and not isinstance(value, (bool, float, Flags)) and (not isinstance(value, int) or value > 1)
+        return (
+            value is not None
+            and not isinstance(value, (bool, float, Flags))
+            and (not isinstance(value, int) or value > 1)
+        )
 
     def stored_value(self, value: Any, kind: str, name: str) -> Any:
-        """Returns a value as a variable holds it: structures and lists are copied and take the variable's name."""
+        """Returns a value as a variable holds it: structures and lists are copied and take the
+        variable's name.
+        """
         value = self.copies.value(value)
         if isinstance(value, Instance):
             value.name = value.name or name
@@ -166,7 +209,10 @@ class Variables(ABC):
                 return variables[name]
         if self.library.constant(name) is not None:
             return None
-        if scope.this_object is not None and self.classes.member(scope.class_name, name) is not None:
+        if (
+            scope.this_object is not None
+            and self.classes.member(scope.class_name, name) is not None
+        ):
             return self.own_member(name, scope.this_object, scope)
         return self.member_cell(self.member_key(name, scope))
 
@@ -204,7 +250,11 @@ class Variables(ABC):
         first, *rest = key.split(".")
         name = first.partition("[")[0]
         class_name, _, short = name.rpartition("::")
-        term = self.classes.member(class_name, short) if class_name else self.globals.get(name.removeprefix("::"))
+        term = (
+            self.classes.member(class_name, short)
+            if class_name
+            else self.globals.get(name.removeprefix("::"))
+        )
         term = term or self.globals.get(name.removeprefix("::"))
         kind = _element(str(term[1]), first) if term is not None else ""
         for part in rest:
@@ -216,7 +266,9 @@ class Variables(ABC):
         return kind
 
     def member_key(self, name: str, scope: Scope) -> str:
-        """Returns the key of a name that is not a local variable: a class member or a global variable."""
+        """Returns the key of a name that is not a local variable: a class member or a global
+        variable.
+        """
         key = (name, scope.namespace, scope.class_name)
         if key not in self._member_keys:
             self._member_keys[key] = self._member_key(name, scope)
@@ -232,14 +284,19 @@ class Variables(ABC):
             return f"{self.classes.owner(owner, short)}::{short}"
         namespace = scope.namespace
         while True:
-            if namespace + name in self.globals and self.classes.member(scope.class_name, name) is None:
+            if (
+                namespace + name in self.globals
+                and self.classes.member(scope.class_name, name) is None
+            ):
                 return f"::{namespace}{name}"
             if not namespace:
                 break
             namespace = namespace[:-2].rpartition("::")[0]
             namespace += "::" if namespace else ""
         in_class = scope.class_name and not self.fragments
-        return f"{self.classes.owner(scope.class_name, short)}::{short}" if in_class else f"::{short}"
+        return (
+            f"{self.classes.owner(scope.class_name, short)}::{short}" if in_class else f"::{short}"
+        )
 
     def member_cell(self, key: str) -> Cell:
         """Returns the cell of a member of an object by its path."""
@@ -257,17 +314,24 @@ class Variables(ABC):
             writes = self.summary.get(key) or self.object_summary.get(key) or self.declared(key)
             if len(writes) > 1:
                 # The first is the value where none of the others is.
-                others = (Alternative(w.value, w.at, w.guards | {(f"{key}={n}", True)}) for n, w in enumerate(writes[1:], 1))
+                others = (
+                    Alternative(w.value, w.at, w.guards | {(f"{key}={n}", True)})
+                    for n, w in enumerate(writes[1:], 1)
+                )
                 writes = (writes[0], *others)
             cell.writes = self.initial[key] = writes
         return cell
 
     def started_list(self, cell: Cell) -> Value:
-        """Returns an empty list for a member that is one, and that the current entry point fills; nothing for other members."""
+        """Returns an empty list for a member that is one, and that the current entry point fills;
+        nothing for other members.
+        """
         kind = element_type(self.type_of_key(cell.key))
         if kind is None or array_size(self.type_of_key(cell.key)) or self.declared(cell.key):
             return UNKNOWN_VALUE
-        array = self.started[cell.key] = Array(kind, self.entry, self.writers.get(cell.key, {self.entry}) == {self.entry})
+        array = self.started[cell.key] = Array(
+            kind, self.entry, self.writers.get(cell.key, {self.entry}) == {self.entry}
+        )
         array.name = cell.key.rpartition("::")[2].rpartition(".")[2]
         return (Alternative(array, self.entry),)
 
@@ -289,8 +353,12 @@ class Variables(ABC):
         """Returns the names of the members that are used with a key."""
         return tuple(self.parts.get(key.removesuffix("."), ()))
 
-    def member_of_object(self, value: Any, cell: Cell, name: str, place: Span, scope: Scope) -> Cell | None:
-        """Returns a member of an object of the API; None for other values. `cell` holds the value, or what is unknown."""
+    def member_of_object(
+        self, value: Any, cell: Cell, name: str, place: Span, scope: Scope
+    ) -> Cell | None:
+        """Returns a member of an object of the API; None for other values. `cell` holds the value,
+        or what is unknown.
+        """
         return value.cell(name) if isinstance(value, Instance) else None
 
     def typed_value(self, kind: str, name: str, place: Span) -> Value:
@@ -298,7 +366,9 @@ class Variables(ABC):
         return UNKNOWN_VALUE
 
     def gathered_struct(self, key: str, place: Span, depth: int = 0) -> Value:
-        """Returns an undeclared structure built from the members that are written, and from theirs."""
+        """Returns an undeclared structure built from the members that are written, and from
+        theirs.
+        """
         names = self.parts.get(key)
         if not names or depth > MAX_NESTING:
             return UNKNOWN_VALUE
@@ -319,8 +389,14 @@ class Variables(ABC):
         if owner:
             # What is written to it through other objects of its class.
             parent = self.class_of(self.type_of_key(owner), "")
-            key_of_class = f"{self.classes.owner(parent, name)}::{name}" if parent is not None else ""
-            return (self.summary_of(key_of_class) or self.declared(key_of_class)) if key_of_class else UNKNOWN_VALUE
+            key_of_class = (
+                f"{self.classes.owner(parent, name)}::{name}" if parent is not None else ""
+            )
+            return (
+                (self.summary_of(key_of_class) or self.declared(key_of_class))
+                if key_of_class
+                else UNKNOWN_VALUE
+            )
         class_name, _, name = key.rpartition("::")
         term = self.members.get(class_name, {}).get(name) if class_name else self.globals.get(name)
         if key.startswith("::"):
@@ -334,17 +410,33 @@ class Variables(ABC):
         name = name.rpartition("::")[2]
         if initializer is not None:
             namespace = (class_name or key[2:]).rpartition("::")[0]
-            value = self.value(initializer, Scope(class_name, f"{namespace}::" if namespace else ""), kind)
-            lasting = [a for a in value if not (isinstance(a.value, Struct) and not a.value.kind and not a.value.fields)]
+            value = self.value(
+                initializer, Scope(class_name, f"{namespace}::" if namespace else ""), kind
+            )
+            lasting = [
+                a
+                for a in value
+                if not (isinstance(a.value, Struct) and not a.value.kind and not a.value.fields)
+            ]
             if not fixed:
-                # Other code may change the value; discard values that are typical placeholders: one sample, null, false, an operation.
-                # Any code may change a public member.
-                lasting = [a for a in lasting if self.lasts(a.value) and (key not in self.unit.visible or key in self.globals)]
+                # Other code may change the value; discard values that are typical placeholders: one
+                # sample, null, false, an operation. Any code may change a public member.
+                lasting = [
+                    a
+                    for a in lasting
+                    if self.lasts(a.value) and (key not in self.unit.visible or key in self.globals)
+                ]
                 self.changeable.add(key)
-            self.declared_values[key] = tuple(Alternative(self.stored_value(a.value, kind, name), a.at, a.guards) for a in lasting)
+            self.declared_values[key] = tuple(
+                Alternative(self.stored_value(a.value, kind, name), a.at, a.guards) for a in lasting
+            )
         elif value := self.typed_value(kind, name, place):
             self.declared_values[key] = value
-        elif not indirect and not class_name and (self.library.structure(kind) or self.library.structure(element_type(kind) or "")):
+        elif (
+            not indirect
+            and not class_name
+            and (self.library.structure(kind) or self.library.structure(element_type(kind) or ""))
+        ):
             # Global variables are zero-initialized.
             self.declared_values[key] = self.default_value(kind, name, place, Scope(), zeroed=True)
         return self.declared_values[key]
@@ -355,14 +447,18 @@ class Variables(ABC):
 
     @abstractmethod
     def class_of_term(self, term: Term, scope: Scope) -> str | None:
-        """Returns the class of the object that an expression is or points to, by its declaration, or None."""
+        """Returns the class of the object that an expression is or points to, by its declaration,
+        or None.
+        """
 
     def class_of(self, kind: str, namespace: str) -> str | None:
         """Returns the class in the program that a type refers to, or None."""
         return self.classes.of_type(kind, namespace)
 
     def pointed_class(self, key: str) -> str:
-        """Returns the class, with a trailing `::`, that a pointer member refers to; which object it points to is unknown."""
+        """Returns the class, with a trailing `::`, that a pointer member refers to; which object it
+        points to is unknown.
+        """
         class_name, _, name = key.rpartition("::")
         kind = self.type_of_key(key)
         term = self.classes.member(class_name, name) if class_name else self.globals.get(name)
@@ -372,5 +468,9 @@ class Variables(ABC):
         return f"{target}::" if target is not None else ""
 
     @abstractmethod
-    def default_value(self, kind: str, name: str, place: Span, scope: Scope, zeroed: bool = False) -> Value:
-        """Returns the value of a variable without an initializer. vulkan.hpp structures have default constructors."""
+    def default_value(
+        self, kind: str, name: str, place: Span, scope: Scope, zeroed: bool = False
+    ) -> Value:
+        """Returns the value of a variable without an initializer. vulkan.hpp structures have
+        default constructors.
+        """

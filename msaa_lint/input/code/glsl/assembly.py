@@ -17,7 +17,9 @@ _MAGIC, _VERSION = 0x07230203, 0x00010000
 
 
 class Assembly:
-    """A module. `code` is the current function, and `variables` are the declarations at the start of its first block."""
+    """A module. `code` is the current function, and `variables` are the declarations at the start
+    of its first block.
+    """
 
     def __init__(self) -> None:
         self.bound = 1
@@ -55,7 +57,13 @@ class Assembly:
         self.decorations += (len(operands) + 3 << 16 | op.DECORATE, target, number, *operands)
 
     def decorate_member(self, target: int, member: int, number: int, *operands: int) -> None:
-        self.decorations += (len(operands) + 4 << 16 | op.MEMBER_DECORATE, target, member, number, *operands)
+        self.decorations += (
+            len(operands) + 4 << 16 | op.MEMBER_DECORATE,
+            target,
+            member,
+            number,
+            *operands,
+        )
 
     def type(self, kind: Type) -> int:
         """Returns the id of a type."""
@@ -74,7 +82,10 @@ class Assembly:
         elif kind[0] == "struct":
             number, operands = op.TYPE_STRUCT, [self.type(item) for _, item in kind[2]]
         elif kind[0] == "opaque":
-            number, operands = op.TYPE_IMAGE, (self.type(FLOAT), 1, 0, 0, int("MS" in str(kind[1])), 1, 0)
+            number, operands = (
+                op.TYPE_IMAGE,
+                (self.type(FLOAT), 1, 0, 0, int("MS" in str(kind[1])), 1, 0),
+            )
         else:
             number, operands = _SCALARS[kind]
         type_id = self._types[kind] = self.id()
@@ -98,12 +109,19 @@ class Assembly:
         type_id, constant_id = self.type(kind), self.id()
         special = 0 if specialization is None else op.SPEC_CONSTANT_TRUE - op.CONSTANT_TRUE
         if kind == BOOL:
-            self.declare((op.CONSTANT_TRUE if value else op.CONSTANT_FALSE) + special, type_id, constant_id)
+            self.declare(
+                (op.CONSTANT_TRUE if value else op.CONSTANT_FALSE) + special, type_id, constant_id
+            )
         elif kind == DOUBLE:
             low, high = struct.unpack("<II", struct.pack("<d", value))
             self.declare(op.CONSTANT + special, type_id, constant_id, low, high)
         elif kind == FLOAT:
-            self.declare(op.CONSTANT + special, type_id, constant_id, struct.unpack("<I", struct.pack("<f", value))[0])
+            self.declare(
+                op.CONSTANT + special,
+                type_id,
+                constant_id,
+                struct.unpack("<I", struct.pack("<f", value))[0],
+            )
         else:
             self.declare(op.CONSTANT + special, type_id, constant_id, int(value) & 0xFFFFFFFF)
         if specialization is None:
@@ -133,7 +151,13 @@ class Assembly:
         self.functions += (5 << 16 | op.FUNCTION, result, identity, 0, result)
         for kind, parameter in parameters:
             self.functions += (3 << 16 | op.FUNCTION_PARAMETER, kind, parameter)
-        self.functions += (2 << 16 | op.LABEL, self.id(), *self.variables, *self.code, 1 << 16 | op.FUNCTION_END)
+        self.functions += (
+            2 << 16 | op.LABEL,
+            self.id(),
+            *self.variables,
+            *self.code,
+            1 << 16 | op.FUNCTION_END,
+        )
 
     def module(self, model: int, main: int) -> bytes:
         """Returns the module, which has one entry point."""
@@ -143,10 +167,23 @@ class Assembly:
             words += (2 << 16 | op.CAPABILITY, capability)
         library = struct.unpack("<4I", b"GLSL.std.450\0\0\0\0")
         words += (6 << 16 | op.EXT_INST_IMPORT, self.extended, *library)
-        words += (3 + len(named) + len(self.interface) << 16 | op.ENTRY_POINT, model, main, *named, *self.interface)
+        words += (
+            3 + len(named) + len(self.interface) << 16 | op.ENTRY_POINT,
+            model,
+            main,
+            *named,
+            *self.interface,
+        )
         for mode in self.modes:
             words += (3 << 16 | op.EXECUTION_MODE, main, mode)
-        binary = array.array("I", [word & 0xFFFFFFFF for part in (words, self.decorations, self.declared, self.functions) for word in part])
+        binary = array.array(
+            "I",
+            [
+                word & 0xFFFFFFFF
+                for part in (words, self.decorations, self.declared, self.functions)
+                for word in part
+            ],
+        )
         return binary.tobytes()
 
 

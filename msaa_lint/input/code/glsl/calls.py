@@ -1,4 +1,6 @@
-"""Lowers GLSL calls to SPIR-V: constructors, sample fetches, built-in functions, functions of the shader."""
+"""Lowers GLSL calls to SPIR-V: constructors, sample fetches, built-in functions, functions of the
+shader.
+"""
 
 from __future__ import annotations
 
@@ -7,7 +9,21 @@ from msaa_lint.input.code.parsing import SyntaxNode, fields, without_comments
 
 from .expressions import FETCHES, Expressions
 from .text import UnsupportedShader
-from .types import EXTREMES, FLOAT, FUSED, INT, VOID, Type, is_image, multisampled, result, scalar_of, size_of, texel, vector
+from .types import (
+    EXTREMES,
+    FLOAT,
+    FUSED,
+    INT,
+    VOID,
+    Type,
+    is_image,
+    multisampled,
+    result,
+    scalar_of,
+    size_of,
+    texel,
+    vector,
+)
 from .values import Place, Value
 
 _QUERIES = ("textureSamples", "imageSamples")
@@ -26,7 +42,9 @@ def evaluate_call(expressions: Expressions, node: SyntaxNode, depth: int) -> Val
         return _length(expressions, function, depth)
     name = expressions.text_of(function)
     kind = expressions.kind(name)
-    if kind is not None and (kind[0] != "opaque" or name.startswith(("sampler", "isampler", "usampler"))):
+    if kind is not None and (
+        kind[0] != "opaque" or name.startswith(("sampler", "isampler", "usampler"))
+    ):
         return _constructor(expressions, kind, arguments, depth)
     if name in expressions.functions:
         return _call_function(expressions, node, name, arguments, depth)
@@ -37,22 +55,33 @@ def evaluate_call(expressions: Expressions, node: SyntaxNode, depth: int) -> Val
     return _built_in(expressions, node, name, arguments, depth)
 
 
-def _constructor(expressions: Expressions, kind: Type, arguments: list[SyntaxNode], depth: int) -> Value:
+def _constructor(
+    expressions: Expressions, kind: Type, arguments: list[SyntaxNode], depth: int
+) -> Value:
     if kind[0] == "opaque":
         # In Vulkan, a texture combined with a sampler is the image.
-        return expressions.value(arguments[0], depth) if arguments else expressions.opaque("sampler", kind, ())
+        return (
+            expressions.value(arguments[0], depth)
+            if arguments
+            else expressions.opaque("sampler", kind, ())
+        )
     values = [expressions.value(item, depth) for item in arguments]
     if size_of(kind):
         return expressions.construct(kind, values)
     if kind[0] == "struct":
         if len(kind[2]) != len(values):
             raise UnsupportedShader("a structure constructor has too few arguments")
-        components = [expressions.as_type(v, t) if size_of(t) else v for v, (_, t) in zip(values, kind[2], strict=True)]
+        components = [
+            expressions.as_type(v, t) if size_of(t) else v
+            for v, (_, t) in zip(values, kind[2], strict=True)
+        ]
         return expressions.result(op.COMPOSITE_CONSTRUCT, kind, *(item.id for item in components))
     return expressions.opaque("construct", kind, values)
 
 
-def _array(expressions: Expressions, function: SyntaxNode, arguments: list[SyntaxNode], depth: int) -> Value:
+def _array(
+    expressions: Expressions, function: SyntaxNode, arguments: list[SyntaxNode], depth: int
+) -> Value:
     """Lowers `float[4](...)`."""
     named = function.child_by_field_name("argument")
     inner = expressions.kind(expressions.text_of(named)) if named is not None else None
@@ -82,7 +111,12 @@ def _operand(expressions: Expressions, node: SyntaxNode, depth: int) -> Place | 
 
 
 def _sample_access(
-    expressions: Expressions, node: SyntaxNode, name: str, arguments: list[SyntaxNode], image: Place | Value, depth: int
+    expressions: Expressions,
+    node: SyntaxNode,
+    name: str,
+    arguments: list[SyntaxNode],
+    image: Place | Value,
+    depth: int,
 ) -> Value:
     """Lowers a sample fetch or a query for the number of samples."""
     image_value = expressions.load(image) if isinstance(image, Place) else image
@@ -92,35 +126,54 @@ def _sample_access(
         sample = expressions.value(arguments[1], depth) if len(arguments) == 2 else None
         at = expressions.splat(expressions.constant_value(INT, 0), 2)
     else:
-        at = expressions.value(arguments[1], depth) if len(arguments) == 3 else expressions.opaque("", INT, ())
+        at = (
+            expressions.value(arguments[1], depth)
+            if len(arguments) == 3
+            else expressions.opaque("", INT, ())
+        )
         sample = expressions.value(arguments[2], depth) if len(arguments) == 3 else None
     if sample is None:
         raise expressions.unsupported(node, "is not supported")
     expressions.fetches.append((expressions.text_of(arguments[0]), node.start_byte, node.end_byte))
     kind = texel(image.type)
     number = op.IMAGE_FETCH if name.startswith("texel") else op.IMAGE_READ
-    return expressions.result(number, kind, image_value.id, at.id, op.SAMPLE_OPERAND, expressions.as_type(sample, INT).id)
+    return expressions.result(
+        number, kind, image_value.id, at.id, op.SAMPLE_OPERAND, expressions.as_type(sample, INT).id
+    )
 
 
-def _built_in(expressions: Expressions, node: SyntaxNode, name: str, arguments: list[SyntaxNode], depth: int) -> Value:
+def _built_in(
+    expressions: Expressions, node: SyntaxNode, name: str, arguments: list[SyntaxNode], depth: int
+) -> Value:
     values = [expressions.value(item, depth) for item in arguments]
     kind = result(name, [value.type for value in values])
     if name in EXTREMES and len(values) == 2:
         one, other = expressions.common_type(*values)
         size = max(size_of(one.type), size_of(other.type))
-        one, other = (expressions.splat(item, size) if size_of(item.type) == 1 else item for item in (one, other))
+        one, other = (
+            expressions.splat(item, size) if size_of(item.type) == 1 else item
+            for item in (one, other)
+        )
         number = EXTREMES[name].get(str(scalar_of(one.type)[0]))
         if number is not None and size:
-            return expressions.result(op.EXT_INST, one.type, expressions.out.extended, number, one.id, other.id)
+            return expressions.result(
+                op.EXT_INST, one.type, expressions.out.extended, number, one.id, other.id
+            )
     if name == "fma" and len(values) == 3:
         ids = [expressions.as_type(value, values[0].type).id for value in values]
-        return expressions.result(op.EXT_INST, values[0].type, expressions.out.extended, FUSED, *ids)
+        return expressions.result(
+            op.EXT_INST, values[0].type, expressions.out.extended, FUSED, *ids
+        )
     if name in _OUT:
-        target = expressions.place(arguments[_OUT[name]], depth) if len(arguments) > _OUT[name] else None
+        target = (
+            expressions.place(arguments[_OUT[name]], depth) if len(arguments) > _OUT[name] else None
+        )
         if target is None:
             raise expressions.unsupported(node, "is not supported")
         expressions.store(target, expressions.opaque(name, target.type, values[:1]))
-        return expressions.opaque(f"{name} whole", vector(FLOAT, size_of(values[0].type)), values[:1])
+        return expressions.opaque(
+            f"{name} whole", vector(FLOAT, size_of(values[0].type)), values[:1]
+        )
     if kind is None:
         raise expressions.unsupported(node, "is not defined")
     if kind == VOID or name.startswith(_WRITES):
@@ -131,7 +184,9 @@ def _built_in(expressions: Expressions, node: SyntaxNode, name: str, arguments: 
     return expressions.opaque(name, kind, values)
 
 
-def _call_function(expressions: Expressions, node: SyntaxNode, name: str, arguments: list[SyntaxNode], depth: int) -> Value:
+def _call_function(
+    expressions: Expressions, node: SyntaxNode, name: str, arguments: list[SyntaxNode], depth: int
+) -> Value:
     """Lowers a call of a function of the shader."""
     operands = [_operand(expressions, argument, depth) for argument in arguments]
     function = expressions.overload(name, [_type(operand) for operand in operands])
@@ -155,7 +210,9 @@ def _call_function(expressions: Expressions, node: SyntaxNode, name: str, argume
             back.append((operand, copy))
         else:
             passed.append(value.id)
-    call_result = expressions.out.instruction(op.FUNCTION_CALL, function.returns, function.id, *passed)
+    call_result = expressions.out.instruction(
+        op.FUNCTION_CALL, function.returns, function.id, *passed
+    )
     for place, copy in back:
         expressions.store(place, expressions.load(copy))
     return Value(call_result, function.returns)

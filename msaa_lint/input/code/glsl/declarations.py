@@ -1,4 +1,6 @@
-"""Lowers GLSL declarations to SPIR-V: variables, blocks, structures, constants, function headers."""
+"""Lowers GLSL declarations to SPIR-V: variables, blocks, structures, constants, function
+headers.
+"""
 
 from __future__ import annotations
 
@@ -19,8 +21,16 @@ MAX_PARTS = 1000
 
 _WORD = re.compile(r"\w+")
 _ENTRY = re.compile(r"(\w+)(?:\s*=\s*(\w+))?")
-_STORAGE = {"in": op.INPUT, "varying": op.INPUT, "out": op.OUTPUT, "uniform": op.UNIFORM_CONSTANT, "buffer": 12, "shared": 4}
-_DECORATED = {"location": op.LOCATION, "component": op.COMPONENT, "index": op.INDEX, "binding": op.BINDING, "set": op.DESCRIPTOR_SET,
+_STORAGE = {
+    "in": op.INPUT,
+    "varying": op.INPUT,
+    "out": op.OUTPUT,
+    "uniform": op.UNIFORM_CONSTANT,
+    "buffer": 12,
+    "shared": 4,
+}
+_DECORATED = {"location": op.LOCATION, "component": op.COMPONENT, "index": op.INDEX,
+"binding": op.BINDING, "set": op.DESCRIPTOR_SET,
               "input_attachment_index": op.INPUT_ATTACHMENT_INDEX}  # fmt: skip
 _SAMPLE_BUILT_INS = ("gl_SampleID", "gl_SamplePosition")
 
@@ -117,21 +127,37 @@ class Declarations(Expressions):
     def qualifiers(self, node: SyntaxNode, end: int) -> tuple[set[str], dict[str, int | None]]:
         """Returns the qualifiers before a type: words, and the entries of `layout`."""
         layouts = [child for child in node.children if child.type == "layout_specification"]
-        texts = [self.text_of(child) for child in node.children if child.start_byte < end and child not in layouts]
-        pairs = [pair for layout in layouts for pair in _ENTRY.findall(self.text_of(layout).partition("(")[2])]
-        return set(_WORD.findall(" ".join(texts))), {name: self.integer(value) if value else None for name, value in pairs}
+        texts = [
+            self.text_of(child)
+            for child in node.children
+            if child.start_byte < end and child not in layouts
+        ]
+        pairs = [
+            pair
+            for layout in layouts
+            for pair in _ENTRY.findall(self.text_of(layout).partition("(")[2])
+        ]
+        return set(_WORD.findall(" ".join(texts))), {
+            name: self.integer(value) if value else None for name, value in pairs
+        }
 
     def declaration(self, node: SyntaxNode) -> None:
         if any(child.type == "ERROR" for child in node.children):
             raise self.unsupported(node, "is not supported")
-        body = next((child for child in node.named_children if child.type == "field_declaration_list"), None)
+        body = next(
+            (child for child in node.named_children if child.type == "field_declaration_list"), None
+        )
         type_node = node.child_by_field_name("type")
         if body is not None and type_node is None:
             self.block(node, body)
             return
         if type_node is None:
             return
-        kind = self.structure(type_node) if type_node.type == "struct_specifier" else self.kind(self.text_of(type_node))
+        kind = (
+            self.structure(type_node)
+            if type_node.type == "struct_specifier"
+            else self.kind(self.text_of(type_node))
+        )
         words, layout = self.qualifiers(node, type_node.start_byte)
         if kind is None and self.text_of(type_node) != "precision":
             raise self.unsupported(node, "has an unknown type")
@@ -139,7 +165,9 @@ class Declarations(Expressions):
             if declarator.type != "function_declarator" and kind is not None:
                 self.declared(declarator, kind, words, layout)
 
-    def declared(self, node: SyntaxNode, kind: Type, words: set[str], layout: dict[str, int | None]) -> None:
+    def declared(
+        self, node: SyntaxNode, kind: Type, words: set[str], layout: dict[str, int | None]
+    ) -> None:
         """Declares a global variable."""
         name, kind, initializer = self.initialized(node, kind)
         if "const" in words or initializer is not None:
@@ -156,7 +184,9 @@ class Declarations(Expressions):
             self.out.capabilities.add(op.SAMPLE_RATE_SHADING)
 
     def with_binding(self, name: str, layout: dict[str, int | None]) -> dict[str, int | None]:
-        """Returns the layout of a multisampled image. Images without a binding, as in OpenGL, get a unique one."""
+        """Returns the layout of a multisampled image. Images without a binding, as in OpenGL, get a
+        unique one.
+        """
         if layout.get("binding") is None:
             layout = {**layout, "binding": 1000 + len(self.bindings)}
         self.bindings[name] = (layout.get("set") or 0, layout.get("binding"))
@@ -169,7 +199,11 @@ class Declarations(Expressions):
         target, initializer = self.parts(node, "declarator", "value")
         if target.type == "array_declarator" and target.child_by_field_name("size") is None:
             # The number of initial values is the size of the array.
-            kind = ("array", kind, len(without_comments(initializer.child_by_field_name("arguments") or initializer)))
+            kind = (
+                "array",
+                kind,
+                len(without_comments(initializer.child_by_field_name("arguments") or initializer)),
+            )
             target = target.child_by_field_name("declarator") or target
         return *self.declarator(target, kind), initializer
 
@@ -178,13 +212,23 @@ class Declarations(Expressions):
             value = layout.get(name)
             if value is not None:
                 self.out.decorate(target, number, value)
-        if storage == op.UNIFORM_CONSTANT and layout.get("binding") is not None and layout.get("set") is None:
+        if (
+            storage == op.UNIFORM_CONSTANT
+            and layout.get("binding") is not None
+            and layout.get("set") is None
+        ):
             self.out.decorate(target, op.DESCRIPTOR_SET, 0)
         if storage == op.OUTPUT and layout.get("location") is None:
             self.outputs_without_location.append(target)
 
     def constant(
-        self, name: str, kind: Type, initializer: SyntaxNode | None, layout: dict[str, int | None], node: SyntaxNode, fixed: bool
+        self,
+        name: str,
+        kind: Type,
+        initializer: SyntaxNode | None,
+        layout: dict[str, int | None],
+        node: SyntaxNode,
+        fixed: bool,
     ) -> None:
         """Declares a constant or an initialized variable."""
         if initializer is None:
@@ -192,10 +236,19 @@ class Declarations(Expressions):
         special = layout.get("constant_id")
         negative = initializer.type == "unary_expression" and self.text_of(initializer)[:1] == "-"
         literal = initializer.child_by_field_name("argument") if negative else initializer
-        while literal is not None and literal.type == "parenthesized_expression" and literal.named_child_count == 1:
+        while (
+            literal is not None
+            and literal.type == "parenthesized_expression"
+            and literal.named_child_count == 1
+        ):
             literal = literal.named_children[0]
         scalar = kind in (BOOL, INT, UINT, FLOAT)
-        if fixed and scalar and literal is not None and literal.type in ("number_literal", "true", "false"):
+        if (
+            fixed
+            and scalar
+            and literal is not None
+            and literal.type in ("number_literal", "true", "false")
+        ):
             text = self.text_of(literal)
             number = whole(text)
             value: float | bool = text == "true"
@@ -219,14 +272,44 @@ class Declarations(Expressions):
         """Declares a block of inputs, outputs, uniforms, or a buffer."""
         children = node.named_children
         at = children.index(body)
-        named = children[at - 1] if at and children[at - 1].type in ("identifier", "type_identifier") else None
-        words, layout = self.qualifiers(node, named.start_byte if named is not None else body.start_byte)
-        storage = next((_STORAGE[word] for word in ("in", "out", "uniform", "buffer", "shared") if word in words), op.UNIFORM)
-        storage = op.PUSH_CONSTANT if "push_constant" in layout else op.UNIFORM if storage == op.UNIFORM_CONSTANT else storage
+        named = (
+            children[at - 1]
+            if at and children[at - 1].type in ("identifier", "type_identifier")
+            else None
+        )
+        words, layout = self.qualifiers(
+            node, named.start_byte if named is not None else body.start_byte
+        )
+        storage = next(
+            (
+                _STORAGE[word]
+                for word in ("in", "out", "uniform", "buffer", "shared")
+                if word in words
+            ),
+            op.UNIFORM,
+        )
+        storage = (
+            op.PUSH_CONSTANT
+            if "push_constant" in layout
+            else op.UNIFORM
+            if storage == op.UNIFORM_CONSTANT
+            else storage
+        )
         members = self.members(body)
         label = self.text_of(named) if named is not None else f"block {node.start_byte}"
-        kind: Type = ("struct", f"{label} {node.start_byte}", tuple((name, item) for name, item, _ in members))
-        instance = next((child for child in children[at + 1 :] if child.type in ("identifier", "array_declarator")), None)
+        kind: Type = (
+            "struct",
+            f"{label} {node.start_byte}",
+            tuple((name, item) for name, item, _ in members),
+        )
+        instance = next(
+            (
+                child
+                for child in children[at + 1 :]
+                if child.type in ("identifier", "array_declarator")
+            ),
+            None,
+        )
         name, whole_kind = self.declarator(instance, kind) if instance is not None else ("", kind)
         variable = self.variable(storage, whole_kind)
         if storage != op.INPUT:

@@ -1,7 +1,9 @@
-"""Reads GLSL shaders that fetch samples as descriptions: the images, a pipeline with the shader, and the reads of a frame.
+"""Reads GLSL shaders that fetch samples as descriptions: the images, a pipeline with the shader,
+and the reads of a frame.
 
-How the shader uses the samples is determined from its SPIR-V (see `shader`). All that is known of the images is that they are read; on a
-page that also shows code that creates them, their sample count may be known.
+How the shader uses the samples is determined from its SPIR-V (see `shader`). All that is known of
+the images is that they are read; on a page that also shows code that creates them, their sample
+count may be known.
 """
 
 from __future__ import annotations
@@ -21,7 +23,9 @@ from .text import ShaderLimitExceeded, UnsupportedShader, blank
 
 RELEVANT = re.compile(r"\b[iu]?(?:sampler2DMS|texture2DMS|image2DMS|subpassInputMS)")
 
-NOT_COLOR = re.compile(r"depth|stencil|normal|position|velocity|motion|shadow|(?:^|_)ids?(?:_|$)", re.IGNORECASE)
+NOT_COLOR = re.compile(
+    r"depth|stencil|normal|position|velocity|motion|shadow|(?:^|_)ids?(?:_|$)", re.IGNORECASE
+)
 """Names of images whose samples must not be averaged, or whose average is not a color resolve."""
 
 MAX_SHADERS = 50
@@ -33,14 +37,21 @@ _VERSION = re.compile(r"^\s*#\s*version\b", re.MULTILINE)
 
 
 def trees(code: Code) -> list[Read]:
-    """Returns a tree for each shader that reads multisampled images. Raises `Missing` if the grammar is not installed."""
+    """Returns a tree for each shader that reads multisampled images. Raises `Missing` if the
+    grammar is not installed.
+    """
     if RELEVANT.search(code.text) is None:
         return []
     readings: list[Read] = []
     unread: list[Unread] = []
     for start, end in _shaders(code):
         if len(readings) == MAX_SHADERS:
-            unread.append(Unread(f"only the first {MAX_SHADERS} shaders of a page are checked", Span(start, start)))
+            unread.append(
+                Unread(
+                    f"only the first {MAX_SHADERS} shaders of a page are checked",
+                    Span(start, start),
+                )
+            )
             break
         text = blank(code.text[:start]) + code.text[start:end]
         try:
@@ -57,12 +68,16 @@ def trees(code: Code) -> list[Read]:
         if tree is not None:
             text = code.text[start:end].rstrip() + "\n"
             text = text[len(text) - len(text.lstrip()) :]
-            readings.append(Read(tree, (), {name: text.encode()} if lowered.stage == "FRAGMENT" else {}))
+            readings.append(
+                Read(tree, (), {name: text.encode()} if lowered.stage == "FRAGMENT" else {})
+            )
     return [*readings, Read(mapping([], Span(0, 0)), unread=tuple(unread))] if unread else readings
 
 
 def _shaders(code: Code) -> Iterator[tuple[int, int]]:
-    """Yields the range of each shader. A file is one shader; on a page, `#version`, `main`, and the gaps between blocks separate them."""
+    """Yields the range of each shader. A file is one shader; on a page, `#version`, `main`, and the
+    gaps between blocks separate them.
+    """
     if not code.fragments:
         yield 0, len(code.text)
         return
@@ -84,23 +99,39 @@ def _shaders(code: Code) -> Iterator[tuple[int, int]]:
 
 def _tree(lowered: Shader, reflected: Reflected, module: str) -> Node | None:
     """Returns a shader as a frame: the images, their reads, and the draw that performs them."""
-    named = [(name, image) for name, image in _images(lowered, reflected) if NOT_COLOR.search(name) is None]
+    named = [
+        (name, image)
+        for name, image in _images(lowered, reflected)
+        if NOT_COLOR.search(name) is None
+    ]
     if not named or len(named) != len(reflected.images) or not lowered.fetches:
         return None
     places = {name: _fetched(lowered, name) for name, _ in named}
     at = next(iter(places.values()))
-    images = [(name, Span(*lowered.images.get(name, at)), mapping([], places[name])) for name, _ in named]
+    images = [
+        (name, Span(*lowered.images.get(name, at)), mapping([], places[name])) for name, _ in named
+    ]
     reads = []
     for name, image in named:
         place = places[name]
-        members = [("image", place, scalar(name, place)), ("stage", place, scalar(lowered.stage, place))]
+        members = [
+            ("image", place, scalar(name, place)),
+            ("stage", place, scalar(lowered.stage, place)),
+        ]
         if lowered.stage == "COMPUTE" and image.resolves is not None:
-            members += [("samples", place, scalar("ALL", place)), ("resolves", place, scalar(image.resolves, place))]
+            members += [
+                ("samples", place, scalar("ALL", place)),
+                ("resolves", place, scalar(image.resolves, place)),
+            ]
         reads.append(mapping([("readImage", place, mapping(members, place))], place))
     sections = [("images", at, mapping(images, at))]
     if lowered.stage == "FRAGMENT":
         count = next((image.total for _, image in named), None)
-        count_at = Span(*lowered.constants[count]) if count is not None and count in lowered.constants else at
+        count_at = (
+            Span(*lowered.constants[count])
+            if count is not None and count in lowered.constants
+            else at
+        )
         stage = [
             ("stage", at, scalar("FRAGMENT", at)),
             ("module", at, scalar(module, at)),
@@ -116,14 +147,27 @@ def _tree(lowered: Shader, reflected: Reflected, module: str) -> Node | None:
 
 
 def _images(lowered: Shader, reflected: Reflected) -> list[tuple[str, Multisampled]]:
-    """Returns the fetched images by name; an empty list if they cannot be identified or are input attachments."""
-    if any(image.image.input_attachment is not None or image.image.element is not None for image in reflected.images):
+    """Returns the fetched images by name; an empty list if they cannot be identified or are input
+    attachments.
+    """
+    if any(
+        image.image.input_attachment is not None or image.image.element is not None
+        for image in reflected.images
+    ):
         return []
     if len(reflected.images) == 1 and len(lowered.images) == 1:
         return [(next(iter(lowered.images)), reflected.images[0])]
     by_place = {(item, binding): name for name, (item, binding) in lowered.bindings.items()}
-    named_images = [(by_place.get((image.image.descriptor_set or 0, image.image.binding), ""), image) for image in reflected.images]
-    return named_images if all(name for name, _ in named_images) and len({name for name, _ in named_images}) == len(named_images) else []
+    named_images = [
+        (by_place.get((image.image.descriptor_set or 0, image.image.binding), ""), image)
+        for image in reflected.images
+    ]
+    return (
+        named_images
+        if all(name for name, _ in named_images)
+        and len({name for name, _ in named_images}) == len(named_images)
+        else []
+    )
 
 
 def _fetched(lowered: Shader, name: str) -> Span:
@@ -136,9 +180,11 @@ def _fetched(lowered: Shader, name: str) -> Span:
 
 
 def with_page_counts(by_code: list[tuple[Code, list[Read]]]) -> list[tuple[Code, list[Read]]]:
-    """Sets the sample count of images in a page's shaders to the only multisampled count that its other code uses.
+    """Sets the sample count of images in a page's shaders to the only multisampled count that its
+    other code uses.
 
-    If that code sets specialization constants, the values in the shaders may not apply, and nothing is changed.
+    If that code sets specialization constants, the values in the shaders may not apply, and nothing
+    is changed.
     """
     others = [(code, entry) for code, item in by_code if code.language != "glsl" for entry in item]
     counts: dict[int, Span] = {}
@@ -148,16 +194,26 @@ def with_page_counts(by_code: list[tuple[Code, list[Read]]]) -> list[tuple[Code,
         return by_code
     ((count, at),) = counts.items()
     return [
-        (code, [item._replace(tree=_with_count(item.tree, count, at)) for item in entry] if code.language == "glsl" else entry)
+        (
+            code,
+            [item._replace(tree=_with_count(item.tree, count, at)) for item in entry]
+            if code.language == "glsl"
+            else entry,
+        )
         for code, entry in by_code
     ]
 
 
 def _counts(tree: Node) -> dict[int, Span]:
-    """Returns the sample counts above 1 of a tree's images, attachments, and pipelines, and their locations; 0 stands for an unknown
-    count."""
+    """Returns the sample counts above 1 of a tree's images, attachments, and pipelines, and their
+    locations; 0 stands for an unknown count.
+    """
     counts: dict[int, Span] = {}
-    stack = [tree.value[name] for name in ("images", "renderPasses", "pipelines") if tree.kind == "mapping" and name in tree.value]
+    stack = [
+        tree.value[name]
+        for name in ("images", "renderPasses", "pipelines")
+        if tree.kind == "mapping" and name in tree.value
+    ]
     while stack:
         node = stack.pop()
         for key, value in node.value.items() if node.kind == "mapping" else ():
@@ -179,6 +235,11 @@ def _counts(tree: Node) -> dict[int, Span]:
 def _with_count(tree: Node, count: int, at: Span) -> Node:
     """Returns a shader's tree whose images have a sample count."""
     images = tree.value["images"]
-    counted = [(name, images.keys[name].span, mapping([("samples", at, scalar(count, at))], at)) for name in images.value]
-    sections = [(key, tree.keys[key].span, value) for key, value in tree.value.items() if key != "images"]
+    counted = [
+        (name, images.keys[name].span, mapping([("samples", at, scalar(count, at))], at))
+        for name in images.value
+    ]
+    sections = [
+        (key, tree.keys[key].span, value) for key, value in tree.value.items() if key != "images"
+    ]
     return mapping([("images", images.span, mapping(counted, images.span)), *sections], tree.span)

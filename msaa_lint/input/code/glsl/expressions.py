@@ -12,7 +12,19 @@ from msaa_lint.input.code.sample_counts.arithmetic import whole
 
 from .text import ShaderLimitExceeded
 from .types import BOOL, DOUBLE, FLOAT, INT, UINT, scalar_of, size_of, vector
-from .values import LOGICAL_AND, LOGICAL_NOT, LOGICAL_NOT_EQUAL, LOGICAL_OR, MAX_DEPTH, SELECT, SIGNS, Place, Value, Values, literal_of
+from .values import (
+    LOGICAL_AND,
+    LOGICAL_NOT,
+    LOGICAL_NOT_EQUAL,
+    LOGICAL_OR,
+    MAX_DEPTH,
+    SELECT,
+    SIGNS,
+    Place,
+    Value,
+    Values,
+    literal_of,
+)
 
 FETCHES = ("texelFetch", "texelFetchOffset", "imageLoad", "subpassLoad")
 _REAL = re.compile(r"[-+]?(?:\d+\.\d*|\.\d+|\d+)(?:[eE][+-]?\d+)?")
@@ -32,7 +44,9 @@ class Expressions(Values):
 
     def value(self, node: SyntaxNode, depth: int = 0) -> Value:
         if depth > MAX_DEPTH:
-            raise ShaderLimitExceeded(f"an expression of the shader nests more than {MAX_DEPTH} levels deep")
+            raise ShaderLimitExceeded(
+                f"an expression of the shader nests more than {MAX_DEPTH} levels deep"
+            )
         kind, deeper = node.type, depth + 1
         if kind == "number_literal":
             return self.literal(node)
@@ -91,7 +105,9 @@ class Expressions(Values):
             if self.has_effects(right):
                 return self.short_circuit(one, operator, right, depth)
             other = self.value(right, depth)
-            return self.result(LOGICAL_AND if operator == "&&" else LOGICAL_OR, BOOL, one.id, other.id)
+            return self.result(
+                LOGICAL_AND if operator == "&&" else LOGICAL_OR, BOOL, one.id, other.id
+            )
         other = self.value(right, depth)
         if operator == "^^":
             return self.result(LOGICAL_NOT_EQUAL, BOOL, one.id, other.id)
@@ -100,7 +116,9 @@ class Expressions(Values):
         return self.arithmetic(operator, one, other)
 
     def has_effects(self, node: SyntaxNode) -> bool:
-        """Returns whether evaluating an expression has effects: it calls a function or assigns a variable."""
+        """Returns whether evaluating an expression has effects: it calls a function or assigns a
+        variable.
+        """
         if self._effects is None:
             self._effects = self._find_effects()
         starts, ends = self._effects
@@ -113,7 +131,9 @@ class Expressions(Values):
         return first < len(starts) and starts[first] < node.end_byte
 
     def _find_effects(self) -> tuple[list[int], list[int]]:
-        """Returns where the text has effects: the offsets at which they start, and the least at which one from there ends."""
+        """Returns where the text has effects: the offsets at which they start, and the least at
+        which one from there ends.
+        """
         ends: dict[int, int] = {}
         stack = [self.root]
         while stack:
@@ -123,20 +143,26 @@ class Expressions(Values):
                 name = self.text_of(inner.child_by_field_name("function"))
                 effect = name in self.functions or name in FETCHES
             if effect:
-                ends[inner.start_byte] = min(inner.end_byte, ends.get(inner.start_byte, inner.end_byte))
+                ends[inner.start_byte] = min(
+                    inner.end_byte, ends.get(inner.start_byte, inner.end_byte)
+                )
             stack += inner.named_children
         starts = sorted(ends)
         return starts, [ends[start] for start in starts]
 
     def short_circuit(self, one: Value, operator: str, right: SyntaxNode, depth: int) -> Value:
-        """Lowers `&&` and `||` whose second operand must only be evaluated if it decides the result."""
+        """Lowers `&&` and `||` whose second operand must only be evaluated if it decides the
+        result.
+        """
         result = self.temporary(BOOL)
         self.store(result, one)
         condition = one.id if operator == "&&" else self.out.instruction(LOGICAL_NOT, BOOL, one.id)
         self.branch(condition, lambda: self.store(result, self.value(right, depth)), None)
         return self.load(result)
 
-    def branch(self, condition: int, then: Callable[[], None], other: Callable[[], None] | None) -> None:
+    def branch(
+        self, condition: int, then: Callable[[], None], other: Callable[[], None] | None
+    ) -> None:
         """Lowers a selection with one or two branches."""
         yes, no, merge = self.out.id(), self.out.id(), self.out.id()
         self.out.emit(op.SELECTION_MERGE, merge, 0)
@@ -190,7 +216,9 @@ class Expressions(Values):
             raise self.unsupported(left, "cannot be assigned to")
         if operator != "=":
             value = self.arithmetic(operator[:-1], self.load(place), value)
-        value = self.as_type(value, vector(scalar_of(place.type), len(place.parts)) if place.parts else place.type)
+        value = self.as_type(
+            value, vector(scalar_of(place.type), len(place.parts)) if place.parts else place.type
+        )
         self.store(place, value)
         return value
 
@@ -216,7 +244,9 @@ class Expressions(Values):
             return self.opaque(operator, value.type, (value,))
         if operator == "~":
             return self.result(200, value.type, value.id)
-        return self.result(127 if scalar_of(value.type) in (FLOAT, DOUBLE) else 126, value.type, value.id)
+        return self.result(
+            127 if scalar_of(value.type) in (FLOAT, DOUBLE) else 126, value.type, value.id
+        )
 
     def literal(self, node: SyntaxNode) -> Value:
         text = self.text_of(node)
@@ -230,7 +260,17 @@ class Expressions(Values):
     def real(self, node: SyntaxNode) -> float:
         text = self.text_of(node)
         match = _REAL.match(text)
-        if match is None or text[match.end() :] not in ("", "f", "F", "lf", "LF", "hf", "HF", "u", "U"):
+        if match is None or text[match.end() :] not in (
+            "",
+            "f",
+            "F",
+            "lf",
+            "LF",
+            "hf",
+            "HF",
+            "u",
+            "U",
+        ):
             raise self.unsupported(node, "is not a number")
         real = float(match[0])
         if abs(real) > 3e38:

@@ -1,6 +1,8 @@
-"""Lowers GLSL shaders to SPIR-V: declarations, functions, statements. The module can then be analyzed by `frame.spirv`.
+"""Lowers GLSL shaders to SPIR-V: declarations, functions, statements. The module can then be
+analyzed by `frame.spirv`.
 
-Shaders are read as glslang reads them without options. Anything unsupported raises; nothing is reported for such a shader.
+Shaders are read as glslang reads them without options. Anything unsupported raises; nothing is
+reported for such a shader.
 """
 
 import re
@@ -36,8 +38,8 @@ class Fetch(NamedTuple):
 class Shader(NamedTuple):
     """A shader: its module, its stage, the name of its entry point, and its sample fetches.
 
-    `images` are the locations of its multisampled images, `bindings` their descriptor sets and bindings, `constants` the locations of
-    constants by value.
+    `images` are the locations of its multisampled images, `bindings` their descriptor sets and
+    bindings, `constants` the locations of constants by value.
     """
 
     code: bytes
@@ -50,9 +52,11 @@ class Shader(NamedTuple):
 
 
 def shader(text: str, part: bool = False) -> Shader:
-    """Lowers a shader. `part` allows a shader without `main`; its entry point is then the function that fetches samples.
+    """Lowers a shader. `part` allows a shader without `main`; its entry point is then the function
+    that fetches samples.
 
-    Raises UnsupportedShader if the shader cannot be lowered, and `parsing.Missing` if the extra is not installed.
+    Raises UnsupportedShader if the shader cannot be lowered, and `parsing.Missing` if the extra is
+    not installed.
     """
     return _ShaderLowering(preprocess(ascii_only(text))).shader(part)
 
@@ -98,34 +102,70 @@ class _ShaderLowering(Declarations):
         for layout in self.source.layouts:
             self.out.modes += (_MODES[word] for word in _WORD.findall(layout) if word in _MODES)
         at = self.source.place
-        fetches = tuple(Fetch(image, at(start), at(end - 1) + 1) for image, start, end in self.fetches)
+        fetches = tuple(
+            Fetch(image, at(start), at(end - 1) + 1) for image, start, end in self.fetches
+        )
         compute = any("local_size_x" in layout for layout in self.source.layouts)
         code = self.out.module(_COMPUTE if compute else _FRAGMENT, main)
-        images = {image: (at(start), at(end - 1) + 1) for image, (start, end) in self.images.items()}
-        constants = {count: (at(start), at(end - 1) + 1) for count, (start, end) in self.counts.items()}
-        return Shader(code, "COMPUTE" if compute else "FRAGMENT", name, fetches, images, self.bindings, constants)
+        images = {
+            image: (at(start), at(end - 1) + 1) for image, (start, end) in self.images.items()
+        }
+        constants = {
+            count: (at(start), at(end - 1) + 1) for count, (start, end) in self.counts.items()
+        }
+        return Shader(
+            code,
+            "COMPUTE" if compute else "FRAGMENT",
+            name,
+            fetches,
+            images,
+            self.bindings,
+            constants,
+        )
 
     def call_uncalled_functions(self) -> str:
-        """Calls the uncalled functions of a shader without `main`, passing images and values of their own.
+        """Calls the uncalled functions of a shader without `main`, passing images and values of
+        their own.
 
         Returns the name of the first.
         """
-        texts = {name: self.text_of(entry.node) for name, item in self.functions.items() for entry in item}
+        texts = {
+            name: self.text_of(entry.node)
+            for name, item in self.functions.items()
+            for entry in item
+        }
         first_name = ""
         for name, functions in self.functions.items():
             function = functions[0]
-            if not any(multisampled(kind) for kind, _, _ in function.parameters) and "texelFetch" not in texts[name]:
+            if (
+                not any(multisampled(kind) for kind, _, _ in function.parameters)
+                and "texelFetch" not in texts[name]
+            ):
                 continue
-            if any(re.search(rf"\b{name}\s*\(", text) for other, text in texts.items() if other != name):
+            if any(
+                re.search(rf"\b{name}\s*\(", text) for other, text in texts.items() if other != name
+            ):
                 continue
             passed: list[int] = []
             for kind, written, parameter in function.parameters:
-                storage = op.UNIFORM_CONSTANT if kind[0] == "opaque" else op.FUNCTION_LOCAL if written else op.INPUT
+                storage = (
+                    op.UNIFORM_CONSTANT
+                    if kind[0] == "opaque"
+                    else op.FUNCTION_LOCAL
+                    if written
+                    else op.INPUT
+                )
                 variable = self.variable(storage, kind)
                 if multisampled(kind):
-                    self.decorate_layout(variable.pointer, self.with_binding(parameter, {}), storage)
-                    self.images.setdefault(parameter, (function.node.start_byte, function.node.start_byte))
-                passed.append(variable.pointer if written or kind[0] == "opaque" else self.load(variable).id)
+                    self.decorate_layout(
+                        variable.pointer, self.with_binding(parameter, {}), storage
+                    )
+                    self.images.setdefault(
+                        parameter, (function.node.start_byte, function.node.start_byte)
+                    )
+                passed.append(
+                    variable.pointer if written or kind[0] == "opaque" else self.load(variable).id
+                )
             self.add_called(function)
             result = self.out.instruction(op.FUNCTION_CALL, function.returns, function.id, *passed)
             if function.returns != VOID:
@@ -170,7 +210,9 @@ class _ShaderLowering(Declarations):
 
     def statements(self, node: SyntaxNode, depth: int) -> None:
         if depth > MAX_DEPTH:
-            raise ShaderLimitExceeded(f"the blocks of the shader nest more than {MAX_DEPTH} levels deep")
+            raise ShaderLimitExceeded(
+                f"the blocks of the shader nest more than {MAX_DEPTH} levels deep"
+            )
         if node.type == "compound_statement":
             self.scopes.append({})
             for child in node.named_children:
@@ -205,7 +247,11 @@ class _ShaderLowering(Declarations):
         elif kind == "switch_statement":
             self.switch(node, depth)
         elif kind in ("break_statement", "continue_statement"):
-            ways = [way[kind == "continue_statement"] for way in self.jump_targets if way[kind == "continue_statement"]]
+            ways = [
+                way[kind == "continue_statement"]
+                for way in self.jump_targets
+                if way[kind == "continue_statement"]
+            ]
             if not ways:
                 raise self.unsupported(node, "is not supported")
             self.terminate(op.BRANCH, ways[-1])
@@ -230,11 +276,17 @@ class _ShaderLowering(Declarations):
             raise self.unsupported(node, "has an unknown type")
         for declarator in node.children_by_field_name("declarator"):
             name, declared_kind, initializer = self.initialized(declarator, kind)
-            value = self.value(initializer) if initializer is not None and initializer.type != "initializer_list" else None
+            value = (
+                self.value(initializer)
+                if initializer is not None and initializer.type != "initializer_list"
+                else None
+            )
             place = self.temporary(declared_kind)
             self.scopes[-1][name] = place
             if value is not None:
-                self.store(place, self.as_type(value, declared_kind) if size_of(declared_kind) else value)
+                self.store(
+                    place, self.as_type(value, declared_kind) if size_of(declared_kind) else value
+                )
             elif initializer is not None:
                 raise self.unsupported(initializer, "is not supported")
 
@@ -258,7 +310,9 @@ class _ShaderLowering(Declarations):
             if other is not None and inner is not None:
                 self.statements(inner if other.type == "else_clause" else other, depth)
 
-        self.branch(self.condition_id(condition), consequence, alternative if other is not None else None)
+        self.branch(
+            self.condition_id(condition), consequence, alternative if other is not None else None
+        )
 
     def loop(self, node: SyntaxNode, depth: int) -> None:
         out = self.out

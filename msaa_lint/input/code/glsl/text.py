@@ -1,4 +1,5 @@
-"""Preprocesses GLSL: blanks comments and directives, evaluates conditions, expands macros (GLSL 4.60, 3.3).
+"""Preprocesses GLSL: blanks comments and directives, evaluates conditions, expands macros (GLSL
+4.60, 3.3).
 
 As with glslang without options, nothing is defined except what the file defines.
 """
@@ -46,7 +47,9 @@ class Macro(NamedTuple):
 
 
 class Branch(NamedTuple):
-    """The current branch of a condition: whether its text exists, whether that of the condition does, and whether a branch was taken."""
+    """The current branch of a condition: whether its text exists, whether that of the condition
+    does, and whether a branch was taken.
+    """
 
     live: bool
     outer: bool
@@ -54,7 +57,9 @@ class Branch(NamedTuple):
 
 
 class PreprocessedText(NamedTuple):
-    """The text to parse, pairs of offsets in it and in the original text, and the contents of `layout(...) in;`."""
+    """The text to parse, pairs of offsets in it and in the original text, and the contents of
+    `layout(...) in;`.
+    """
 
     text: str
     pieces: tuple[tuple[int, int], ...]
@@ -81,13 +86,19 @@ def preprocess(text: str) -> PreprocessedText:
     out: list[str] = []
     pieces: list[tuple[int, int]] = []
     length = at = 0
-    macros: dict[str, Macro] = {"GL_core_profile": Macro(None, "1"), "VULKAN": Macro(None, "100"), "__VERSION__": Macro(None, "450")}
+    macros: dict[str, Macro] = {
+        "GL_core_profile": Macro(None, "1"),
+        "VULKAN": Macro(None, "100"),
+        "__VERSION__": Macro(None, "450"),
+    }
     branches: list[Branch] = []
     for line in re.findall(r"(?:[^\n\\]|\\\n|\\)*(?:\n|\Z)", text):
         directive = _DIRECTIVE.match(line) if "#" in line else None
         parts: Iterable[tuple[str, int]] = [(blank(line), at)]
         if directive is not None:
-            _apply_directive(directive[1], directive[2].replace("\\\n", "").strip(), macros, branches)
+            _apply_directive(
+                directive[1], directive[2].replace("\\\n", "").strip(), macros, branches
+            )
         elif not branches or branches[-1].live:
             parts = _expanded(line, at, macros)
         for part, original in parts:
@@ -98,7 +109,8 @@ def preprocess(text: str) -> PreprocessedText:
         at += len(line)
         if length > MAX_TEXT:
             raise ShaderLimitExceeded(
-                f"the macros of the shader expand to more than {MAX_EXPANDED} characters in a line, or {MAX_TEXT} in all"
+                f"the macros of the shader expand to more than {MAX_EXPANDED} characters in a "
+                f"line, or {MAX_TEXT} in all"
             )
     layouts: list[str] = []
 
@@ -110,7 +122,9 @@ def preprocess(text: str) -> PreprocessedText:
     return PreprocessedText(whole, tuple(pieces), tuple(layouts))
 
 
-def _apply_directive(name: str, rest: str, macros: dict[str, Macro], branches: list[Branch]) -> None:
+def _apply_directive(
+    name: str, rest: str, macros: dict[str, Macro], branches: list[Branch]
+) -> None:
     live = not branches or branches[-1].live
     if name in ("ifdef", "ifndef"):
         word = rest.split()[0] if rest.split() else ""
@@ -128,7 +142,11 @@ def _apply_directive(name: str, rest: str, macros: dict[str, Macro], branches: l
     elif name == "define" and live:
         match = _DEFINE.fullmatch(rest)
         if match is not None:
-            parameters = tuple(word.strip() for word in match[2][1:-1].split(",") if word.strip()) if match[2] else None
+            parameters = (
+                tuple(word.strip() for word in match[2][1:-1].split(",") if word.strip())
+                if match[2]
+                else None
+            )
             macros[match[1]] = Macro(parameters, match[3].strip())
             if len(macros) > MAX_MACROS:
                 raise ShaderLimitExceeded(f"the shader has more than {MAX_MACROS} macros")
@@ -138,7 +156,9 @@ def _apply_directive(name: str, rest: str, macros: dict[str, Macro], branches: l
 
 
 def _condition_holds(condition: str, macros: dict[str, Macro]) -> bool:
-    """Returns whether the condition of an `#if` holds. Raises UnsupportedShader if it is too complex."""
+    """Returns whether the condition of an `#if` holds. Raises UnsupportedShader if it is too
+    complex.
+    """
     text = _DEFINED.sub(lambda match: "1" if (match[1] or match[2]) in macros else "0", condition)
     text = _expand(text, macros, ())
     text = re.sub(r"\b[A-Za-z_]\w*\b", "0", text)
@@ -151,7 +171,9 @@ def _condition_holds(condition: str, macros: dict[str, Macro]) -> bool:
 
 
 def _expanded(line: str, at: int, macros: dict[str, Macro]) -> Iterator[tuple[str, int]]:
-    """Yields the parts of a line with its macros expanded, and the offset of each in the original text."""
+    """Yields the parts of a line with its macros expanded, and the offset of each in the original
+    text.
+    """
     position = 0
     if any(name in line for name in macros):
         for start, end, body in _replacements(line, macros, ()):
@@ -161,8 +183,12 @@ def _expanded(line: str, at: int, macros: dict[str, Macro]) -> Iterator[tuple[st
     yield line[position:], at + position
 
 
-def _replacements(text: str, macros: dict[str, Macro], expanding: tuple[str, ...]) -> Iterator[tuple[int, int, str]]:
-    """Yields the range of each macro in a text, and its expansion. A macro is not expanded in its own expansion."""
+def _replacements(
+    text: str, macros: dict[str, Macro], expanding: tuple[str, ...]
+) -> Iterator[tuple[int, int, str]]:
+    """Yields the range of each macro in a text, and its expansion. A macro is not expanded in its
+    own expansion.
+    """
     tokens = [(match[0], match.start(), match.end()) for match in _TOKEN.finditer(text)]
     index = 0
     while index < len(tokens):
@@ -205,7 +231,10 @@ def _arguments(tokens: list[tuple[str, int, int]], index: int) -> tuple[list[str
 def _expand(text: str, macros: dict[str, Macro], expanding: tuple[str, ...]) -> str:
     """Returns a text with its macros expanded."""
     if len(text) > MAX_EXPANDED:
-        raise ShaderLimitExceeded(f"the macros of the shader expand to more than {MAX_EXPANDED} characters in a line, or {MAX_TEXT} in all")
+        raise ShaderLimitExceeded(
+            f"the macros of the shader expand to more than {MAX_EXPANDED} characters in a line, or "
+            f"{MAX_TEXT} in all"
+        )
     if len(expanding) > MAX_NESTED:
         return text
     out: list[str] = []
@@ -217,5 +246,8 @@ def _expand(text: str, macros: dict[str, Macro], expanding: tuple[str, ...]) -> 
         if size > MAX_EXPANDED:
             break
     if size + len(text) - position > MAX_EXPANDED:
-        raise ShaderLimitExceeded(f"the macros of the shader expand to more than {MAX_EXPANDED} characters in a line, or {MAX_TEXT} in all")
+        raise ShaderLimitExceeded(
+            f"the macros of the shader expand to more than {MAX_EXPANDED} characters in a line, or "
+            f"{MAX_TEXT} in all"
+        )
     return "".join(out) + text[position:]

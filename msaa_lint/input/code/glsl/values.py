@@ -15,15 +15,25 @@ MAX_DEPTH = 80
 """The maximum nesting of expressions."""
 
 SIGNS: dict[str, tuple[int, int, int]] = {
-    "+": (128, 128, 129), "-": (130, 130, 131), "*": (132, 132, 133), "/": (135, 134, 136), "%": (139, 137, 141),
-    "<": (177, 176, 184), ">": (173, 172, 186), "<=": (179, 178, 188), ">=": (175, 174, 190), "==": (170, 170, 180), "!=": (171, 171, 182),
-    "<<": (196, 196, 196), ">>": (195, 194, 194), "&": (199, 199, 199), "|": (197, 197, 197), "^": (198, 198, 198),
+    "+": (128, 128, 129), "-": (130, 130, 131), "*": (132, 132, 133), "/": (135, 134, 136),
+    "%": (139, 137, 141),
+    "<": (177, 176, 184), ">": (173, 172, 186), "<=": (179, 178, 188), ">=": (175, 174, 190),
+    "==": (170, 170, 180), "!=": (171, 171, 182),
+    "<<": (196, 196, 196), ">>": (195, 194, 194), "&": (199, 199, 199), "|": (197, 197, 197),
+    "^": (198, 198, 198),
 }  # fmt: skip
 """The instructions of an operator for int, uint, and float."""
 
 _COMPARES = ("<", ">", "<=", ">=", "==", "!=")
 _LETTERS = {letter: n % 4 for n, letter in enumerate("xyzwrgbastpq")}
-LOGICAL_OR, LOGICAL_AND, LOGICAL_NOT, LOGICAL_EQUAL, LOGICAL_NOT_EQUAL, SELECT = 166, 167, 168, 164, 165, 169
+LOGICAL_OR, LOGICAL_AND, LOGICAL_NOT, LOGICAL_EQUAL, LOGICAL_NOT_EQUAL, SELECT = (
+    166,
+    167,
+    168,
+    164,
+    165,
+    169,
+)
 
 
 class Value(NamedTuple):
@@ -43,8 +53,9 @@ class Place(NamedTuple):
 
 
 class Function(NamedTuple):
-    """A function of the shader: its node, its return type, its id, and for each parameter the type, whether it is an output, and the
-    name."""
+    """A function of the shader: its node, its return type, its id, and for each parameter the type,
+    whether it is an output, and the name.
+    """
 
     node: SyntaxNode
     returns: Type
@@ -79,8 +90,12 @@ class Values(SyntaxReader):
         return UnsupportedShader(f"`{' '.join(self.text_of(node)[:40].split())}` {why}")
 
     def parts(self, node: SyntaxNode, *fields: str) -> "list[SyntaxNode]":
-        """Returns the children of a node in some fields. Raises UnsupportedShader if one is missing."""
-        children = [child for field in fields if (child := node.child_by_field_name(field)) is not None]
+        """Returns the children of a node in some fields. Raises UnsupportedShader if one is
+        missing.
+        """
+        children = [
+            child for field in fields if (child := node.child_by_field_name(field)) is not None
+        ]
         if len(children) < len(fields):
             raise self.unsupported(node, "is not supported")
         return children
@@ -124,7 +139,9 @@ class Values(SyntaxReader):
         self.by_sizes.setdefault((name, tuple(map(size_of, kinds))), []).append(function)
 
     def overload(self, name: str, types: Sequence[Type]) -> Function | None:
-        """Returns the function whose parameters have the argument types, or the types that they can be converted to."""
+        """Returns the function whose parameters have the argument types, or the types that they can
+        be converted to.
+        """
         same = self.by_types.get((name, tuple(types)))
         near = self.by_sizes.get((name, tuple(map(size_of, types))), ())
         return same or (near[0] if len(near) == 1 else None)
@@ -140,7 +157,9 @@ class Values(SyntaxReader):
     def place(self, node: SyntaxNode, depth: int = 0) -> Place | None:
         """Returns the lvalue that an expression denotes, or None for an rvalue."""
         if depth > MAX_DEPTH:
-            raise ShaderLimitExceeded(f"an expression of the shader nests more than {MAX_DEPTH} levels deep")
+            raise ShaderLimitExceeded(
+                f"an expression of the shader nests more than {MAX_DEPTH} levels deep"
+            )
         if node.type == "parenthesized_expression" and node.named_child_count == 1:
             return self.place(node.named_children[0], depth + 1)
         if node.type == "identifier":
@@ -160,20 +179,26 @@ class Values(SyntaxReader):
             index_node = node.child_by_field_name("index")
             if index_node is None or base.parts:
                 return None
-            return self.access_chain(base, self.element(base.type, node), self.value(index_node, depth + 1).id)
+            return self.access_chain(
+                base, self.element(base.type, node), self.value(index_node, depth + 1).id
+            )
         field = node.child_by_field_name("field")
         name = self.text_of(field)
         if base.type[0] == "struct":
             return self.member(base, self.index(base.type, name, node))
         parts = self.swizzle_parts(name, base.type, node)
-        return base._replace(parts=tuple(base.parts[part] for part in parts) if base.parts else parts)
+        return base._replace(
+            parts=tuple(base.parts[part] for part in parts) if base.parts else parts
+        )
 
     def member(self, base: Place, index: int) -> Place:
         return self.access_chain(base, base.type[2][index][1], self.out.number(INT, index))
 
     def access_chain(self, base: Place, kind: Type, index: int) -> Place:
         pointer = self.out.id()
-        self.out.emit(op.ACCESS_CHAIN, self.out.pointer(base.storage, kind), pointer, base.pointer, index)
+        self.out.emit(
+            op.ACCESS_CHAIN, self.out.pointer(base.storage, kind), pointer, base.pointer, index
+        )
         return Place(pointer, kind, base.storage)
 
     def element(self, kind: Type, node: SyntaxNode) -> Type:
@@ -204,7 +229,9 @@ class Values(SyntaxReader):
 
     def swizzle(self, value: Value, parts: tuple[int, ...]) -> Value:
         if size_of(value.type) == 1:
-            return self.construct(vector(value.type, len(parts)), [value]) if len(parts) > 1 else value
+            return (
+                self.construct(vector(value.type, len(parts)), [value]) if len(parts) > 1 else value
+            )
         kind = vector(scalar_of(value.type), len(parts))
         if len(parts) == 1:
             return self.result(op.COMPOSITE_EXTRACT, kind, value.id, parts[0])
@@ -219,31 +246,56 @@ class Values(SyntaxReader):
         value = self.as_type(value, vector(scalar, len(place.parts)))
         size = size_of(place.type)
         if size == 1 or len(place.parts) == 1:
-            target = place if size == 1 else self.access_chain(place, scalar, out.number(INT, place.parts[0]))
+            target = (
+                place
+                if size == 1
+                else self.access_chain(place, scalar, out.number(INT, place.parts[0]))
+            )
             out.emit(op.STORE, target.pointer, value.id)
             return
         before = self.load(place._replace(parts=()))
         order = [size + place.parts.index(n) if n in place.parts else n for n in range(size)]
-        out.emit(op.STORE, place.pointer, out.instruction(op.VECTOR_SHUFFLE, place.type, before.id, value.id, *order))
+        out.emit(
+            op.STORE,
+            place.pointer,
+            out.instruction(op.VECTOR_SHUFFLE, place.type, before.id, value.id, *order),
+        )
 
     # Values
 
     def as_type(self, value: Value, kind: Type) -> Value:
-        """Converts a value by GLSL's conversions or constructors between scalars and vectors of the same size."""
+        """Converts a value by GLSL's conversions or constructors between scalars and vectors of the
+        same size.
+        """
         if value.type == kind:
             return value
         one, other = scalar_of(value.type), scalar_of(kind)
         size = size_of(kind)
         if not size or size_of(value.type) != size:
-            raise UnsupportedShader(f"conversion from {type_text(value.type)} to {type_text(kind)} is not supported")
+            raise UnsupportedShader(
+                f"conversion from {type_text(value.type)} to {type_text(kind)} is not supported"
+            )
         if one == BOOL:
-            yes, no = (self.splat(self.constant_value(other, literal_of(other, n)), size).id for n in (1, 0))
+            yes, no = (
+                self.splat(self.constant_value(other, literal_of(other, n)), size).id
+                for n in (1, 0)
+            )
             return self.result(SELECT, kind, value.id, yes, no)
         if other == BOOL:
             zero = self.splat(self.constant_value(one, literal_of(one, 0)), size)
             return self.result(SIGNS["!="][column(one)], kind, value.id, zero.id)
         real, made_real = one in (FLOAT, DOUBLE), other in (FLOAT, DOUBLE)
-        number = 115 if real and made_real else 111 if one == INT and made_real else 112 if made_real else 110 if other == INT else 109
+        number = (
+            115
+            if real and made_real
+            else 111
+            if one == INT and made_real
+            else 112
+            if made_real
+            else 110
+            if other == INT
+            else 109
+        )
         if not real and not made_real:
             number = 124
         return self.result(number, kind, value.id)
@@ -262,7 +314,11 @@ class Values(SyntaxReader):
         if len(values) == 1 and size_of(values[0].type) == 1:
             return self.splat(self.as_type(values[0], scalar), size)
         if len(values) == 1 and size_of(values[0].type) >= size:
-            whole = values[0] if size_of(values[0].type) == size else self.swizzle(values[0], tuple(range(size)))
+            whole = (
+                values[0]
+                if size_of(values[0].type) == size
+                else self.swizzle(values[0], tuple(range(size)))
+            )
             return self.as_type(whole, kind)
         parts = [self.as_type(item, vector(scalar, size_of(item.type))) for item in values]
         if sum(size_of(part.type) for part in parts) != size:
@@ -273,12 +329,16 @@ class Values(SyntaxReader):
         return self.result(op.COMPOSITE_CONSTRUCT, kind, *(part.id for part in parts))
 
     def opaque(self, name: str, kind: Type, values: Sequence[Value]) -> Value:
-        """Returns the result of an operation that is not modeled; equal operands give equal results."""
+        """Returns the result of an operation that is not modeled; equal operands give equal
+        results.
+        """
         # Avoid the numbers that the analysis knows.
         number = 1000 + zlib.crc32(name.encode()) % 1_000_000
         if len(values) > 64:
             raise UnsupportedShader("a function has too many arguments")
-        return self.result(op.EXT_INST, kind, self.out.extended, number, *(item.id for item in values))
+        return self.result(
+            op.EXT_INST, kind, self.out.extended, number, *(item.id for item in values)
+        )
 
     def arithmetic(self, sign: str, one: Value, other: Value) -> Value:
         if "mat" in (one.type[0], other.type[0]):
@@ -292,15 +352,25 @@ class Values(SyntaxReader):
         if BOOL in kinds and sign not in ("==", "!="):
             raise UnsupportedShader(f"`{sign}` of a bool is not supported")
         scalar = kinds[0] if sign in ("<<", ">>") else _promoted(kinds)
-        one, other = (self.as_type(item, vector(scalar, size_of(item.type))) for item in (one, other))
+        one, other = (
+            self.as_type(item, vector(scalar, size_of(item.type))) for item in (one, other)
+        )
         if sign == "*" and scalar == FLOAT and size_of(one.type) != size_of(other.type):
             wide, narrow = (one, other) if size_of(one.type) > 1 else (other, one)
             return self.result(142, wide.type, wide.id, narrow.id)
-        one, other = (self.splat(item, size) if size_of(item.type) == 1 else item for item in (one, other))
+        one, other = (
+            self.splat(item, size) if size_of(item.type) == 1 else item for item in (one, other)
+        )
         if size_of(one.type) != size_of(other.type):
             raise UnsupportedShader(f"`{sign}` of vectors with different sizes is not supported")
         if sign in _COMPARES:
-            number = SIGNS[sign][column(scalar)] if scalar != BOOL else LOGICAL_EQUAL if sign == "==" else LOGICAL_NOT_EQUAL
+            number = (
+                SIGNS[sign][column(scalar)]
+                if scalar != BOOL
+                else LOGICAL_EQUAL
+                if sign == "=="
+                else LOGICAL_NOT_EQUAL
+            )
             value = self.result(number, vector(BOOL, size), one.id, other.id)
             return value if size == 1 else self.result(155 if sign == "==" else 154, BOOL, value.id)
         kind = vector(scalar, size)
@@ -311,7 +381,9 @@ class Values(SyntaxReader):
         if one.type == other.type or not size_of(one.type):
             return one, other
         scalar = _promoted([scalar_of(one.type), scalar_of(other.type)])
-        first, second = (self.as_type(item, vector(scalar, size_of(item.type))) for item in (one, other))
+        first, second = (
+            self.as_type(item, vector(scalar, size_of(item.type))) for item in (one, other)
+        )
         return first, second
 
 
@@ -325,7 +397,9 @@ def column(scalar: Type) -> int:
 
 
 def literal_of(scalar: Type, number: int) -> float | bool:
-    return bool(number) if scalar == BOOL else float(number) if scalar in (FLOAT, DOUBLE) else number
+    return (
+        bool(number) if scalar == BOOL else float(number) if scalar in (FLOAT, DOUBLE) else number
+    )
 
 
 def _of_matrix(sign: str, one: Type, other: Type) -> Type:
@@ -342,4 +416,8 @@ def _of_matrix(sign: str, one: Type, other: Type) -> Type:
 
 
 def type_text(kind: Type) -> str:
-    return f"{kind[1][0] if isinstance(kind[1], tuple) else kind[1]} {kind[0]}" if len(kind) > 1 else str(kind[0])
+    return (
+        f"{kind[1][0] if isinstance(kind[1], tuple) else kind[1]} {kind[0]}"
+        if len(kind) > 1
+        else str(kind[0])
+    )

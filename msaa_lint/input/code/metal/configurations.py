@@ -1,4 +1,6 @@
-"""The configuration that is described for a program that calls Metal, and the members of its descriptors in it."""
+"""The configuration that is described for a program that calls Metal, and the members of its
+descriptors in it.
+"""
 
 from __future__ import annotations
 
@@ -40,13 +42,27 @@ class MetalConfiguration(Configuration):
 
     def choose_configuration(self) -> None:
         """Selects the conditions under which the program is multisampled."""
-        writes = [(name, write, obj.guards) for obj in self.current_objects for name, value in members_of(obj.info) for write in value]
+        writes = [
+            (name, write, obj.guards)
+            for obj in self.current_objects
+            for name, value in members_of(obj.info)
+            for write in value
+        ]
         view = self.program.instances.get(("view",))
         if view is not None:
-            writes += [("sampleCount", write, ALWAYS) for write in self.program.snapshot(view, ALWAYS).cell("sampleCount").writes]
-        counts = [item for item in writes if item[0] in ("sampleCount", "rasterSampleCount") and type(item[1].value) is int]
+            writes += [
+                ("sampleCount", write, ALWAYS)
+                for write in self.program.snapshot(view, ALWAYS).cell("sampleCount").writes
+            ]
+        counts = [
+            item
+            for item in writes
+            if item[0] in ("sampleCount", "rasterSampleCount") and type(item[1].value) is int
+        ]
         # Prefer the count that every device supports, then the lowest.
-        for _, write, guards in sorted((c for c in counts if c[1].value > 1), key=lambda c: (c[1].value != ASSUMED, c[1].value)):
+        for _, write, guards in sorted(
+            (c for c in counts if c[1].value > 1), key=lambda c: (c[1].value != ASSUMED, c[1].value)
+        ):
             self.assume(write.guards | guards)
         for name, write, guards in writes:
             value = write.value
@@ -58,7 +74,11 @@ class MetalConfiguration(Configuration):
                 self.assume(write.guards | guards)
         for obj in self.current_objects:
             for name, value in members_of(obj.info):
-                resolving = [write.guards for write in value if name == "storeAction" and write.value in MULTISAMPLE_RESOLVES]
+                resolving = [
+                    write.guards
+                    for write in value
+                    if name == "storeAction" and write.value in MULTISAMPLE_RESOLVES
+                ]
                 if resolving:
                     # Which of several resolves it is stays open.
                     self.assume(frozenset.intersection(*resolving) | obj.guards)
@@ -71,12 +91,20 @@ class MetalConfiguration(Configuration):
         """Decides conditions that are about multisampling by their names."""
         for text, _ in guards:
             above = _ABOVE_ONE.match(text)
-            about = _ABOUT_SAMPLES.search(above[1]) if above is not None else _SWITCHED.search(text) if "=" not in text else None
+            about = (
+                _ABOUT_SAMPLES.search(above[1])
+                if above is not None
+                else _SWITCHED.search(text)
+                if "=" not in text
+                else None
+            )
             if about is not None:
                 self.configuration.setdefault(text, True)
 
     def field(self, struct: Struct, name: str) -> Field | None:
-        """Returns a member, or None if it is not set. Its value is UNKNOWN if it may not be, or has several values."""
+        """Returns a member, or None if it is not set. Its value is UNKNOWN if it may not be, or has
+        several values.
+        """
         cell = struct.fields.get(name)
         if cell is None or not cell.writes:
             return None
@@ -95,9 +123,17 @@ class MetalConfiguration(Configuration):
 def is_certain(guards: list[Guards]) -> bool:
     """Returns whether one of several sets of conditions certainly holds."""
     # What several functions assign is numbered; one of them is the value.
-    numbered = [{text.rpartition("=")[0] for text, way in one if way and _NUMBERED.search(text)} for one in guards]
+    numbered = [
+        {text.rpartition("=")[0] for text, way in one if way and _NUMBERED.search(text)}
+        for one in guards
+    ]
     keys = set.intersection(*numbered) if numbered else set()
-    return covers(tuple(frozenset(guard for guard in one if guard[0].rpartition("=")[0] not in keys) for one in guards))
+    return covers(
+        tuple(
+            frozenset(guard for guard in one if guard[0].rpartition("=")[0] not in keys)
+            for one in guards
+        )
+    )
 
 
 def members_of(struct: Struct) -> Iterator[tuple[str, Value]]:
@@ -112,4 +148,10 @@ def members_of(struct: Struct) -> Iterator[tuple[str, Value]]:
 
 def constant_of(field: Field | None) -> Any:
     """Returns the value of a member if it is a number, a word, or a boolean; otherwise None."""
-    return field.value if field is not None and isinstance(field.value, (str, int, bool)) and not is_unknown(field.value) else None
+    return (
+        field.value
+        if field is not None
+        and isinstance(field.value, (str, int, bool))
+        and not is_unknown(field.value)
+        else None
+    )

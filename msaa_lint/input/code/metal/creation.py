@@ -29,10 +29,31 @@ from msaa_lint.input.code.core.values import (
 )
 
 from .instances import MetalInstances
-from .names import CREATES, DESCRIPTOR_METHODS, MEMBERS, PLAIN_OBJECTS, READS, STORES, kind_of, setter_member, type_name
+from .names import (
+    CREATES,
+    DESCRIPTOR_METHODS,
+    MEMBERS,
+    PLAIN_OBJECTS,
+    READS,
+    STORES,
+    kind_of,
+    setter_member,
+    type_name,
+)
 from .objects import CREATED, Encoded, name_by_member
 
-_HARMLESS = frozenset({"print", "assert", "precondition", "NSLog", "debugPrint", "withExtendedLifetime", "NSAssert", "NSParameterAssert"})
+_HARMLESS = frozenset(
+    {
+        "print",
+        "assert",
+        "precondition",
+        "NSLog",
+        "debugPrint",
+        "withExtendedLifetime",
+        "NSAssert",
+        "NSParameterAssert",
+    }
+)
 _SAME = frozenset({"init", "retain", "autorelease", "get", "mutableCopy", "release", "drain"})
 """Methods of an object that return it."""
 _NEW = frozenset({"alloc", "new", "init", "renderPassDescriptor", "allocWithZone"})
@@ -41,7 +62,9 @@ _OPTIONS = frozenset({"insert", "formUnion", "remove"})
 _ELEMENT = frozenset({"object", "objectAtIndexedSubscript"})
 _TRANSFERS = frozenset({"TransferPtr", "RetainPtr"})
 ALWAYS_OFFERED = (1, 2, 4)
-"""Counts that a check with supportsTextureSampleCount accepts: every device supports 4, and nearly all support 2."""
+"""Counts that a check with supportsTextureSampleCount accepts: every device supports 4, and nearly
+all support 2.
+"""
 
 _DESCRIPTOR_MEMBERS = ("pixelFormat", "width", "height", "mipmapLevelCount")
 _DEFAULTS = {"mipmapped": "mipmapLevelCount", "size": "width"}
@@ -66,7 +89,15 @@ class MetalInterpreter(MetalInstances):
         self.offers: dict[str, tuple[str, int | str, Span]] = {}
         """What a device is asked by a condition."""
 
-    def object_method(self, owner: Term, value: Any, name: str, arguments: Sequence[Term], place: Span, scope: Scope) -> Value | None:
+    def object_method(
+        self,
+        owner: Term,
+        value: Any,
+        name: str,
+        arguments: Sequence[Term],
+        place: Span,
+        scope: Scope,
+    ) -> Value | None:
         """Returns the result of a method of one of Metal's objects, or None for other methods."""
         if owner[:2] == (NAME, "super") and name.startswith("init") and scope.class_name:
             return self.of_class(scope.class_name, place)
@@ -89,15 +120,28 @@ class MetalInterpreter(MetalInstances):
             return command
         if name in _OPTIONS and owner[0] == FIELD and len(arguments) == 1:
             return self.change_options(owner, name, arguments[0], place, scope)
-        return self.own_method(value, name, arguments, place, scope) if isinstance(value, (Instance, ApiObject)) else None
+        return (
+            self.own_method(value, name, arguments, place, scope)
+            if isinstance(value, (Instance, ApiObject))
+            else None
+        )
 
-    def own_method(self, value: Instance | ApiObject, name: str, arguments: Sequence[Term], place: Span, scope: Scope) -> Value | None:
+    def own_method(
+        self,
+        value: Instance | ApiObject,
+        name: str,
+        arguments: Sequence[Term],
+        place: Span,
+        scope: Scope,
+    ) -> Value | None:
         """Returns the result of a method of an object that is known, or None."""
         same: Value = (Alternative(value, place),)
         if name in _SAME and not arguments:
             return same
         if isinstance(value, ApiObject):
-            member = value.info.fields.get(name) if value.kind == "texture" and not arguments else None
+            member = (
+                value.info.fields.get(name) if value.kind == "texture" and not arguments else None
+            )
             return member.read(scope.guards) if member is not None else None
         if name == "copy" and not arguments:
             return self.copy_of(value, place, scope)
@@ -131,9 +175,15 @@ class MetalInterpreter(MetalInstances):
         if cell is None:
             return UNKNOWN_VALUE
         value = cell.read(scope.guards)
-        return value or ((Alternative(Symbol(cell.key, cell.name.rpartition(".")[2]), place),) if cell.key else UNKNOWN_VALUE)
+        return value or (
+            (Alternative(Symbol(cell.key, cell.name.rpartition(".")[2]), place),)
+            if cell.key
+            else UNKNOWN_VALUE
+        )
 
-    def texture_descriptor(self, name: str, arguments: Sequence[Term], place: Span, scope: Scope) -> Value:
+    def texture_descriptor(
+        self, name: str, arguments: Sequence[Term], place: Span, scope: Scope
+    ) -> Value:
         """Returns a texture descriptor created by a class method."""
         descriptor = self.construct_object("texture", place, scope)
         instance: Instance = descriptor[0].value
@@ -144,25 +194,37 @@ class MetalInterpreter(MetalInstances):
             if n < len(_DESCRIPTOR_MEMBERS) and (not member or label == "with"):
                 member = _DESCRIPTOR_MEMBERS[n]
             if member == "mipmapLevelCount":
-                value = (Alternative(1, term[-1]),) if sole_value(value) in (False, 0) else UNKNOWN_VALUE
+                value = (
+                    (Alternative(1, term[-1]),)
+                    if sole_value(value) in (False, 0)
+                    else UNKNOWN_VALUE
+                )
             instance.cell(member).write(value, term[-1], scope.guards)
         kind = DESCRIPTOR_METHODS[name]
         if kind:
             instance.cell("textureType").write((Alternative(kind, place),), place, scope.guards)
         return descriptor
 
-    def create_from(self, kind: str, owner: Any, arguments: Sequence[Term], place: Span, scope: Scope) -> Value:
+    def create_from(
+        self, kind: str, owner: Any, arguments: Sequence[Term], place: Span, scope: Scope
+    ) -> Value:
         """Returns the object that a call creates from a descriptor."""
         values = [self.value(argument, scope) for argument in arguments]
         descriptor = pointee(sole_value(values[0]))
         for value in values[1:]:
             self.escape(value, place, scope)
         known = isinstance(descriptor, Instance) and descriptor.kind == kind
-        if kind == "pass" and not (known and isinstance(owner, Instance) and owner.kind == "commands" and owner.complete):
+        if kind == "pass" and not (
+            known and isinstance(owner, Instance) and owner.kind == "commands" and owner.complete
+        ):
             # Other code may also encode to a buffer that was created elsewhere.
             self.incomplete.add(self.root)
         if not known:
-            return UNKNOWN_VALUE if kind == "texture" else (Alternative(self.create("encoder", Struct("", place), place, scope), place),)
+            return (
+                UNKNOWN_VALUE
+                if kind == "texture"
+                else (Alternative(self.create("encoder", Struct("", place), place, scope), place),)
+            )
         self.used.add(descriptor.key)
         obj = self.create(kind, self.snapshot(descriptor, scope.guards), place, scope)
         if kind != "texture":
@@ -172,9 +234,13 @@ class MetalInterpreter(MetalInstances):
         return (Alternative(obj, place),)
 
     def record(self, kind: str, what: tuple[Any, ...], place: Span, scope: Scope) -> None:
-        self.encoded.append(Encoded(kind, what, place, self.root, self.branches == 0 and not scope.unknown_loops))
+        self.encoded.append(
+            Encoded(kind, what, place, self.root, self.branches == 0 and not scope.unknown_loops)
+        )
 
-    def run_block(self, statements: Iterable[Term], scope: Scope, guards: Guards, scoped: bool = True) -> bool:
+    def run_block(
+        self, statements: Iterable[Term], scope: Scope, guards: Guards, scoped: bool = True
+    ) -> bool:
         self.branches += bool(guards)
         left = super().run_block(statements, scope, guards, scoped)
         self.branches -= bool(guards)
@@ -204,16 +270,28 @@ class MetalInterpreter(MetalInstances):
         return value
 
     def entry_scope(self, function: Function) -> Scope:
-        """Binds textures that a function is meant to take: those of the only tuple in the program with the same labels, at least two."""
+        """Binds textures that a function is meant to take: those of the only tuple in the program
+        with the same labels, at least two.
+        """
         scope = super().entry_scope(function)
-        textures = [parameter.name for parameter in function.parameters if type_name(parameter.type) == "MTLTexture"]
-        tuples = [item for item in self.tuples.values() if all(name in item.fields for name in textures)] if len(textures) > 1 else []
+        textures = [
+            parameter.name
+            for parameter in function.parameters
+            if type_name(parameter.type) == "MTLTexture"
+        ]
+        tuples = (
+            [item for item in self.tuples.values() if all(name in item.fields for name in textures)]
+            if len(textures) > 1
+            else []
+        )
         for name in textures if len(tuples) == 1 else ():
             scope.scopes[-1][name].writes = tuples[0].fields[name].writes
         return scope
 
     def query(self, name: str, owner: Term, argument: Term, place: Span, scope: Scope) -> Value:
-        """Returns what a device answers: the counts that every device supports, otherwise a condition."""
+        """Returns what a device answers: the counts that every device supports, otherwise a
+        condition.
+        """
         asked = self.sole(argument, scope)
         if name == "supportsTextureSampleCount" and asked in ALWAYS_OFFERED:
             return (Alternative(True, place),)
@@ -222,7 +300,9 @@ class MetalInterpreter(MetalInstances):
             self.offers[key] = (name, asked, argument[-1])
         return (Alternative(Symbol(key, name), place),)
 
-    def command(self, owner: Any, name: str, arguments: Sequence[Term], place: Span, scope: Scope) -> Value | None:
+    def command(
+        self, owner: Any, name: str, arguments: Sequence[Term], place: Span, scope: Scope
+    ) -> Value | None:
         """Executes a command of an encoder or a command buffer, or returns None."""
         if name in ("present", "presentDrawable"):
             target = owner if isinstance(owner, Instance) and owner.kind == "drawable" else None
@@ -234,34 +314,65 @@ class MetalInterpreter(MetalInstances):
                 self.incomplete.add(self.root)
             return UNKNOWN_VALUE
         if name in ("copy", "copyFromTexture") and len(arguments) > 1:
-            ends = [self.value(a, scope) for n, a in enumerate(arguments) if n == 0 or labeled(a)[0] in ("to", "toTexture")]
+            ends = [
+                self.value(a, scope)
+                for n, a in enumerate(arguments)
+                if n == 0 or labeled(a)[0] in ("to", "toTexture")
+            ]
             if len(ends) == 2:
                 self.record("copy", tuple(ends), place, scope)
                 return UNKNOWN_VALUE
         if name in READS and arguments:
             render_pass = owner if isinstance(owner, ApiObject) and owner.kind == "pass" else None
-            self.record("read", (self.value(arguments[0], scope), READS[name], render_pass), labeled(arguments[0])[1][-1], scope)
+            self.record(
+                "read",
+                (self.value(arguments[0], scope), READS[name], render_pass),
+                labeled(arguments[0])[1][-1],
+                scope,
+            )
             return UNKNOWN_VALUE
-        if name == "setRenderPipelineState" and arguments and isinstance(owner, ApiObject) and owner.kind == "pass":
+        if (
+            name == "setRenderPipelineState"
+            and arguments
+            and isinstance(owner, ApiObject)
+            and owner.kind == "pass"
+        ):
             for alternative in self.value(arguments[0], scope):
-                if isinstance(alternative.value, ApiObject) and alternative.value.kind == "pipeline":
+                if (
+                    isinstance(alternative.value, ApiObject)
+                    and alternative.value.kind == "pipeline"
+                ):
                     drawn = alternative.value.info.cell("passes")
-                    drawn.writes = (*drawn.writes[:4], Alternative(owner, place, alternative.guards | scope.guards))
+                    drawn.writes = (
+                        *drawn.writes[:4],
+                        Alternative(owner, place, alternative.guards | scope.guards),
+                    )
             return UNKNOWN_VALUE
         if name in STORES and arguments and isinstance(owner, ApiObject) and owner.kind == "pass":
             self.set_store(owner, STORES[name], arguments, place, scope)
             return UNKNOWN_VALUE
         return None
 
-    def set_store(self, render_pass: ApiObject, slot: str, arguments: Sequence[Term], place: Span, scope: Scope) -> None:
+    def set_store(
+        self,
+        render_pass: ApiObject,
+        slot: str,
+        arguments: Sequence[Term],
+        place: Span,
+        scope: Scope,
+    ) -> None:
         """Sets the store action of an attachment whose descriptor leaves it unknown."""
         index = self.sole(arguments[1], scope) if len(arguments) > 1 else ""
         cell = render_pass.info.fields.get(f"{slot}{index}")
         attachment = sole_value(cell.writes) if cell is not None else None
         if isinstance(attachment, Struct):
-            attachment.cell("storeAction").write(self.value(arguments[0], scope), place, scope.guards)
+            attachment.cell("storeAction").write(
+                self.value(arguments[0], scope), place, scope.guards
+            )
 
-    def change_options(self, owner: Term, name: str, argument: Term, place: Span, scope: Scope) -> Value:
+    def change_options(
+        self, owner: Term, name: str, argument: Term, place: Span, scope: Scope
+    ) -> Value:
         """Executes `insert` and similar methods of option sets."""
         cell = self.cell_of(owner, scope)
         change = options(sole_value(self.value(argument, scope)), place)
@@ -271,14 +382,22 @@ class MetalInterpreter(MetalInstances):
         after: Value = UNKNOWN_VALUE
         if before is not None and change is not None and len(before) + len(change) < 64:
             words = {word for word, _ in change}
-            kept = before if name != "remove" else tuple(item for item in before if item[0] not in words)
+            kept = (
+                before
+                if name != "remove"
+                else tuple(item for item in before if item[0] not in words)
+            )
             present = {word for word, _ in kept}
-            added = tuple(item for item in change if item[0] not in present) if name != "remove" else ()
+            added = (
+                tuple(item for item in change if item[0] not in present) if name != "remove" else ()
+            )
             after = (Alternative(Flags((*kept, *added)), place),)
         cell.write(after, place, scope.guards)
         return UNKNOWN_VALUE
 
-    def external_call(self, term: Term, name: str, owner: Term | None, values: Sequence[Value], scope: Scope) -> Value:
+    def external_call(
+        self, term: Term, name: str, owner: Term | None, values: Sequence[Value], scope: Scope
+    ) -> Value:
         """Returns the result of a function outside the program."""
         function, arguments, place = term[1], term[2], term[3]
         if owner is None and function[0] == NAME:
@@ -297,10 +416,19 @@ class MetalInterpreter(MetalInstances):
             return UNKNOWN_VALUE
         for value in values:
             self.escape(value, place, scope)
-        return (Alternative(Symbol(self.key_of_call(term, scope), name, bool(self.library.is_count_choice(name))), place),)
+        return (
+            Alternative(
+                Symbol(
+                    self.key_of_call(term, scope), name, bool(self.library.is_count_choice(name))
+                ),
+                place,
+            ),
+        )
 
     def escape(self, value: Value, place: Span, scope: Scope) -> None:
-        """Handles an argument of a function outside the program, which may change descriptors, read textures, and call closures."""
+        """Handles an argument of a function outside the program, which may change descriptors, read
+        textures, and call closures.
+        """
         mark_escaped(value, self.work)
         for alternative in value:
             inner = pointee(alternative.value)
@@ -311,16 +439,27 @@ class MetalInterpreter(MetalInstances):
             elif isinstance(inner, Closure):
                 self.run_closure(inner, place, scope, None)
 
-    def run_closure(self, closure: Closure, place: Span, scope: Scope, argument: Value | None) -> None:
+    def run_closure(
+        self, closure: Closure, place: Span, scope: Scope, argument: Value | None
+    ) -> None:
         """Executes a closure that a function outside the program may call."""
         if place in scope.active_functions or len(scope.calls) >= MAX_CLOSURES:
             return
         name = closure.parameters[0].name if closure.parameters else "$0"
-        cells = {parameter.name: Cell(parameter.type, parameter.name, (), f"closure({parameter.name})") for parameter in closure.parameters}
+        cells = {
+            parameter.name: Cell(parameter.type, parameter.name, (), f"closure({parameter.name})")
+            for parameter in closure.parameters
+        }
         if argument is not None:
             cells[name] = Cell("", name, argument)
         body = Function("", "", "", (), closure.body, place, scope.namespace)
-        self.execute(body, (CALL, (NAME, "", place), (), place), scope, scope.this_object, (*closure.scopes, cells))
+        self.execute(
+            body,
+            (CALL, (NAME, "", place), (), place),
+            scope,
+            scope.this_object,
+            (*closure.scopes, cells),
+        )
 
     def store(self, cell: Cell, value: Value, place: Span, scope: Scope) -> None:
         super().store(cell, value, place, scope)
@@ -329,8 +468,9 @@ class MetalInterpreter(MetalInstances):
                 name_by_member(alternative.value, cell.name)
 
     def reached_functions(self) -> Iterator[Function]:
-        """Yields the entry points, and then the functions that no call was followed to: methods of objects of unknown type may have the
-        same names."""
+        """Yields the entry points, and then the functions that no call was followed to: methods of
+        objects of unknown type may have the same names.
+        """
         entry_points = self.entry_points()
         yield from entry_points
         known = {function.at for function in entry_points}
@@ -342,11 +482,15 @@ class MetalInterpreter(MetalInstances):
         """Notes the state of descriptors at the end of an entry point."""
         self.declared_structs.clear()
         for instance in self.touched():
-            self.filled.setdefault(instance, []).append((self.root, self.snapshot(instance, ALWAYS), ALWAYS))
+            self.filled.setdefault(instance, []).append(
+                (self.root, self.snapshot(instance, ALWAYS), ALWAYS)
+            )
 
     def touched(self) -> Iterator[Instance]:
         """Yields the pass and pipeline descriptors that the current entry point fills in."""
-        keys = dict.fromkeys(f"{key.partition('.')[0]}." for key in self.overlay if key.startswith("@"))
+        keys = dict.fromkeys(
+            f"{key.partition('.')[0]}." for key in self.overlay if key.startswith("@")
+        )
         touched = dict.fromkeys(self.owners.get(key) or self.by_key[key] for key in keys)
         return (instance for instance in touched if instance.kind in ("pass", "pipeline"))
 
@@ -354,7 +498,9 @@ class MetalInterpreter(MetalInstances):
         """Fragments of a page are executed like a program."""
 
     def run(self) -> None:
-        """Executes the program. Descriptors that no call takes create objects too, of which only what is set is known."""
+        """Executes the program. Descriptors that no call takes create objects too, of which only
+        what is set is known.
+        """
         super().run()
         self.overlay, self.initial = {}, {}
         for instance, states in self.filled.items():
@@ -366,7 +512,9 @@ class MetalInterpreter(MetalInstances):
                 obj = self.api_object(instance.kind, ("unused", instance.key), instance.at, info)
                 obj.name = instance.name
 
-    def result_of(self, function: Function, term: Term, value: Value, creates: bool, scope: Scope) -> Value:
+    def result_of(
+        self, function: Function, term: Term, value: Value, creates: bool, scope: Scope
+    ) -> Value:
         return value
 
 

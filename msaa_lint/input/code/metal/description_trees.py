@@ -16,8 +16,12 @@ from .tree_writer import DescriptionWriter
 
 _SPEAKS = re.compile(r"MTL|[aA]ttachment|[sS]ampleCount")
 _METAL = re.compile(r"\bMTL(?:::|[A-Z])|\bMTKView\b|\bCAMetal")
-_APPLE_ONLY = re.compile(r"^[ \t]*(?:#[ \t]*|@)?import[ \t]+<?(?:UIKit|ARKit|CompositorServices)\b[^\n]*", re.MULTILINE)
-_OTHERS_TOO = re.compile(r"#[ \t]*if|^[ \t]*(?:#[ \t]*|@)?import[ \t]+<?(?:AppKit|Cocoa)\b", re.MULTILINE)
+_APPLE_ONLY = re.compile(
+    r"^[ \t]*(?:#[ \t]*|@)?import[ \t]+<?(?:UIKit|ARKit|CompositorServices)\b[^\n]*", re.MULTILINE
+)
+_OTHERS_TOO = re.compile(
+    r"#[ \t]*if|^[ \t]*(?:#[ \t]*|@)?import[ \t]+<?(?:AppKit|Cocoa)\b", re.MULTILINE
+)
 
 
 def calls_metal(code: Code) -> bool:
@@ -28,11 +32,24 @@ def calls_metal(code: Code) -> bool:
 def platform_of(text: str) -> Span | None:
     """Returns where code states that it runs on Apple GPUs alone, or None."""
     only = _APPLE_ONLY.search(text)
-    return Span(only.start(), only.end()) if only is not None and not _OTHERS_TOO.search(text) else None
+    return (
+        Span(only.start(), only.end())
+        if only is not None and not _OTHERS_TOO.search(text)
+        else None
+    )
 
 
-def metal_reads(unit: Unit, fragments: bool, is_cpp: bool, whole: Span, platform: Span | None, assume: Assume = nothing) -> list[Read]:
-    """Returns what a program states in Metal's terms: one tree with the section `metal`, or none. `assume` states what the user assumes."""
+def metal_reads(
+    unit: Unit,
+    fragments: bool,
+    is_cpp: bool,
+    whole: Span,
+    platform: Span | None,
+    assume: Assume = nothing,
+) -> list[Read]:
+    """Returns what a program states in Metal's terms: one tree with the section `metal`, or none.
+    `assume` states what the user assumes.
+    """
     interpreter = MetalInterpreter(unit, fragments, is_cpp, Work(whole.end))
     assume(interpreter)
     interpreter.run()

@@ -9,7 +9,10 @@ from msaa_lint.input.code.core.library import Construction, Library
 
 from . import names
 
-_COUNTS = re.compile(r"max.*sample|sample.*max|supported.*sample|best.*sample|choose.*sample|pick.*sample|select.*sample", re.IGNORECASE)
+_COUNTS = re.compile(
+    r"max.*sample|sample.*max|supported.*sample|best.*sample|choose.*sample|pick.*sample|select.*sample",
+    re.IGNORECASE,
+)
 _CAST = re.compile(r"(?:U?Int(?:8|16|32|64)?|NSU?Integer|NSInteger|MTL[A-Z]\w*)$")
 
 

@@ -1,5 +1,6 @@
-"""Metal's names in source code: `MTLStoreAction.store` and `.store` in Swift, `MTLStoreActionStore` in Objective-C, `MTL::StoreActionStore`
-in metal-cpp."""
+"""Metal's names in source code: `MTLStoreAction.store` and `.store` in Swift, `MTLStoreActionStore`
+in Objective-C, `MTL::StoreActionStore` in metal-cpp.
+"""
 
 from __future__ import annotations
 
@@ -41,7 +42,10 @@ DESCRIPTOR_METHODS = {
 
 CREATES = (
     (re.compile(r"(?:make|new)Texture(?:WithDescriptor)?$"), "texture"),
-    (re.compile(r"(?:makeR|makeParallelR|r|parallelR)enderCommandEncoder(?:WithDescriptor)?$"), "pass"),
+    (
+        re.compile(r"(?:makeR|makeParallelR|r|parallelR)enderCommandEncoder(?:WithDescriptor)?$"),
+        "pass",
+    ),
     (re.compile(r"(?:make|new)RenderPipelineState(?:WithDescriptor)?$"), "pipeline"),
 )
 """Methods that create an object, and the kind of their descriptor."""
@@ -65,15 +69,24 @@ READS = {
 }
 """Methods of encoders that bind a texture, and the stage that reads it."""
 
-STORES = {"setColorStoreAction": "color", "setDepthStoreAction": "depthAttachment", "setStencilStoreAction": "stencilAttachment"}
+STORES = {
+    "setColorStoreAction": "color",
+    "setDepthStoreAction": "depthAttachment",
+    "setStencilStoreAction": "stencilAttachment",
+}
 """Methods of encoders that state the store action of an attachment."""
 
 MEMBERS = frozenset({
-    "pixelFormat", "width", "height", "depth", "mipmapLevelCount", "arrayLength", "textureType", "sampleCount", "usage", "storageMode",
-    "resourceOptions", "texture", "resolveTexture", "loadAction", "storeAction", "depthResolveFilter", "stencilResolveFilter",
-    "rasterSampleCount", "depthAttachmentPixelFormat", "stencilAttachmentPixelFormat", "isRasterizationEnabled", "colorAttachments",
-    "depthAttachment", "stencilAttachment", "colorPixelFormat", "depthStencilPixelFormat", "currentRenderPassDescriptor",
-    "currentMTL4RenderPassDescriptor", "currentDrawable", "multisampleColorTexture", "depthStencilTexture", "layer",
+    "pixelFormat", "width", "height", "depth", "mipmapLevelCount", "arrayLength", "textureType",
+    "sampleCount", "usage", "storageMode",
+    "resourceOptions", "texture", "resolveTexture", "loadAction", "storeAction",
+    "depthResolveFilter", "stencilResolveFilter",
+    "rasterSampleCount", "depthAttachmentPixelFormat", "stencilAttachmentPixelFormat",
+    "isRasterizationEnabled", "colorAttachments",
+    "depthAttachment", "stencilAttachment", "colorPixelFormat", "depthStencilPixelFormat",
+    "currentRenderPassDescriptor",
+    "currentMTL4RenderPassDescriptor", "currentDrawable", "multisampleColorTexture",
+    "depthStencilTexture", "layer",
 })  # fmt: skip
 """Members of Metal's objects, which Objective-C and metal-cpp read by a call."""
 
@@ -88,7 +101,9 @@ _BOOLEANS = {"YES": True, "NO": False}
 
 
 def type_name(type_text: str) -> str:
-    """Returns the name of a type without qualifiers, as in Objective-C: `MTLTexture` for `id<MTLTexture>` and `MTL::Texture*`."""
+    """Returns the name of a type without qualifiers, as in Objective-C: `MTLTexture` for
+    `id<MTLTexture>` and `MTL::Texture*`.
+    """
     inner = _INNER.match(type_text)
     match = _TYPE.match(inner[1] if inner is not None else type_text.strip())
     return match[1].replace("::", "", 1) if match is not None else ""
@@ -100,7 +115,9 @@ def kind_of(type_text: str) -> str:
 
 
 def constant(name: str) -> str | bool | None:
-    """Returns the value of a constant: an enumerant in Swift's spelling, or a boolean; None for other names."""
+    """Returns the value of a constant: an enumerant in Swift's spelling, or a boolean; None for
+    other names.
+    """
     if name[:1] == ".":
         return name[1:]
     if name in _BOOLEANS:
@@ -119,8 +136,14 @@ def constant(name: str) -> str | bool | None:
 
 
 def member(name: str) -> str:
-    """Returns a member's name as descriptions spell it. Objective-C and metal-cpp have no `is` before booleans."""
-    return f"is{name[0].upper()}{name[1:]}" if name in ("alphaToCoverageEnabled", "alphaToOneEnabled", "blendingEnabled") else name
+    """Returns a member's name as descriptions spell it. Objective-C and metal-cpp have no `is`
+    before booleans.
+    """
+    return (
+        f"is{name[0].upper()}{name[1:]}"
+        if name in ("alphaToCoverageEnabled", "alphaToOneEnabled", "blendingEnabled")
+        else name
+    )
 
 
 def setter_member(method: str) -> str | None:

@@ -38,13 +38,17 @@ CREATED = "!"
 MAX_COLORS = 8
 
 _TEXTURE_MEMBERS = frozenset({"textureType", "usage", "storageMode", "sampleCount"})
-_PIPELINE_MEMBERS = frozenset({"rasterSampleCount", "sampleCount", "isAlphaToCoverageEnabled", "depthAttachmentPixelFormat"})
+_PIPELINE_MEMBERS = frozenset(
+    {"rasterSampleCount", "sampleCount", "isAlphaToCoverageEnabled", "depthAttachmentPixelFormat"}
+)
 _VIEW_MEMBERS = frozenset({"sampleCount", "depthStencilPixelFormat", "colorPixelFormat"})
 _DESCRIPTORS = frozenset({"texture", "pass", "pipeline", "attachment"})
 
 
 class Encoded(NamedTuple):
-    """A step of a frame: a pass, copy, read, or presented drawable, the entry point that encodes it, and whether it always does."""
+    """A step of a frame: a pass, copy, read, or presented drawable, the entry point that encodes
+    it, and whether it always does.
+    """
 
     kind: str
     what: tuple[Any, ...]
@@ -82,7 +86,9 @@ class MetalObjects(Interpreter):
         """Returns the object with a key, which is created on first use."""
         known = self.instances.get(key)
         if known is None:
-            known = self.instances[key] = Instance(kind, f"@{len(self.instances)}.", at, self, complete)
+            known = self.instances[key] = Instance(
+                kind, f"@{len(self.instances)}.", at, self, complete
+            )
             self.by_key[known.key] = known
         return known
 
@@ -103,7 +109,10 @@ class MetalObjects(Interpreter):
             self.work.spend()
             key = created.key + name
             for write in self.member_cell(key).writes:
-                if isinstance(write.value, Instance) and self.instances.get(("attachment", created.key, name)) is write.value:
+                if (
+                    isinstance(write.value, Instance)
+                    and self.instances.get(("attachment", created.key, name)) is write.value
+                ):
                     self.reset(write.value)
             self.overlay[key] = Cell(MEMBER, key, (), key)
             self.initial[key] = ()
@@ -115,7 +124,9 @@ class MetalObjects(Interpreter):
         if not known and self.is_view(written):
             known = "view"
         if known:
-            created = self.instance(known, (known,) if known in SHARED else (known, name, place), place, False)
+            created = self.instance(
+                known, (known,) if known in SHARED else (known, name, place), place, False
+            )
             return (Alternative(created, place),)
         class_name = self.class_of(written, "") if written and not kind.endswith("]") else None
         return self.of_class(class_name, place) if class_name is not None else UNKNOWN_VALUE
@@ -125,7 +136,9 @@ class MetalObjects(Interpreter):
         key = ("class", class_name)
         known = self.instances.get(key)
         if known is None:
-            known = self.instances[key] = Instance(class_name, f"{class_name}::", place, self, False)
+            known = self.instances[key] = Instance(
+                class_name, f"{class_name}::", place, self, False
+            )
         return (Alternative(known, place),)
 
     def is_view(self, class_name: str) -> bool:
@@ -136,19 +149,31 @@ class MetalObjects(Interpreter):
         """Returns `self` in the methods that a program adds to Metal's types."""
         self.root += 1
         kind = kind_of(function.class_name) or ("view" if self.is_view(function.class_name) else "")
-        return Cell(kind, "", self.typed_value(function.class_name, kind, function.at)) if kind else None
+        return (
+            Cell(kind, "", self.typed_value(function.class_name, kind, function.at))
+            if kind
+            else None
+        )
 
     def variable(self, name: str, scope: Scope) -> Cell | None:
-        if scope.this_object is not None and not any(name in variables for variables in scope.scopes):
+        if scope.this_object is not None and not any(
+            name in variables for variables in scope.scopes
+        ):
             value = sole_value(scope.this_object.read(scope.guards))
-            if isinstance(value, Instance) and value.kind in _OBJECT_KINDS and name not in self.members.get(scope.class_name, ()):
+            if (
+                isinstance(value, Instance)
+                and value.kind in _OBJECT_KINDS
+                and name not in self.members.get(scope.class_name, ())
+            ):
                 return self.member_of_object(value, scope.this_object, name, value.at, scope)
         return super().variable(name, scope)
 
     def member_key(self, name: str, scope: Scope) -> str:
         owner, _, short = name.rpartition("::")
         class_name = self.class_of(owner, "") if owner and name not in self.globals else None
-        return f"{class_name}::{short}" if class_name is not None else super().member_key(name, scope)
+        return (
+            f"{class_name}::{short}" if class_name is not None else super().member_key(name, scope)
+        )
 
     def declared(self, key: str) -> Value:
         value = super().declared(key)
@@ -159,7 +184,12 @@ class MetalObjects(Interpreter):
     def read(self, term: Term, scope: Scope) -> Value:
         # A value that an argument passes is where a member is set to the parameter.
         value = super().read(term, scope)
-        return tuple(a if isinstance(a.value, Struct) else Alternative(self.spelled(a.value), term[-1], a.guards) for a in value)
+        return tuple(
+            a
+            if isinstance(a.value, Struct)
+            else Alternative(self.spelled(a.value), term[-1], a.guards)
+            for a in value
+        )
 
     def spelled(self, value: Any) -> Any:
         """Returns a symbol named as in the program: `view.sampleCount`."""
@@ -167,9 +197,13 @@ class MetalObjects(Interpreter):
             return value
         key, _, name = value.name.partition(".")
         owner = self.by_key.get(f"{key}.")
-        return value._replace(name=f"{owner.name or owner.kind}.{name}" if owner is not None else name)
+        return value._replace(
+            name=f"{owner.name or owner.kind}.{name}" if owner is not None else name
+        )
 
-    def member_of_object(self, value: Any, cell: Cell, name: str, place: Span, scope: Scope) -> Cell | None:
+    def member_of_object(
+        self, value: Any, cell: Cell, name: str, place: Span, scope: Scope
+    ) -> Cell | None:
         """Returns a member of an object, or None."""
         if isinstance(value, Instance):
             special = self.special_member(value, name, place, scope)
@@ -179,14 +213,21 @@ class MetalObjects(Interpreter):
         if isinstance(value, Struct):
             return None
         if name in PASS_SOURCES or name == "currentDrawable":
-            return self.special_member(self.instance("view", ("view",), place, False), name, place, scope)
+            return self.special_member(
+                self.instance("view", ("view",), place, False), name, place, scope
+            )
         last = cell.name.rpartition("::")[2].rpartition(".")[2]
         if name == "texture" and "drawable" in last.lower():
             return Cell(writes=(Alternative(self.drawable_texture(place), place),))
         kind = _kind_by_name(last.lower(), name) if last else ""
         if not kind or isinstance(value, Alternative):
             return None
-        adopted = self.instance(kind, (kind,) if kind in SHARED else ("adopted", kind, cell.key or cell.name), place, False)
+        adopted = self.instance(
+            kind,
+            (kind,) if kind in SHARED else ("adopted", kind, cell.key or cell.name),
+            place,
+            False,
+        )
         adopted.name = adopted.name or last
         cell.writes = (Alternative(adopted, place),)
         return self.member_of_object(adopted, cell, name, place, scope)
@@ -231,7 +272,9 @@ class MetalObjects(Interpreter):
         return cell
 
     def invalidate(self, value: Instance, place: Span, guards: Guards) -> None:
-        """Marks a descriptor that other code may change. A texture descriptor keeps only what is set afterwards."""
+        """Marks a descriptor that other code may change. A texture descriptor keeps only what is
+        set afterwards.
+        """
         if value.kind in _DESCRIPTORS:
             value.cell(LOOSE).write((Alternative(True, place),), place, guards)
             for cell in value.fields.values() if value.kind == "texture" else ():
@@ -239,7 +282,9 @@ class MetalObjects(Interpreter):
                 cell.write(UNKNOWN_VALUE, place, guards)
 
     def snapshot(self, value: Instance, guards: Guards) -> Struct:
-        """Returns a copy of an object with its attachments; `zeroed` says that the members that it does not set have their defaults."""
+        """Returns a copy of an object with its attachments; `zeroed` says that the members that it
+        does not set have their defaults.
+        """
         copy = Struct(value.kind, value.at, value.complete, value.name)
         for name in self.names_of(value.key):
             exists = ("attachment", value.key, name) in self.instances
@@ -250,7 +295,9 @@ class MetalObjects(Interpreter):
             if name == LOOSE:
                 copy.zeroed = False
             elif isinstance(inner, Instance) and inner.kind == "attachment":
-                copy.fields[name] = Cell(name=name, writes=(Alternative(self.snapshot(inner, guards), inner.at),))
+                copy.fields[name] = Cell(
+                    name=name, writes=(Alternative(self.snapshot(inner, guards), inner.at),)
+                )
             elif written:
                 copy.fields[name] = Cell(name=name, writes=written)
         if value.complete and value.kind == "pass":
@@ -260,7 +307,11 @@ class MetalObjects(Interpreter):
             unknown = copy.fields.pop(ANY).writes[0].value
             for name, cell in copy.fields.items():
                 attachment = sole_value(cell.writes)
-                if name.startswith("color") and isinstance(attachment, Struct) and isinstance(unknown, Struct):
+                if (
+                    name.startswith("color")
+                    and isinstance(attachment, Struct)
+                    and isinstance(unknown, Struct)
+                ):
                     for member in unknown.fields.keys() & attachment.fields.keys():
                         attachment.fields[member].write(UNKNOWN_VALUE, attachment.at, ALWAYS)
         return copy
@@ -308,29 +359,48 @@ class MetalObjects(Interpreter):
     def view_pass(self, place: Span, scope: Scope) -> Instance:
         """Returns the descriptor that MTKView creates for its drawable.
 
-        With multisampling, it clears the multisampled texture and resolves it to the drawable's texture. Depth and stencil are cleared and
-        not stored (Apple's documentation of currentRenderPassDescriptor).
+        With multisampling, it clears the multisampled texture and resolves it to the drawable's
+        texture. Depth and stencil are cleared and not stored (Apple's documentation of
+        currentRenderPassDescriptor).
         """
         descriptor = self.instance("pass", ("view pass", place, scope.calls), place, True)
         self.reset(descriptor)
         counts = self.view_setting("sampleCount")
         several = [write for write in counts if type(write.value) is int and write.value > 1]
-        known = all(type(write.value) is int for write in counts) and len({write.guards for write in several}) == 1
+        known = (
+            all(type(write.value) is int for write in counts)
+            and len({write.guards for write in several}) == 1
+        )
         descriptor.complete = known and len(self.views) < 2
         if not descriptor.complete:
             return descriptor
         guards = several[0].guards if len(several) < len(counts) else ALWAYS
-        self.clear(descriptor, "color0", "multisampleColorTexture", "multisampleResolve", place, guards)
+        self.clear(
+            descriptor, "color0", "multisampleColorTexture", "multisampleResolve", place, guards
+        )
         pixels = sole_value(self.view_setting("depthStencilPixelFormat"))
         for aspect in ("depth", "stencil"):
             if isinstance(pixels, str) and aspect in pixels:
-                self.clear(descriptor, f"{aspect}Attachment", "depthStencilTexture", "dontCare", place, guards)
+                self.clear(
+                    descriptor,
+                    f"{aspect}Attachment",
+                    "depthStencilTexture",
+                    "dontCare",
+                    place,
+                    guards,
+                )
         return descriptor
 
-    def clear(self, descriptor: Instance, slot: str, texture: str, store: str, place: Span, guards: Guards) -> None:
+    def clear(
+        self, descriptor: Instance, slot: str, texture: str, store: str, place: Span, guards: Guards
+    ) -> None:
         """Sets an attachment that is cleared."""
         attachment = sole_value(self.slot(descriptor, slot, place).writes)
-        members: dict[str, Any] = {"texture": self.view_texture(texture, place), "loadAction": "clear", "storeAction": store}
+        members: dict[str, Any] = {
+            "texture": self.view_texture(texture, place),
+            "loadAction": "clear",
+            "storeAction": store,
+        }
         if store == "multisampleResolve":
             members["resolveTexture"] = self.drawable_texture(place)
         for name, value in members.items():
@@ -341,7 +411,9 @@ _OBJECT_KINDS = frozenset({*_DESCRIPTORS, *SHARED})
 
 
 def _kind_by_name(low: str, member: str) -> str:
-    """Returns the kind of an undeclared object by its name, in lower case, and the member that is used, or an empty string."""
+    """Returns the kind of an undeclared object by its name, in lower case, and the member that is
+    used, or an empty string.
+    """
     if member in ("colorAttachments", *ATTACHMENTS):
         return "pipeline" if "pipeline" in low or "pso" in low else "pass"
     if member in _PIPELINE_MEMBERS and "pipeline" in low:

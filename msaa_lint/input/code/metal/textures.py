@@ -1,4 +1,6 @@
-"""Converts the textures of a program that calls Metal, with the sample counts that must be assumed."""
+"""Converts the textures of a program that calls Metal, with the sample counts that must be
+assumed.
+"""
 
 from __future__ import annotations
 
@@ -80,23 +82,48 @@ class Textures(MetalConfiguration):
         return group[0] if group else obj
 
     def texture(self, value: Value) -> ApiObject | object | None:
-        """Returns the texture that a value is, None for nil, and UNKNOWN if it is not known; of an unknown one, the name may be."""
+        """Returns the texture that a value is, None for nil, and UNKNOWN if it is not known; of an
+        unknown one, the name may be.
+        """
         settled = self.settle(value)
-        if any(write.value is UNKNOWN for write in settled) or not is_certain([write.guards for write in settled]):
+        if any(write.value is UNKNOWN for write in settled) or not is_certain(
+            [write.guards for write in settled]
+        ):
             return UNKNOWN
-        if any(write.value is not None and not isinstance(write.value, (ApiObject, Symbol)) for write in settled):
+        if any(
+            write.value is not None and not isinstance(write.value, (ApiObject, Symbol))
+            for write in settled
+        ):
             return UNKNOWN
-        objects = {id(one): one for write in settled if isinstance(write.value, ApiObject) for one in (self.first(write.value),)}
-        symbols = {write.value.key: write.value for write in settled if isinstance(write.value, Symbol)}
+        objects = {
+            id(one): one
+            for write in settled
+            if isinstance(write.value, ApiObject)
+            for one in (self.first(write.value),)
+        }
+        symbols = {
+            write.value.key: write.value for write in settled if isinstance(write.value, Symbol)
+        }
         if len(objects) == 1:
             return next(iter(objects.values()))
-        several = [obj for obj in objects.values() if constant_of(self.field(obj.info, "textureType")) in MULTISAMPLE_TYPES]
+        several = [
+            obj
+            for obj in objects.values()
+            if constant_of(self.field(obj.info, "textureType")) in MULTISAMPLE_TYPES
+        ]
         if len(several) == 1:
             return several[0]
         if objects:
-            keys = {text.rpartition("=")[0] for write in settled for text, _ in write.guards if "=" in text}
+            keys = {
+                text.rpartition("=")[0]
+                for write in settled
+                for text, _ in write.guards
+                if "=" in text
+            }
             key = keys.pop() if len(keys) == 1 else ""
-            return self.named_texture(key, key.rpartition("::")[2], settled[0].at) if key else UNKNOWN
+            return (
+                self.named_texture(key, key.rpartition("::")[2], settled[0].at) if key else UNKNOWN
+            )
         if len(symbols) == 1:
             symbol = next(iter(symbols.values()))
             return self.named_texture(symbol.key, symbol.name, settled[0].at)
@@ -135,13 +162,18 @@ class Textures(MetalConfiguration):
                 field = Field(default, obj.info.at, True)
             fields.append(field)
         first = fields[0]
-        if all(field is not None and first is not None and are_equal(field.value, first.value) for field in fields):
+        if all(
+            field is not None and first is not None and are_equal(field.value, first.value)
+            for field in fields
+        ):
             return first
         known = next((field for field in fields if field is not None), None)
         return known._replace(value=UNKNOWN) if known is not None else None
 
     def add_pass(self, textures: Sequence[ApiObject]) -> None:
-        """Records the textures of a pass. They all have the same sample count, so a count known for one applies to all."""
+        """Records the textures of a pass. They all have the same sample count, so a count known for
+        one applies to all.
+        """
         counts = {self.stated_count(texture) for texture in textures} - {None}
         self.attached.update(map(id, textures))
         if len(counts) == 1:
@@ -152,7 +184,11 @@ class Textures(MetalConfiguration):
 
     def stated_count(self, texture: ApiObject) -> int | None:
         """Returns the sample count that the program states."""
-        field = self.shared("view", "sampleCount") if is_view_texture(texture) else self.member(texture, "sampleCount")
+        field = (
+            self.shared("view", "sampleCount")
+            if is_view_texture(texture)
+            else self.member(texture, "sampleCount")
+        )
         value = constant_of(field)
         return value if type(value) is int and value in COUNTS else None
 
@@ -173,16 +209,24 @@ class Textures(MetalConfiguration):
 
     def storage(self, texture: ApiObject) -> Field | None:
         """Returns the storage mode, which resource options contain."""
-        mode, resource = self.member(texture, "storageMode"), self.member(texture, "resourceOptions")
+        mode, resource = (
+            self.member(texture, "storageMode"),
+            self.member(texture, "resourceOptions"),
+        )
         if mode is not None or resource is None:
             return mode
         modes = [
-            name for name in _STORAGE for word, _ in options(resource.value, resource.at) or () if word.lower() == f"storagemode{name}"
+            name
+            for name in _STORAGE
+            for word, _ in options(resource.value, resource.at) or ()
+            if word.lower() == f"storagemode{name}"
         ]
         return Field(modes[0], resource.at) if modes else None
 
     def count(self, texture: ApiObject) -> list[Entry]:
-        """Returns the texture type and the sample count; a count above 1 that is unknown is assumed."""
+        """Returns the texture type and the sample count; a count above 1 that is unknown is
+        assumed.
+        """
         kind, count = self.member(texture, "textureType"), self.member(texture, "sampleCount")
         number = constant_of(count)
         if kind is not None and kind.default and count is not None and not count.default:
@@ -198,12 +242,16 @@ class Textures(MetalConfiguration):
             entries.append(("textureType", kind.at, scalar(type_name, kind.at)))
         if type(number) is int and number in COUNTS and count is not None:
             entries.append(("sampleCount", count.at, scalar(number, count.at)))
-        elif number is None and (several or id(texture) in self.resolved or id(texture) in self.alike):
+        elif number is None and (
+            several or id(texture) in self.resolved or id(texture) in self.alike
+        ):
             entries.append(self.assumed_entry(texture, count, kind))
         return entries
 
     def assumed_entry(self, texture: ApiObject, count: Field | None, kind: Field | None) -> Entry:
-        """Returns a count taken from the pass's other textures, or the one that every device supports."""
+        """Returns a count taken from the pass's other textures, or the one that every device
+        supports.
+        """
         value = self.alike.get(id(texture), ASSUMED)
         known = id(texture) in self.alike
         if count is None:
@@ -215,14 +263,24 @@ class Textures(MetalConfiguration):
             self.symbols.setdefault(count.value.key, value)
         if not known:
             name = count.value.name if isinstance(count.value, Symbol) else ""
-            self.assume_value(f"`{name}`" if name else f"the sample count of `{self.name(texture)}`", count.at, str(value))
+            self.assume_value(
+                f"`{name}`" if name else f"the sample count of `{self.name(texture)}`",
+                count.at,
+                str(value),
+            )
         return "sampleCount", count.at, scalar(value, count.at)
 
     def drawable_format(self) -> list[Entry]:
         """Returns the pixel format of the drawable from its layer or view."""
         names = {"layer": "pixelFormat", "view": "colorPixelFormat"}
-        fields = [field for kind, name in names.items() if (field := self.shared(kind, name)) is not None]
-        return plain("pixelFormat", fields[0]) if fields and all(are_equal(field.value, fields[0].value) for field in fields) else []
+        fields = [
+            field for kind, name in names.items() if (field := self.shared(kind, name)) is not None
+        ]
+        return (
+            plain("pixelFormat", fields[0])
+            if fields and all(are_equal(field.value, fields[0].value) for field in fields)
+            else []
+        )
 
     def shared(self, kind: str, name: str) -> Field | None:
         """Returns a member of the program's view or layer."""
@@ -234,7 +292,10 @@ class Textures(MetalConfiguration):
     def view_members(self, texture: ApiObject) -> list[Entry]:
         """Returns what is known of a texture that MTKView creates."""
         color = texture.name == "multisampleColorTexture"
-        entries = plain("pixelFormat", self.shared("view", "colorPixelFormat" if color else "depthStencilPixelFormat"))
+        entries = plain(
+            "pixelFormat",
+            self.shared("view", "colorPixelFormat" if color else "depthStencilPixelFormat"),
+        )
         count = self.shared("view", "sampleCount")
         if count is not None and constant_of(count) in COUNTS[1:]:
             entries.append(("textureType", count.at, scalar("type2DMultisample", count.at)))
@@ -253,7 +314,11 @@ def is_view_texture(texture: ApiObject) -> bool:
 def word(name: str, field: Field | None, allowed: frozenset[str]) -> list[Entry]:
     """Returns a member that has one of some values, or nothing."""
     value = constant_of(field)
-    return [(name, field.at, scalar(value, field.at))] if field is not None and isinstance(value, str) and value in allowed else []
+    return (
+        [(name, field.at, scalar(value, field.at))]
+        if field is not None and isinstance(value, str) and value in allowed
+        else []
+    )
 
 
 def plain(name: str, field: Field | None) -> list[Entry]:
@@ -261,7 +326,11 @@ def plain(name: str, field: Field | None) -> list[Entry]:
     value = constant_of(field)
     if field is None or value is None:
         return []
-    usable = value.isidentifier() if isinstance(value, str) else isinstance(value, bool) or 0 < value < 1 << 31
+    usable = (
+        value.isidentifier()
+        if isinstance(value, str)
+        else isinstance(value, bool) or 0 < value < 1 << 31
+    )
     return [(name, field.at, scalar(value, field.at))] if usable else []
 
 
@@ -274,4 +343,8 @@ def _usage(field: Field | None) -> list[Entry]:
     """Returns the stated usage, or nothing. `unknown` is 0, and alone it allows every usage."""
     bits = options(field.value, field.at) if field is not None else None
     named = [name for name in dict.fromkeys(name for name, _ in bits or ()) if name != "unknown"]
-    return [("usage", field.at, words(named, field.at))] if field is not None and named and _USAGES.issuperset(named) else []
+    return (
+        [("usage", field.at, words(named, field.at))]
+        if field is not None and named and _USAGES.issuperset(named)
+        else []
+    )

@@ -1,4 +1,6 @@
-"""Writes the section `metal` of a description from a program; each member has its location in the source."""
+"""Writes the section `metal` of a description from a program; each member has its location in the
+source.
+"""
 
 from __future__ import annotations
 
@@ -22,14 +24,22 @@ _FILTERS = {
     "depthResolveFilter": frozenset(ENUMS["MTLMultisampleDepthResolveFilter"]),
     "stencilResolveFilter": frozenset(ENUMS["MTLMultisampleStencilResolveFilter"]),
 }
-_DEFAULTS = {"color": ("dontCare", "store"), "depth": ("clear", "dontCare"), "stencil": ("clear", "dontCare")}
-"""The default load and store actions of attachments (Apple's documentation of loadAction and storeAction)."""
+_DEFAULTS = {
+    "color": ("dontCare", "store"),
+    "depth": ("clear", "dontCare"),
+    "stencil": ("clear", "dontCare"),
+}
+"""The default load and store actions of attachments (Apple's documentation of loadAction and
+storeAction).
+"""
 
 _SWITCHES = ("isAlphaToCoverageEnabled", "isAlphaToOneEnabled", "isRasterizationEnabled")
 
 
 class DescriptionWriter(Textures):
-    """Writes the description of one program. `platform` is where it states that it runs on Apple GPUs alone."""
+    """Writes the description of one program. `platform` is where it states that it runs on Apple
+    GPUs alone.
+    """
 
     def __init__(self, program: MetalInterpreter, defaults: bool, platform: Span | None) -> None:
         super().__init__(program, defaults)
@@ -43,7 +53,10 @@ class DescriptionWriter(Textures):
         passes = [(obj, used) for obj in self.passes() if (used := self.used(obj))]
         for group in self.groups.values():
             self.add(group[0])
-        steps = [step._replace(what=tuple(self.known(item) for item in step.what)) for step in self.program.encoded]
+        steps = [
+            step._replace(what=tuple(self.known(item) for item in step.what))
+            for step in self.program.encoded
+        ]
         mentioned = set(self.attached)
         for step in steps:
             for item in step.what:
@@ -52,13 +65,18 @@ class DescriptionWriter(Textures):
                     mentioned.add(id(item))
         self.name_all()
         pass_names = Names()
-        pass_names.assign([(obj, obj.info.name or obj.name or "renderPass", "") for obj, _ in passes])
+        pass_names.assign(
+            [(obj, obj.info.name or obj.name or "renderPass", "") for obj, _ in passes]
+        )
         textures = [
             (self.name(texture), texture.at, mapping(members, texture.at))
             for texture in self.all.values()
             if (members := self.members(texture)) or id(texture) in mentioned
         ]
-        render_passes = [(pass_names.of[id(obj)], obj.info.at, self.render_pass(obj, used)) for obj, used in passes]
+        render_passes = [
+            (pass_names.of[id(obj)], obj.info.at, self.render_pass(obj, used))
+            for obj, used in passes
+        ]
         sections = section("textures", textures) + section("renderPasses", render_passes)
         sections += section("renderPipelines", self.pipelines(pass_names.of))
         commands = self.commands(steps, [obj for obj, _ in passes], pass_names.of)
@@ -83,11 +101,15 @@ class DescriptionWriter(Textures):
         )
 
     def passes(self) -> list[ApiObject]:
-        """Returns the passes that are encoded, without duplicates, and descriptors that are only filled in."""
+        """Returns the passes that are encoded, without duplicates, and descriptors that are only
+        filled in.
+        """
         distinct: dict[tuple[Any, ...], ApiObject] = {}
         for obj in self.current_objects:
             if obj.kind == "pass":
-                self.equal_passes[id(obj)] = distinct.setdefault((obj.info.at, self.signature(obj.info)), obj)
+                self.equal_passes[id(obj)] = distinct.setdefault(
+                    (obj.info.at, self.signature(obj.info)), obj
+                )
         return sorted(distinct.values(), key=lambda obj: obj.at.start)
 
     def signature(self, info: Struct) -> tuple[Any, ...]:
@@ -95,17 +117,25 @@ class DescriptionWriter(Textures):
         for slot, attachment in attachments_of(info):
             for name in sorted(attachment.fields):
                 writes = tuple(
-                    id(self.first(write.value)) if isinstance(write.value, ApiObject) else repr(write.value)
+                    id(self.first(write.value))
+                    if isinstance(write.value, ApiObject)
+                    else repr(write.value)
                     for write in self.alternatives(attachment, name)
                 )
                 parts.append((slot, name, writes))
         return tuple(parts)
 
     def used(self, obj: ApiObject) -> dict[str, tuple[Struct, ApiObject, Any]]:
-        """Returns the attachments of a pass of which enough is known, in the order of their slots, with their textures."""
+        """Returns the attachments of a pass of which enough is known, in the order of their slots,
+        with their textures.
+        """
         used: dict[str, tuple[Struct, ApiObject, Any]] = {}
         for slot, attachment in sorted(attachments_of(obj.info), key=lambda item: item[0]):
-            texture = self.texture(attachment.fields["texture"].writes) if "texture" in attachment.fields else None
+            texture = (
+                self.texture(attachment.fields["texture"].writes)
+                if "texture" in attachment.fields
+                else None
+            )
             if not isinstance(texture, ApiObject):
                 continue
             action = constant_of(self.field(attachment, "storeAction"))
@@ -114,7 +144,11 @@ class DescriptionWriter(Textures):
                 target = self.texture(attachment.fields["resolveTexture"].writes)
                 if target is UNKNOWN:
                     continue
-            elif (not obj.info.zeroed) if action in MULTISAMPLE_RESOLVES else action is None and CREATED not in obj.info.fields:
+            elif (
+                (not obj.info.zeroed)
+                if action in MULTISAMPLE_RESOLVES
+                else action is None and CREATED not in obj.info.fields
+            ):
                 # Other code may set the resolve texture.
                 continue
             used[slot] = (attachment, texture, target)
@@ -137,10 +171,14 @@ class DescriptionWriter(Textures):
         for slot, (attachment, texture, target) in used.items():
             place = attachment.fields["texture"].writes[-1].at
             node = mapping(self.attachment(obj, slot, attachment, texture, target), place)
-            (colors if slot.startswith("color") else entries).append((slot.removeprefix("color"), place, node))
+            (colors if slot.startswith("color") else entries).append(
+                (slot.removeprefix("color"), place, node)
+            )
         return mapping(section("colorAttachments", colors) + entries, obj.info.at)
 
-    def attachment(self, obj: ApiObject, slot: str, attachment: Struct, texture: ApiObject, target: Any) -> list[Entry]:
+    def attachment(
+        self, obj: ApiObject, slot: str, attachment: Struct, texture: ApiObject, target: Any
+    ) -> list[Entry]:
         entries: list[Entry] = []
         for name, known in (("texture", texture), ("resolveTexture", target)):
             if isinstance(known, ApiObject):
@@ -166,16 +204,27 @@ class DescriptionWriter(Textures):
         pipelines = [obj for obj in self.current_objects if obj.kind == "pipeline"]
         names = Names()
         names.assign(
-            [(obj, obj.name.rpartition("::")[2] or obj.info.name or "pipeline", obj.name.rpartition("::")[0]) for obj in pipelines]
+            [
+                (
+                    obj,
+                    obj.name.rpartition("::")[2] or obj.info.name or "pipeline",
+                    obj.name.rpartition("::")[0],
+                )
+                for obj in pipelines
+            ]
         )
-        entries = [(names.of[id(obj)], obj.info.at, self.pipeline(obj, passes)) for obj in pipelines]
+        entries = [
+            (names.of[id(obj)], obj.info.at, self.pipeline(obj, passes)) for obj in pipelines
+        ]
         return [entry for entry in entries if entry[2].value]
 
     def pipeline(self, obj: ApiObject, passes: dict[int, str]) -> Node:
         info = obj.info
         entries: list[Entry] = []
         drawings = info.fields["passes"].writes if "passes" in info.fields else ()
-        drawn_in = [self.equal_passes.get(id(write.value)) for write in drawings if self.settle((write,))]
+        drawn_in = [
+            self.equal_passes.get(id(write.value)) for write in drawings if self.settle((write,))
+        ]
         drawn = next((item for item in drawn_in if id(item) in passes), None)
         if drawn is not None:
             entries.append(("renderPass", obj.at, scalar(passes[id(drawn)], obj.at)))
@@ -195,39 +244,75 @@ class DescriptionWriter(Textures):
             entries += plain(name, self.field(info, name))
         colors: list[Entry] = []
         for slot, attachment in sorted(attachments_of(info), key=lambda item: item[0]):
-            members = [entry for name in ("pixelFormat", "isBlendingEnabled") for entry in plain(name, self.field(attachment, name))]
+            members = [
+                entry
+                for name in ("pixelFormat", "isBlendingEnabled")
+                for entry in plain(name, self.field(attachment, name))
+            ]
             colors += section(slot.removeprefix("color"), members)
         return mapping(entries + section("colorAttachments", colors), info.at)
 
     def device(self) -> list[Entry]:
         """Returns what conditions that hold say about the device."""
         asked = [offer for key, offer in self.program.offers.items() if self.configuration.get(key)]
-        family = next(((word, at) for name, word, at in asked if name == "supportsFamily" and word in ENUMS["MTLGPUFamily"]), None)
+        family = next(
+            (
+                (word, at)
+                for name, word, at in asked
+                if name == "supportsFamily" and word in ENUMS["MTLGPUFamily"]
+            ),
+            None,
+        )
         if family is None and (apple_at := self.apple_only()) is not None:
             self.assume_value("the GPU family", apple_at, "apple3, the minimum for iOS 13")
             family = ("apple3", apple_at)
         entries = [("family", family[1], scalar(*family))] if family is not None else []
-        most, place = max(((count, at) for name, count, at in asked if name != "supportsFamily"), default=(0, Span(0, 0)))
+        most, place = max(
+            ((count, at) for name, count, at in asked if name != "supportsFamily"),
+            default=(0, Span(0, 0)),
+        )
         if most in COUNTS and type(most) is int and most > 4:
-            entries.append(("supportedSampleCounts", place, sequence([scalar(count, place) for count in (1, 2, 4, most)], place)))
+            entries.append(
+                (
+                    "supportedSampleCounts",
+                    place,
+                    sequence([scalar(count, place) for count in (1, 2, 4, most)], place),
+                )
+            )
         return entries
 
     def apple_only(self) -> Span | None:
         """Returns where the program shows that it targets Apple GPUs."""
-        modes = [mode for texture in self.all.values() if (mode := self.storage(texture)) is not None]
-        return self.platform or next((mode.at for mode in modes if constant_of(mode) == "memoryless"), None)
+        modes = [
+            mode for texture in self.all.values() if (mode := self.storage(texture)) is not None
+        ]
+        return self.platform or next(
+            (mode.at for mode in modes if constant_of(mode) == "memoryless"), None
+        )
 
-    def commands(self, steps: list[Encoded], passes: list[ApiObject], names: dict[int, str]) -> Node | None:
-        """Returns the commands of a frame if one function encodes all passes and presents the drawable, and every step is known."""
+    def commands(
+        self, steps: list[Encoded], passes: list[ApiObject], names: dict[int, str]
+    ) -> Node | None:
+        """Returns the commands of a frame if one function encodes all passes and presents the
+        drawable, and every step is known.
+        """
         encodings = [step for step in steps if step.kind == "pass"]
         roots = {step.by for step in encodings}
         if len(roots) != 1 or len(encodings) != len(passes) or roots & self.program.incomplete:
             return None
-        if not all(step.sure and step.by in roots for step in steps) or not any(step.kind == "present" for step in steps):
+        if not all(step.sure and step.by in roots for step in steps) or not any(
+            step.kind == "present" for step in steps
+        ):
             return None
-        if {id(step.what[0]) for step in encodings} != set(names) or any(UNKNOWN in step.what or None in step.what for step in steps):
+        if {id(step.what[0]) for step in encodings} != set(names) or any(
+            UNKNOWN in step.what or None in step.what for step in steps
+        ):
             return None
-        if any(texture.escaped or self.is_read_elsewhere(texture) for texture in self.all.values() if id(texture) in self.attached):
+        if any(
+            texture.escaped or self.is_read_elsewhere(texture)
+            for texture in self.all.values()
+            if id(texture) in self.attached
+        ):
             return None
         reads: dict[int, list[Node]] = {}
         nodes: list[Node] = []
@@ -237,7 +322,11 @@ class DescriptionWriter(Textures):
         for step in steps:
             if step.kind == "pass":
                 nodes += reads.get(id(step.what[0]), ())
-                nodes.append(mapping([("renderPass", step.at, scalar(names[id(step.what[0])], step.at))], step.at))
+                nodes.append(
+                    mapping(
+                        [("renderPass", step.at, scalar(names[id(step.what[0])], step.at))], step.at
+                    )
+                )
             elif step.kind != "read":
                 nodes.append(self.command(step))
         return sequence(nodes, steps[0].at)
@@ -246,18 +335,51 @@ class DescriptionWriter(Textures):
         """Returns whether other files may read a texture, judging by its usage."""
         usage = self.member(texture, "usage")
         only_target = usage is not None and (
-            usage.value == "renderTarget" or (isinstance(usage.value, Flags) and {bit for bit, _ in usage.value.bits} == {"renderTarget"})
+            usage.value == "renderTarget"
+            or (
+                isinstance(usage.value, Flags)
+                and {bit for bit, _ in usage.value.bits} == {"renderTarget"}
+            )
         )
-        return not only_target and not is_drawable(texture) and texture.name in self.program.unit.visible
+        return (
+            not only_target
+            and not is_drawable(texture)
+            and texture.name in self.program.unit.visible
+        )
 
     def command(self, step: Encoded) -> Node:
         at = step.at
-        named = [scalar(self.name(item), at) for item in step.what if isinstance(item, ApiObject) and item.kind == "texture"]
+        named = [
+            scalar(self.name(item), at)
+            for item in step.what
+            if isinstance(item, ApiObject) and item.kind == "texture"
+        ]
         if step.kind == "present":
             return mapping([("present", at, named[0])], at)
         if step.kind == "copy":
-            return mapping([("copy", at, mapping([("source", at, named[0]), ("destination", at, named[1])], at))], at)
-        return mapping([("readTexture", at, mapping([("texture", at, named[0]), ("stage", at, scalar(str(step.what[1]), at))], at))], at)
+            return mapping(
+                [
+                    (
+                        "copy",
+                        at,
+                        mapping([("source", at, named[0]), ("destination", at, named[1])], at),
+                    )
+                ],
+                at,
+            )
+        return mapping(
+            [
+                (
+                    "readTexture",
+                    at,
+                    mapping(
+                        [("texture", at, named[0]), ("stage", at, scalar(str(step.what[1]), at))],
+                        at,
+                    ),
+                )
+            ],
+            at,
+        )
 
 
 def attachments_of(info: Struct) -> list[tuple[str, Struct]]:

@@ -25,11 +25,19 @@ def file_syntax(code: Code, macros: Macros = NO_MACROS) -> FileSyntax:
     rewritten = rewrite(code.text)
     root = tree(code._replace(text=rewritten.text)).root_node
     known = unit(code._replace(text=rewritten.text), root, rewritten)
-    return syntax_of(code, whole, known, root, calls_metal(code))._replace(pieces=places.pieces, unread=unread)
+    return syntax_of(code, whole, known, root, calls_metal(code))._replace(
+        pieces=places.pieces, unread=unread
+    )
 
 
 def trees(code: Code) -> list[Read]:
-    """Returns the trees of a file or of a page's fragments: at most one for each API. Raises `Missing` if the grammar is not installed."""
+    """Returns the trees of a file or of a page's fragments: at most one for each API. Raises
+    `Missing` if the grammar is not installed.
+    """
     syntax = file_syntax(code)
     places = Places(syntax.pieces)
-    return located(executed(syntax, code.fragments, assuming(code.assumptions, places.original)), places, syntax.unread)
+    return located(
+        executed(syntax, code.fragments, assuming(code.assumptions, places.original)),
+        places,
+        syntax.unread,
+    )

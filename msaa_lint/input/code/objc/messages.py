@@ -1,11 +1,13 @@
-"""Rewrites Objective-C as C++ of the same length, so that the grammar of C++, which Objective-C++ needs anyway, parses it.
+"""Rewrites Objective-C as C++ of the same length, so that the grammar of C++, which Objective-C++
+needs anyway, parses it.
 
     [device newTextureWithDescriptor:d]         device.newTextureWithDescriptor(d)
     [pass setTexture:t atIndex:0]               pass.setTexture(t ,        0)
     - (void)draw:(CGSize)size on:(id)target {   void draw(CGSize size, id target) {
     @property (strong) id<MTLTexture> color;    id<MTLTexture> color;
 
-Tables say which members of the text are messages, which functions are methods, and the labels of their arguments.
+Tables say which members of the text are messages, which functions are methods, and the labels of
+their arguments.
 """
 
 from __future__ import annotations
@@ -15,21 +17,27 @@ from bisect import bisect_right
 from typing import NamedTuple
 
 _TOKEN = re.compile(
-    r"//[^\n]*|/\*.*?(?:\*/|\Z)|^[ \t]*\#(?:\\\n|[^\n])*|@?\"(?:\\.|[^\"\\\n])*\"|'(?:\\.|[^'\\\n])*'|@?[A-Za-z_]\w*|\d[\w.]*"
+    r"//[^\n]*|/\*.*?(?:\*/|\Z)|^[ "
+    r"\t]*\#(?:\\\n|[^\n])*|@?\"(?:\\.|[^\"\\\n])*\"|'(?:\\.|[^'\\\n])*'|@?[A-Za-z_]\w*|\d[\w.]*"
     r"|::|->|&&|\|\||[^\s\w]",
     re.DOTALL | re.MULTILINE,
 )
 _WORD = re.compile(r"[A-Za-z_]\w*$")
 _BLANK = frozenset({
-    "__weak", "__strong", "__unsafe_unretained", "__block", "__autoreleasing", "__bridge", "__bridge_retained", "__bridge_transfer",
-    "nonnull", "nullable", "null_unspecified", "_Nonnull", "_Nullable", "_Null_unspecified", "__nonnull", "__nullable", "__kindof",
-    "IBOutlet", "IBAction", "NS_DESIGNATED_INITIALIZER", "NS_ASSUME_NONNULL_BEGIN", "NS_ASSUME_NONNULL_END", "NS_REQUIRES_SUPER",
-    "@autoreleasepool", "@try", "@finally", "@public", "@private", "@protected", "@package", "@optional", "@required",
+    "__weak", "__strong", "__unsafe_unretained", "__block", "__autoreleasing", "__bridge",
+    "__bridge_retained", "__bridge_transfer",
+    "nonnull", "nullable", "null_unspecified", "_Nonnull", "_Nullable", "_Null_unspecified",
+    "__nonnull", "__nullable", "__kindof",
+    "IBOutlet", "IBAction", "NS_DESIGNATED_INITIALIZER", "NS_ASSUME_NONNULL_BEGIN",
+    "NS_ASSUME_NONNULL_END", "NS_REQUIRES_SUPER",
+    "@autoreleasepool", "@try", "@finally", "@public", "@private", "@protected", "@package",
+    "@optional", "@required",
 })  # fmt: skip
 """Words that say nothing about values."""
 
 _BLANK_CALLS = frozenset({
-    "__attribute__", "API_AVAILABLE", "API_UNAVAILABLE", "API_DEPRECATED", "NS_AVAILABLE", "NS_AVAILABLE_MAC", "NS_AVAILABLE_IOS",
+    "__attribute__", "API_AVAILABLE", "API_UNAVAILABLE", "API_DEPRECATED", "NS_AVAILABLE",
+    "NS_AVAILABLE_MAC", "NS_AVAILABLE_IOS",
     "NS_SWIFT_NAME", "NS_CLASS_AVAILABLE", "NS_DEPRECATED", "@synchronized", "@catch",
 })  # fmt: skip
 """Words that say nothing, and their arguments."""
@@ -37,35 +45,58 @@ _BLANK_CALLS = frozenset({
 _BLANK_LINES = frozenset({"@class", "@import", "@synthesize", "@dynamic", "@compatibility_alias"})
 _VALUES = frozenset({"@selector", "@protocol", "@encode"})
 _KEYWORDS = frozenset({
-    "new", "class", "default", "delete", "private", "protected", "public", "register", "this", "namespace", "template", "typename",
+    "new", "class", "default", "delete", "private", "protected", "public", "register", "this",
+    "namespace", "template", "typename",
     "operator",
-    "union", "struct", "signed", "switch", "case", "return", "continue", "break", "for", "if", "else", "goto", "do", "while",
+    "union", "struct", "signed", "switch", "case", "return", "continue", "break", "for", "if",
+    "else", "goto", "do", "while",
     "auto",
 })  # fmt: skip
 """Selectors that are keywords of C++."""
 
-_BEFORE_VALUE = frozenset({"return", "case", "else", "do", "in", "throw", "goto", "co_return", "sizeof", "@throw", "__bridge"})
+_BEFORE_VALUE = frozenset(
+    {
+        "return",
+        "case",
+        "else",
+        "do",
+        "in",
+        "throw",
+        "goto",
+        "co_return",
+        "sizeof",
+        "@throw",
+        "__bridge",
+    }
+)
 _ENUMS = frozenset({"NS_ENUM", "NS_OPTIONS", "NS_CLOSED_ENUM", "CF_ENUM", "CF_OPTIONS"})
 _PAIRS = {")": "(", "]": "[", "}": "{"}
 _BLOCK_TYPE = re.compile(r"\(\s*\^")
 _QUALIFIERS = re.compile(
     r"\b(?:nonnull|nullable|null_unspecified|_Nonnull|_Nullable|__kindof|__autoreleasing|__strong|__weak|__unsafe_unretained|oneway|inout|out|bycopy|byref|in|const)\b"
 )
-_INTERFACE = re.compile(r"\s+([A-Za-z_]\w*)(?:\s*<[^>{}@;]*>)?(?:\s*\([^(){}]*\))?(?:\s*:\s*([A-Za-z_][\w.]*))?(?:\s*<[^{};@]*?>)?")
+_INTERFACE = re.compile(
+    r"\s+([A-Za-z_]\w*)(?:\s*<[^>{}@;]*>)?(?:\s*\([^(){}]*\))?(?:\s*:\s*([A-Za-z_][\w.]*))?(?:\s*<[^{};@]*?>)?"
+)
 _METHOD = re.compile(r"([-+])\s*(\((?:[^()]|\([^()]*(?:\([^()]*\)[^()]*)*\))*\))?\s*")
-_PART = re.compile(r"([A-Za-z_]\w*)?\s*:\s*(\((?:[^()]|\([^()]*(?:\([^()]*\)[^()]*)*\))*\))?\s*([A-Za-z_]\w*)\s*")
+_PART = re.compile(
+    r"([A-Za-z_]\w*)?\s*:\s*(\((?:[^()]|\([^()]*(?:\([^()]*\)[^()]*)*\))*\))?\s*([A-Za-z_]\w*)\s*"
+)
 
 
 class Message(NamedTuple):
-    """A message or the name of a method: its first part, and the labels of the further arguments; None for one without arguments."""
+    """A message or the name of a method: its first part, and the labels of the further arguments;
+    None for one without arguments.
+    """
 
     name: str
     labels: tuple[str, ...] | None
 
 
 class Rewritten(NamedTuple):
-    """C++ of the same length. Messages and methods are by the offset of their name; `classes` are those that
-    the text declares or implements, `bases` what they derive from."""
+    """C++ of the same length. Messages and methods are by the offset of their name; `classes` are
+    those that the text declares or implements, `bases` what they derive from.
+    """
 
     text: str
     messages: dict[int, Message]
@@ -85,7 +116,9 @@ class _Rewriter:
     def __init__(self, text: str) -> None:
         self.text = text
         self.out = list(text)
-        found = [m for m in _TOKEN.finditer(text) if not m[0].lstrip().startswith(("//", "/*", "#"))]
+        found = [
+            m for m in _TOKEN.finditer(text) if not m[0].lstrip().startswith(("//", "/*", "#"))
+        ]
         self.tokens = [m[0] for m in found]
         self.starts = [m.start() for m in found]
         self.ends = [m.end() for m in found]
@@ -163,7 +196,11 @@ class _Rewriter:
             self.put(start, self.ends[arguments], "0")
             return arguments
         elif token == "@available" and arguments >= 0:
-            self.put(start, self.ends[arguments], re.sub(r"\W", "_", self.text[start : self.ends[arguments]]))
+            self.put(
+                start,
+                self.ends[arguments],
+                re.sub(r"\W", "_", self.text[start : self.ends[arguments]]),
+            )
             return arguments
         elif token in _ENUMS and arguments >= 0 and n + 4 <= arguments:
             if n and self.tokens[n - 1] == "typedef":
@@ -207,7 +244,11 @@ class _Rewriter:
         """Rewrites a block as a lambda, and the type of one as that of a function pointer."""
         start = self.starts[n]
         before = self.tokens[n - 1] if n else ""
-        if before == "(" and n + 1 < len(self.tokens) and (self.is_token(n + 1, ")") or self.is_token(n + 2, ")")):
+        if (
+            before == "("
+            and n + 1 < len(self.tokens)
+            and (self.is_token(n + 1, ")") or self.is_token(n + 2, ")"))
+        ):
             self.out[start] = "*"
             return
         if (_WORD.match(before) and before not in _BEFORE_VALUE) or before in (")", "]"):
@@ -224,14 +265,25 @@ class _Rewriter:
     def message(self, n: int) -> None:
         """Rewrites `[receiver selector:argument]`; other brackets stay."""
         close = self.match[n]
-        if close < 0 or (close + 1 < len(self.tokens) and self.tokens[close + 1] in ("(", "{", "mutable")):
+        if close < 0 or (
+            close + 1 < len(self.tokens) and self.tokens[close + 1] in ("(", "{", "mutable")
+        ):
             return
         selector = self.selector(n, close)
         if selector is None:
             return
         name, start = self.tokens[selector], self.starts[selector]
-        blank = next((at for at in range(start - 1, self.ends[selector - 1] - 1, -1) if self.text[at] in " \t"), start - 1)
-        if not self.out[blank].isspace() and not (self.tokens[selector - 1] == "]" and self.out[blank] == " "):
+        blank = next(
+            (
+                at
+                for at in range(start - 1, self.ends[selector - 1] - 1, -1)
+                if self.text[at] in " \t"
+            ),
+            start - 1,
+        )
+        if not self.out[blank].isspace() and not (
+            self.tokens[selector - 1] == "]" and self.out[blank] == " "
+        ):
             return
         self.out[self.starts[n]] = " "
         self.out[blank] = "."
@@ -259,14 +311,19 @@ class _Rewriter:
             elif token == ":" and questions:
                 questions -= 1
             elif token == ":":
-                labeled = _WORD.match(self.tokens[n - 1]) is not None and self.ends[n - 1] == self.starts[n]
+                labeled = (
+                    _WORD.match(self.tokens[n - 1]) is not None
+                    and self.ends[n - 1] == self.starts[n]
+                )
                 labels.append(self.tokens[n - 1] if labeled else "")
                 self.put(self.starts[n - 1] if labeled else self.starts[n], self.ends[n], ",")
             n += 1
         return labels
 
     def selector(self, n: int, close: int) -> int | None:
-        """Returns the first part of the selector of a message, or None for a subscript or a lambda."""
+        """Returns the first part of the selector of a message, or None for a subscript or a
+        lambda.
+        """
         first = n + 1
         operand = False
         after_group = False
@@ -284,7 +341,10 @@ class _Rewriter:
             elif token[-1] in "\"'" or token[0].isdigit():
                 operand, after_group = True, False
             elif token == "<" and operand:
-                stop = next((at for at in range(first, min(first + 12, close)) if self.tokens[at] == ">"), None)
+                stop = next(
+                    (at for at in range(first, min(first + 12, close)) if self.tokens[at] == ">"),
+                    None,
+                )
                 if stop is None:
                     return None
                 first = stop
@@ -301,7 +361,11 @@ class _Rewriter:
         header = _INTERFACE.match(self.text, self.ends[n])
         if end is None or header is None or self.tokens[n] == "@protocol":
             stop = self.text.find(";", self.ends[n])
-            forward = self.tokens[n] == "@protocol" and stop >= 0 and (end is None or "@" not in self.text[self.ends[n] : stop])
+            forward = (
+                self.tokens[n] == "@protocol"
+                and stop >= 0
+                and (end is None or "@" not in self.text[self.ends[n] : stop])
+            )
             last = bisect_right(self.starts, stop) - 1 if forward else end if end is not None else n
             self.blank(self.starts[n], self.ends[last])
             return last + 1
@@ -329,7 +393,9 @@ class _Rewriter:
         return end + 1
 
     def implementation(self, n: int) -> tuple[int, str]:
-        """Blanks the start of an implementation; its variables become a structure. Returns the token after it and the class."""
+        """Blanks the start of an implementation; its variables become a structure. Returns the
+        token after it and the class.
+        """
         header = _INTERFACE.match(self.text, self.ends[n])
         if header is None:
             return n + 1, ""
@@ -350,12 +416,18 @@ class _Rewriter:
     def is_method(self, n: int) -> bool:
         """Returns whether a sign begins a method: where a declaration may begin."""
         before = self.tokens[n - 1] if n else ""
-        return before in ("", ";", "}", "{", ")") or before[0] == "@" or self.text.rfind("\n", self.ends[n - 1], self.starts[n]) >= 0
+        return (
+            before in ("", ";", "}", "{", ")")
+            or before[0] == "@"
+            or self.text.rfind("\n", self.ends[n - 1], self.starts[n]) >= 0
+        )
 
     def method(self, n: int, class_name: str) -> int:
         """Rewrites the head of a method as that of a function; returns the token after it."""
         head = _METHOD.match(self.text, self.starts[n])
-        first = re.compile(r"[A-Za-z_]\w*").match(self.text, head.end()) if head is not None else None
+        first = (
+            re.compile(r"[A-Za-z_]\w*").match(self.text, head.end()) if head is not None else None
+        )
         if head is None or first is None:
             return n + 1
         name, at = first[0], first.end()
@@ -368,21 +440,34 @@ class _Rewriter:
             at = part.end()
             part = _PART.match(self.text, at)
         body = bisect_right(self.starts, at - 1)
-        stop = next((m for m in range(body, min(body + 40, len(self.tokens))) if self.tokens[m] in ("{", ";")), None)
+        stop = next(
+            (
+                m
+                for m in range(body, min(body + 40, len(self.tokens)))
+                if self.tokens[m] in ("{", ";")
+            ),
+            None,
+        )
         if stop is None:
             return n + 1
         start, end = self.starts[n], self.starts[stop]
         safe = name[:-1] + "_" if name in _KEYWORDS else name
         kind = _type(head[2])
         for types in (True, False):
-            listed = ", ".join(f"{kind_of_parameter if types else 'id'} {parameter}" for kind_of_parameter, parameter in parameters)
+            listed = ", ".join(
+                f"{kind_of_parameter if types else 'id'} {parameter}"
+                for kind_of_parameter, parameter in parameters
+            )
             written = f"{kind if types else 'id'} {safe}({listed})"
             if len(written) <= end - start:
                 break
         else:
             return stop
         self.put(start, end, written)
-        self.methods[start + written.index(" " + safe + "(") + 1] = (class_name, Message(name, tuple(labels[1:]) if labels else None))
+        self.methods[start + written.index(" " + safe + "(") + 1] = (
+            class_name,
+            Message(name, tuple(labels[1:]) if labels else None),
+        )
         return stop
 
 

@@ -4,8 +4,25 @@ from __future__ import annotations
 
 from msaa_lint.core.text.span import Span
 from msaa_lint.input.code.c.syntax import Reader
-from msaa_lint.input.code.core.terms import BINARY, CALL, FIELD, LABEL, LITERAL, NAME, UNARY, Function, Term, Unit
-from msaa_lint.input.code.parsing import Code, SyntaxNode, function_declarator, span, without_comments
+from msaa_lint.input.code.core.terms import (
+    BINARY,
+    CALL,
+    FIELD,
+    LABEL,
+    LITERAL,
+    NAME,
+    UNARY,
+    Function,
+    Term,
+    Unit,
+)
+from msaa_lint.input.code.parsing import (
+    Code,
+    SyntaxNode,
+    function_declarator,
+    span,
+    without_comments,
+)
 
 from .messages import Message, Rewritten
 
@@ -48,9 +65,17 @@ class _Reader(Reader):
             if message is not None and message.labels is None:
                 return self.sent(term, message, (), span(node))
             return (FIELD, term[1], property_name(term[2]), term[3])
-        if term[0] == BINARY and term[1] in _COMPARED and (LITERAL, None) in (term[2][:2], term[3][:2]):
+        if (
+            term[0] == BINARY
+            and term[1] in _COMPARED
+            and (LITERAL, None) in (term[2][:2], term[3][:2])
+        ):
             operand = term[3] if term[2][:2] == (LITERAL, None) else term[2]
-            return (UNARY, "!", operand, term[-1]) if term[1] == "==" else (UNARY, "!", (UNARY, "!", operand, term[-1]), term[-1])
+            return (
+                (UNARY, "!", operand, term[-1])
+                if term[1] == "=="
+                else (UNARY, "!", (UNARY, "!", operand, term[-1]), term[-1])
+            )
         return term
 
     def message_of(self, term: Term) -> Message | None:
@@ -64,7 +89,11 @@ class _Reader(Reader):
 
     def call(self, node: SyntaxNode, depth: int, at: Span) -> Term:
         function = node.child_by_field_name("function")
-        member = function.child_by_field_name("field") if function is not None and function.type == "field_expression" else None
+        member = (
+            function.child_by_field_name("field")
+            if function is not None and function.type == "field_expression"
+            else None
+        )
         message = self.rewritten.messages.get(member.start_byte) if member is not None else None
         if function is None or message is None or message.labels is None:
             return super().call(node, depth, at)
@@ -73,14 +102,19 @@ class _Reader(Reader):
         arguments = []
         for n, child in enumerate(nodes):
             term = self.expression(child, depth)
-            arguments.append((LABEL, labels[n], term, term[-1]) if n < len(labels) and labels[n] else term)
+            arguments.append(
+                (LABEL, labels[n], term, term[-1]) if n < len(labels) and labels[n] else term
+            )
         receiver = self.expression(function.child_by_field_name("argument"), depth)
-        return self.sent((FIELD, receiver, message.name, span(member or function)), message, tuple(arguments), at)
+        return self.sent(
+            (FIELD, receiver, message.name, span(member or function)), message, tuple(arguments), at
+        )
 
     def declared(self, node: SyntaxNode, depth: int = 0) -> list[Term]:
         terms = super().declared(node, depth)
         if node.type != "field_declaration":
-            # A pointer to an object is a variable of its own; only a reference of C++ stands for another.
+            # A pointer to an object is a variable of its own; only a reference of C++ stands for
+            # another.
             refers = "&" in self.text_of(node).partition("=")[0]
             return [(*term[:4], term[4] and refers, *term[5:]) for term in terms]
         return [(*term[:2], property_name(term[2]), *term[3:]) for term in terms]
@@ -102,11 +136,16 @@ class _Reader(Reader):
         if function is None:
             return None
         labels = ("", *(message.labels or ()))
-        parameters = tuple(p._replace(label=labels[n] if n < len(labels) else "") for n, p in enumerate(function.parameters))
+        parameters = tuple(
+            p._replace(label=labels[n] if n < len(labels) else "")
+            for n, p in enumerate(function.parameters)
+        )
         getter = not parameters and function.return_type != "void"
         return function._replace(name=message.name, parameters=parameters, getter=getter)
 
 
 def property_name(name: str) -> str:
-    """Returns the name of the property whose variable has a name, which begins with an underscore; other names are returned as is."""
+    """Returns the name of the property whose variable has a name, which begins with an underscore;
+    other names are returned as is.
+    """
     return name[1:] if name.startswith("_") and name[1:2].islower() else name

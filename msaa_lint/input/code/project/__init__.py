@@ -1,1 +1,3 @@
-"""Source files that are read together: which of them form a program, and what they define for each other."""
+"""Source files that are read together: which of them form a program, and what they define for each
+other.
+"""

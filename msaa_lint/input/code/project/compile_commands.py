@@ -1,6 +1,8 @@
-"""What a compile_commands.json says of the files of a project: the macros that the build defines, and the target that a file belongs to.
+"""What a compile_commands.json says of the files of a project: the macros that the build defines,
+and the target that a file belongs to.
 
-No command of it is run. It may come from a stranger, so that paths outside the project are passed over.
+No command of it is run. It may come from a stranger, so that paths outside the project are passed
+over.
 """
 
 from __future__ import annotations
@@ -29,14 +31,18 @@ _DEFINITION = re.compile(r"([A-Za-z_]\w*)(?:=(.*))?", re.DOTALL)
 
 
 class BuildEntry(NamedTuple):
-    """How a build compiles a file: the target (empty: unknown), and the macros that it defines, as directives."""
+    """How a build compiles a file: the target (empty: unknown), and the macros that it defines, as
+    directives.
+    """
 
     target: str
     definitions: str
 
 
 def build_entries(root: str) -> dict[str, BuildEntry]:
-    """Returns how a project is built, by the paths of its files as findings name them; an empty dictionary if nothing says so."""
+    """Returns how a project is built, by the paths of its files as findings name them; an empty
+    dictionary if nothing says so.
+    """
     for folder in FOLDERS:
         try:
             file, size = open_file(os.path.join(root, folder, NAME), root)

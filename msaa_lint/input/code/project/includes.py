@@ -21,12 +21,18 @@ class Includes:
             self._by_name.setdefault(posixpath.basename(path), []).append(number)
 
     def of(self, number: int, names: Iterable[str]) -> list[int]:
-        """Returns the files that a file includes, each once, in order. A name that several files fit equally well stands for none."""
+        """Returns the files that a file includes, each once, in order. A name that several files
+        fit equally well stands for none.
+        """
         found = (self._find(number, name) for name in names)
-        return list(dict.fromkeys(other for other in found if other is not None and other != number))
+        return list(
+            dict.fromkeys(other for other in found if other is not None and other != number)
+        )
 
     def _find(self, number: int, name: str) -> int | None:
-        """Returns the file that an include names: the one beside the file that includes it, else the nearest one whose path ends so."""
+        """Returns the file that an include names: the one beside the file that includes it, else
+        the nearest one whose path ends so.
+        """
         folder = self._folders[number]
         beside = self._numbers.get(posixpath.normpath(posixpath.join(folder, name)))
         if beside is not None:
@@ -40,7 +46,10 @@ class Includes:
         fitting = [other for other in named if f"/{self.paths[other]}".endswith(f"/{stated}")]
         if not fitting:
             return None
-        ranked = sorted((-_shared(folder, self._folders[other]), len(self._folders[other]), other) for other in fitting)
+        ranked = sorted(
+            (-_shared(folder, self._folders[other]), len(self._folders[other]), other)
+            for other in fitting
+        )
         return None if len(ranked) > 1 and ranked[0][:2] == ranked[1][:2] else ranked[0][2]
 
 

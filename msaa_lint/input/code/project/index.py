@@ -1,6 +1,8 @@
-"""What the words of a source file say about the other files of its project: what it includes, what it declares, whether it is a program.
+"""What the words of a source file say about the other files of its project: what it includes, what
+it declares, whether it is a program.
 
-Files are searched by words, without being parsed, so that the files of a large project take little time.
+Files are searched by words, without being parsed, so that the files of a large project take little
+time.
 """
 
 from __future__ import annotations
@@ -22,7 +24,9 @@ if TYPE_CHECKING:
     from msaa_lint.core.cache import Cache
 
 MAX_BYTES = (4 << 20) + 1
-"""The number of bytes of a file that are searched; a source file of that length is too long to be read."""
+"""The number of bytes of a file that are searched; a source file of that length is too long to be
+read.
+"""
 
 MIN_KEPT = 50
 """The number of files of a run whose words are not kept in a cache."""
@@ -33,18 +37,25 @@ HEADERS = (".h", ".hpp", ".hh", ".hxx", ".h++", ".inl", ".ipp", ".tpp", ".inc")
 SOURCES = (".cpp", ".c", ".cc", ".cxx", ".mm", ".m")
 """The endings of files that define what headers declare."""
 
-_INCLUDE = re.compile(rb'^[ \t]*#[ \t]*(?:include|import)[ \t]*[<"]([^>"\r\n]{1,400})[>"]', re.MULTILINE)
+_INCLUDE = re.compile(
+    rb'^[ \t]*#[ \t]*(?:include|import)[ \t]*[<"]([^>"\r\n]{1,400})[>"]', re.MULTILINE
+)
 
 _RUST_MODULE = re.compile(
-    rb"^[ \t]*(?:pub(?:\([a-z ]{1,20}\))?[ \t]+)?(?:mod[ \t]+(\w+)[ \t]*;|use[ \t]+(\w+(?:::\w+){1,12}))", re.MULTILINE
+    rb"^[ \t]*(?:pub(?:\([a-z ]{1,20}\))?[ \t]+)?(?:mod[ \t]+(\w+)[ \t]*;|use[ "
+    rb"\t]+(\w+(?:::\w+){1,12}))",
+    re.MULTILINE,
 )
 """A module of Rust that a file declares or uses."""
 
 _MAIN = re.compile(
-    rb"^[ \t]*(?:extern[ \t]+\"C\"[ \t]+)?(?:(?:int|auto|sapp_desc|SDL_AppResult)\s+(?:[A-Z_a-z]\w*[ \t]+){0,2}"
-    rb"(?:_?main_?|w?WinMain|_tmain|wmain|SDL_main|SDL_AppInit|sokol_main)|void\s+android_main)[ \t]*\((?![^()]{0,400}\)[ \t]*;)"
+    rb"^[ \t]*(?:extern[ \t]+\"C\"[ "
+    rb"\t]+)?(?:(?:int|auto|sapp_desc|SDL_AppResult)\s+(?:[A-Z_a-z]\w*[ \t]+){0,2}"
+    rb"(?:_?main_?|w?WinMain|_tmain|wmain|SDL_main|SDL_AppInit|sokol_main)|void\s+android_main)[ "
+    rb"\t]*\((?![^()]{0,400}\)[ \t]*;)"
     rb"|^[A-Z][A-Z0-9_]*_MAIN[A-Z_]*[ \t]*\("
-    rb"|^(?:pub[ \t]+)?(?:async[ \t]+)?fn[ \t]+main[ \t]*\(|^@(?:main|UIApplicationMain|NSApplicationMain)\b",
+    rb"|^(?:pub[ \t]+)?(?:async[ \t]+)?fn[ \t]+main[ "
+    rb"\t]*\(|^@(?:main|UIApplicationMain|NSApplicationMain)\b",
     re.MULTILINE,
 )
 """Where a program starts, also by the macro of a framework."""
@@ -53,17 +64,22 @@ _MAINS = (b"main", b"Main", b"MAIN", b"SDL_AppInit")
 """What files have in which a program starts: to search for it takes far less time."""
 
 _CLASS = re.compile(
-    rb"\b(?:class|struct|@interface|@implementation)[ \t]+(?:[A-Z_0-9]+[ \t]+)?([A-Za-z_]\w*)(?=[ \t]*(?:final\b|:|\{|\r?$))", re.MULTILINE
+    rb"\b(?:class|struct|@interface|@implementation)[ \t]+(?:[A-Z_0-9]+[ \t]+)?([A-Za-z_]\w*)(?=[ "
+    rb"\t]*(?:final\b|:|\{|\r?$))",
+    re.MULTILINE,
 )
-_FUNCTION = re.compile(rb"^[A-Za-z_][\w \t*&:<>,]{0,200}?[ \t*&]([A-Za-z_]\w*)(?:::~?\w+)?[ \t]*\(", re.MULTILINE)
+_FUNCTION = re.compile(
+    rb"^[A-Za-z_][\w \t*&:<>,]{0,200}?[ \t*&]([A-Za-z_]\w*)(?:::~?\w+)?[ \t]*\(", re.MULTILINE
+)
 """A function that is declared or defined at the left margin; of a method, its class."""
 
 
 class Words(NamedTuple):
     """The words of a file, and its length in bytes.
 
-    `names` are the classes and functions that it declares or defines; `is_related` says whether it can matter to files that use
-    multisampling, `has_api`, `has_multisampling`, and `speaks` what it mentions itself.
+    `names` are the classes and functions that it declares or defines; `is_related` says whether it
+    can matter to files that use multisampling, `has_api`, `has_multisampling`, and `speaks` what it
+    mentions itself.
     """
 
     length: int
@@ -81,7 +97,9 @@ def words(data: bytes) -> Words:
     length = len(data)
     if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
         data = data.decode("utf-16", "replace").encode()
-    includes = dict.fromkeys(name.decode("utf-8", "replace").replace("\\", "/") for name in _INCLUDE.findall(data))
+    includes = dict.fromkeys(
+        name.decode("utf-8", "replace").replace("\\", "/") for name in _INCLUDE.findall(data)
+    )
     if b"fn " in data:
         includes.update(dict.fromkeys(_modules(data)))
     has_main = any(word in data for word in _MAINS) and _MAIN.search(data) is not None
@@ -93,7 +111,9 @@ def words(data: bytes) -> Words:
     has_api = mentions.may_have_findings(text)
     speaks = has_api and mentions.speaks(text)
     multisampled = speaks or mentions.mentions_multisampling(text)
-    return Words(length, tuple(includes), frozenset(names), has_main, True, has_api, multisampled, speaks)
+    return Words(
+        length, tuple(includes), frozenset(names), has_main, True, has_api, multisampled, speaks
+    )
 
 
 def _modules(data: bytes) -> Iterator[str]:
@@ -106,9 +126,10 @@ def _modules(data: bytes) -> Iterator[str]:
 
 
 class Index:
-    """The words of the files of a run. With a cache, files that are as they were in an earlier run are not read again, apart from the
-    first `MIN_KEPT`: a few files take less time than what they were kept in. `cache` opens it, when it is needed, and `name` is that of
-    the run."""
+    """The words of the files of a run. With a cache, files that are as they were in an earlier run
+    are not read again, apart from the first `MIN_KEPT`: a few files take less time than what they
+    were kept in. `cache` opens it, when it is needed, and `name` is that of the run.
+    """
 
     def __init__(self, name: str, cache: Callable[[], Cache | None]) -> None:
         self.name = name
@@ -158,7 +179,9 @@ class Index:
         return self._contents[path]
 
     def of_entry(self, path: str) -> Words:
-        """The words of a regular file, according to the listing of its folder. Raises OSError if it cannot be read."""
+        """The words of a regular file, according to the listing of its folder. Raises OSError if it
+        cannot be read.
+        """
         known = self._unchanged(path)
         if known is not None:
             return known
@@ -219,7 +242,9 @@ class Index:
 
 
 class _Kept(NamedTuple):
-    """What is kept of files between runs: by path, a name for the content and the state, and by these names, the members of the words."""
+    """What is kept of files between runs: by path, a name for the content and the state, and by
+    these names, the members of the words.
+    """
 
     files: dict[str, list[Any]]
     words: dict[str, list[Any]]

@@ -20,14 +20,23 @@ MIN_LENGTH = 4000
 """The number of characters of a program from which on it is kept; a shorter one is read as fast."""
 
 
-def kept_reads(cache: Cache | None, files: Sequence[ProgramFile], headers: Sequence[bool], read: Callable[[], list[Read]]) -> list[Read]:
-    """Returns what a program creates: as in an earlier run if its files are the same, or else from `read`."""
+def kept_reads(
+    cache: Cache | None,
+    files: Sequence[ProgramFile],
+    headers: Sequence[bool],
+    read: Callable[[], list[Read]],
+) -> list[Read]:
+    """Returns what a program creates: as in an earlier run if its files are the same, or else from
+    `read`.
+    """
     if cache is None or sum(len(file.source.text) for file in files) < MIN_LENGTH:
         return read()
     parts = []
     for file, header in zip(files, headers, strict=True):
         parts += [
-            f"{file.language} {header} {list(file.includes)} {file.definitions}".encode("utf-8", "surrogatepass"),
+            f"{file.language} {header} {list(file.includes)} {file.definitions}".encode(
+                "utf-8", "surrogatepass"
+            ),
             file.source.text.encode("utf-8", "surrogatepass"),
         ]
     key = digest(*parts)

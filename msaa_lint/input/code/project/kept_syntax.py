@@ -18,14 +18,21 @@ MIN_LENGTH = 4000
 """The number of characters of a file from which on it is kept; a shorter one is read as fast."""
 
 
-def kept_syntax(cache: Cache | None, code: Code, macros: Macros, offset: int, read: Callable[[], FileSyntax]) -> FileSyntax:
-    """Returns the syntax of a file, with an offset added to each place: as in an earlier run if its text and the macros that it sees are
-    the same, or else from `read`."""
+def kept_syntax(
+    cache: Cache | None, code: Code, macros: Macros, offset: int, read: Callable[[], FileSyntax]
+) -> FileSyntax:
+    """Returns the syntax of a file, with an offset added to each place: as in an earlier run if its
+    text and the macros that it sees are the same, or else from `read`.
+    """
     if cache is None or len(code.text) < MIN_LENGTH:
         return loads(dumps(read()), offset)
     from msaa_lint.core.cache import digest
 
-    key = digest(code.language.encode(), code.text.encode(), repr(sorted(macros.items())).encode("utf-8", "surrogatepass"))
+    key = digest(
+        code.language.encode(),
+        code.text.encode(),
+        repr(sorted(macros.items())).encode("utf-8", "surrogatepass"),
+    )
     data = cache.read("syntax", key)
     if data is not None:
         with suppress(ValueError, RecursionError):

@@ -11,7 +11,9 @@ _WORD = re.compile(r"[A-Za-z_]\w*")
 
 
 class SharedMacros:
-    """The macros of the files of a program, by name; `files` are those that each file leaves defined."""
+    """The macros of the files of a program, by name; `files` are those that each file leaves
+    defined.
+    """
 
     def __init__(self, files: Sequence[Macros]) -> None:
         self._by_name: dict[str, list[tuple[int, Definitions]]] = {}
@@ -23,7 +25,8 @@ class SharedMacros:
     def visible(self, number: int, text: str, included: Set[int]) -> dict[str, Definitions]:
         """Returns the macros that a text uses, and those that their replacements use.
 
-        The files that it includes, directly or not, define them; otherwise any file, since not all includes can be followed.
+        The files that it includes, directly or not, define them; otherwise any file, since not all
+        includes can be followed.
         """
         visible: dict[str, Definitions] = {}
         fresh = set(_WORD.findall(text)) & self._by_name.keys()
@@ -32,10 +35,19 @@ class SharedMacros:
             for name in fresh:
                 others = [entry for entry in self._by_name[name] if entry[0] != number]
                 near = [definitions for other, definitions in others if other in included]
-                found = merged({name: definitions} for definitions in near or [definitions for _, definitions in others]).get(name, ())
+                found = merged(
+                    {name: definitions}
+                    for definitions in near or [definitions for _, definitions in others]
+                ).get(name, ())
                 if found:
-                    visible[name] = found if near else tuple(macro._replace(certain=False) for macro in found)
-                    words.update(word for macro in found for word in _WORD.findall(macro.replacement))
+                    visible[name] = (
+                        found if near else tuple(macro._replace(certain=False) for macro in found)
+                    )
+                    words.update(
+                        word for macro in found for word in _WORD.findall(macro.replacement)
+                    )
             fresh = (words & self._by_name.keys()) - visible.keys()
-            fresh = {name for name in fresh if any(other != number for other, _ in self._by_name[name])}
+            fresh = {
+                name for name in fresh if any(other != number for other, _ in self._by_name[name])
+            }
         return visible

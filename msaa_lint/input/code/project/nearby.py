@@ -1,4 +1,5 @@
-"""Finds the files that source files include and that are not among the inputs: beside them, and in the folders above them in their project.
+"""Finds the files that source files include and that are not among the inputs: beside them, and in
+the folders above them in their project.
 
 Only files of the project are looked at, and no link is followed.
 """
@@ -19,7 +20,12 @@ INCLUDE_FOLDERS = ("", "include", "inc", "src", "source", "Source", "Include")
 MAX_LOOKUPS = 20_000
 """The maximum number of paths that are looked up."""
 
-_PARALLEL = {"include": ("src", "source", "lib"), "inc": ("src",), "Include": ("Source", "Src"), "headers": ("src", "source", "sources")}
+_PARALLEL = {
+    "include": ("src", "source", "lib"),
+    "inc": ("src",),
+    "Include": ("Source", "Src"),
+    "headers": ("src", "source", "sources"),
+}
 """The folders that have the sources of headers."""
 
 
@@ -37,18 +43,31 @@ class Nearby:
         """Yields the files that a file includes by these names, as paths like its own."""
         folders = list(self._folders_above(path))
         for name in names:
-            found = next((other for folder in folders for other in _candidates(folder, name) if self.exists(other)), None)
+            found = next(
+                (
+                    other
+                    for folder in folders
+                    for other in _candidates(folder, name)
+                    if self.exists(other)
+                ),
+                None,
+            )
             if found is not None:
                 yield found
 
     def sources(self, header: str) -> Iterator[str]:
-        """Yields the sources that have the name of a header, beside it or in the folder for sources."""
+        """Yields the sources that have the name of a header, beside it or in the folder for
+        sources.
+        """
         folder, name = os.path.split(header)
         stem = name.partition(".")[0]
         folders = [folder]
         parts = folder.split(os.sep)
         for number, part in enumerate(parts):
-            folders += [os.path.join(*parts[:number], other, *parts[number + 1 :]) for other in _PARALLEL.get(part, ())]
+            folders += [
+                os.path.join(*parts[:number], other, *parts[number + 1 :])
+                for other in _PARALLEL.get(part, ())
+            ]
         for other in folders:
             for ending in SOURCES:
                 path = os.path.join(other, stem + ending)

@@ -31,8 +31,9 @@ PREPROCESSED = ("c", "cpp", "objc", "objcpp")
 
 
 class ProgramFile(NamedTuple):
-    """A file of a program: its text, its language, the numbers of the files that it includes, and directives that define what its build
-    does."""
+    """A file of a program: its text, its language, the numbers of the files that it includes, and
+    directives that define what its build does.
+    """
 
     source: Source
     language: str
@@ -45,7 +46,9 @@ class ProgramFile(NamedTuple):
 
 
 def starts(files: Sequence[ProgramFile]) -> list[int]:
-    """Returns the offset of each file in the text of the program, in which a line end follows each file."""
+    """Returns the offset of each file in the text of the program, in which a line end follows each
+    file.
+    """
     offsets = [0]
     for file in files[:-1]:
         offsets.append(offsets[-1] + len(file.source.text) + 1)
@@ -54,16 +57,24 @@ def starts(files: Sequence[ProgramFile]) -> list[int]:
 
 def joined(files: Sequence[ProgramFile]) -> Source:
     """Returns the text of a program."""
-    return files[0].source if len(files) == 1 else Source(files[0].source.name, "\n".join(file.source.text for file in files))
+    return (
+        files[0].source
+        if len(files) == 1
+        else Source(files[0].source.name, "\n".join(file.source.text for file in files))
+    )
 
 
 def read(
-    files: Sequence[ProgramFile], headers: Sequence[bool], assumptions: Assumptions | None = None, cache: Cache | None = None
+    files: Sequence[ProgramFile],
+    headers: Sequence[bool],
+    assumptions: Assumptions | None = None,
+    cache: Cache | None = None,
 ) -> list[Read]:
-    """Returns what a program creates, with places in its text. `headers` says which of its files only declare;
-    `assumptions` are stated about it, and `cache` keeps the syntax of its files.
+    """Returns what a program creates, with places in its text. `headers` says which of its files
+    only declare; `assumptions` are stated about it, and `cache` keeps the syntax of its files.
 
-    If following the program takes too long, its files are read one by one. Raises `Missing` if the grammar is not installed.
+    If following the program takes too long, its files are read one by one. Raises `Missing` if the
+    grammar is not installed.
     """
     syntaxes: list[FileSyntax | None] = []
     unread: list[Read] = []
@@ -74,7 +85,11 @@ def read(
         try:
             code = file.code
             is_preprocessed = code.language in PREPROCESSED
-            visible = macros.visible(number, code.text, reach(files, number)) | _built(file) if is_preprocessed else NO_MACROS
+            visible = (
+                macros.visible(number, code.text, reach(files, number)) | _built(file)
+                if is_preprocessed
+                else NO_MACROS
+            )
             syntax = kept_syntax(cache, code, visible, length, partial(_syntax, code, visible))
         except Missing:
             raise
@@ -83,24 +98,38 @@ def read(
             unread.append(_unread(error, offset))
             continue
         syntaxes.append(syntax)
-        pieces += [piece.moved(length, offset) for piece in syntax.pieces or (Piece(0, 0, syntax.length),)]
+        pieces += [
+            piece.moved(length, offset) for piece in syntax.pieces or (Piece(0, 0, syntax.length),)
+        ]
         length += syntax.length + 1
         shift = offset - (length - syntax.length - 1)
-        limits = tuple(item._replace(at=Span(item.at.start + shift, item.at.end + shift)) for item in syntax.unread)
+        limits = tuple(
+            item._replace(at=Span(item.at.start + shift, item.at.end + shift))
+            for item in syntax.unread
+        )
         unread += [Read(mapping([], Span(0, 0)), unread=limits)] if limits else []
     places = Places(pieces)
     assume = assuming(assumptions, places.original)
     reads = _read(files, syntaxes, headers, assume)
     if any(entry.unread for entry in reads):
-        alone = (entry for syntax in syntaxes if syntax is not None for entry in _alone(syntax, assume))
-        reads = [*alone, *(entry._replace(tree=mapping([], Span(0, 0))) for entry in reads if entry.unread)]
+        alone = (
+            entry for syntax in syntaxes if syntax is not None for entry in _alone(syntax, assume)
+        )
+        reads = [
+            *alone,
+            *(entry._replace(tree=mapping([], Span(0, 0))) for entry in reads if entry.unread),
+        ]
     return [*located(reads, places), *unread]
 
 
 def _syntax(code: Code, macros: Macros) -> FileSyntax:
     """Returns the syntax of a file; `macros` are those that other files define."""
     module = import_module(f"msaa_lint.input.code.{MODULES[code.language]}")
-    syntax: FileSyntax = module.file_syntax(code, macros) if code.language in PREPROCESSED else module.file_syntax(code)
+    syntax: FileSyntax = (
+        module.file_syntax(code, macros)
+        if code.language in PREPROCESSED
+        else module.file_syntax(code)
+    )
     return syntax
 
 
@@ -108,7 +137,11 @@ def _built(file: ProgramFile) -> dict[str, Definitions]:
     """Returns the macros that the build of a file defines."""
     if not file.definitions:
         return {}
-    return {name: found for name, found in definitions(Code(file.definitions, file.language)).items() if found}
+    return {
+        name: found
+        for name, found in definitions(Code(file.definitions, file.language)).items()
+        if found
+    }
 
 
 def reach(files: Sequence[ProgramFile], number: int) -> set[int]:
@@ -151,19 +184,25 @@ def _read(
         sum(syntax.length for syntax in every),
         calls_metal=any(syntax.calls_metal for syntax in every),
         platform=next((syntax.platform for syntax in every if syntax.platform is not None), None),
-        language=next((syntax.language for syntax in every if syntax.language in CPP), every[0].language),
+        language=next(
+            (syntax.language for syntax in every if syntax.language in CPP), every[0].language
+        ),
     )
     return executed(program, False, assume)
 
 
 def _unique(name: str, names: dict[str, int]) -> str:
-    """Returns the name of a sample count choice, with a number if another file has one of the same name."""
+    """Returns the name of a sample count choice, with a number if another file has one of the same
+    name.
+    """
     names[name] = names.get(name, 0) + 1
     return name if names[name] == 1 else _unique(f"{name} {names[name]}", names)
 
 
 def _alone(syntax: FileSyntax, assume: Assume) -> Iterator[Read]:
-    """Yields what a file creates by itself. What takes too long is left to the message about the program."""
+    """Yields what a file creates by itself. What takes too long is left to the message about the
+    program.
+    """
     for entry in executed(syntax, False, assume):
         if entry.tree.value:
             yield entry._replace(unread=())
@@ -171,5 +210,10 @@ def _alone(syntax: FileSyntax, assume: Assume) -> Iterator[Read]:
 
 def _unread(error: Exception, offset: int) -> Read:
     """Returns that a file is not read."""
-    reason = "the code nests too deeply to be read" if isinstance(error, RecursionError) else str(error)
-    return Read(mapping([], Span(offset, offset)), unread=(Unread(f"{reason}; it is not checked", Span(offset, offset)),))
+    reason = (
+        "the code nests too deeply to be read" if isinstance(error, RecursionError) else str(error)
+    )
+    return Read(
+        mapping([], Span(offset, offset)),
+        unread=(Unread(f"{reason}; it is not checked", Span(offset, offset)),),
+    )

@@ -11,11 +11,15 @@ from msaa_lint.input.code.languages import GRAMMARS
 
 
 def version(*folders: str) -> str:
-    """Returns a text that differs if the tool, one of its modules or a file of `folders`, or a grammar differs."""
+    """Returns a text that differs if the tool, one of its modules or a file of `folders`, or a
+    grammar differs.
+    """
     parts = [VERSION]
     for name in sorted({"tree_sitter", *GRAMMARS.values()}):
         spec = find_spec(name)
-        parts.append(f"{name} {_changed(spec.origin) if spec is not None and spec.origin is not None else ''}")
+        parts.append(
+            f"{name} {_changed(spec.origin) if spec is not None and spec.origin is not None else ''}"  # noqa: E501
+        )
     for folder in (FOLDER, *folders):
         parts += _files(folder)
     return "\n".join(parts)

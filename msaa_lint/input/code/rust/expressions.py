@@ -1,6 +1,7 @@
 """Converts Rust expressions to terms.
 
-What only says who owns a value, or that it may be missing, is removed: `&*x`, `x.clone()`, `x?`, `Some(x)`, and `unsafe { x }` are `x`.
+What only says who owns a value, or that it may be missing, is removed: `&*x`, `x.clone()`, `x?`,
+`Some(x)`, and `unsafe { x }` are `x`.
 """
 
 from __future__ import annotations
@@ -38,26 +39,47 @@ MAX_DEPTH = 120
 MAX_NAME = 300
 """The maximum length of a path; longer ones are unknown."""
 
-BLOCKS = frozenset({"block", "unsafe_block", "async_block", "const_block", "gen_block", "try_block"})
+BLOCKS = frozenset(
+    {"block", "unsafe_block", "async_block", "const_block", "gen_block", "try_block"}
+)
 
-_NUMBER = re.compile(r"(0x[0-9a-fA-F_]{1,32}|0b[01_]{1,140}|0o[0-7_]{1,44}|[0-9][0-9_]{0,40})(?:[iu](?:8|16|32|64|128|size))?")
+_NUMBER = re.compile(
+    r"(0x[0-9a-fA-F_]{1,32}|0b[01_]{1,140}|0o[0-7_]{1,44}|[0-9][0-9_]{0,40})(?:[iu](?:8|16|32|64|128|size))?"
+)
 _REAL = re.compile(r"([0-9][0-9_]{0,40}\.?[0-9_]{0,40}(?:[eE][-+]?[0-9]{1,4})?)(?:_?f(?:32|64))?")
 _SAME = frozenset({
-    "unwrap", "expect", "unwrap_unchecked", "map_err", "ok", "ok_or", "ok_or_else", "context", "with_context", "wrap_err",
-    "clone", "to_owned", "into", "try_into", "as_ref", "as_mut", "as_deref", "as_deref_mut", "to_vec", "as_slice", "as_mut_slice",
-    "into_boxed_slice", "iter", "iter_mut", "into_iter", "cloned", "copied", "collect", "borrow", "borrow_mut", "lock", "read",
+    "unwrap", "expect", "unwrap_unchecked", "map_err", "ok", "ok_or", "ok_or_else", "context",
+    "with_context", "wrap_err",
+    "clone", "to_owned", "into", "try_into", "as_ref", "as_mut", "as_deref", "as_deref_mut",
+    "to_vec", "as_slice", "as_mut_slice",
+    "into_boxed_slice", "iter", "iter_mut", "into_iter", "cloned", "copied", "collect", "borrow",
+    "borrow_mut", "lock", "read",
     "write", "deref", "as_ptr", "as_mut_ptr", "unwrap_or_default", "by_ref", "into_inner", "result",
 })  # fmt: skip
 """Methods whose result stands for the object that they are called on."""
 
 _WRAPPERS = frozenset({
-    "Some", "Ok", "Box::new", "Arc::new", "Rc::new", "Cell::new", "RefCell::new", "Mutex::new", "RwLock::new", "ManuallyDrop::new",
-    "Cow::Borrowed", "Cow::Owned", "Vec::from", "slice::from_ref", "std::slice::from_ref", "core::slice::from_ref", "Box::pin",
+    "Some", "Ok", "Box::new", "Arc::new", "Rc::new", "Cell::new", "RefCell::new", "Mutex::new",
+    "RwLock::new", "ManuallyDrop::new",
+    "Cow::Borrowed", "Cow::Owned", "Vec::from", "slice::from_ref", "std::slice::from_ref",
+    "core::slice::from_ref", "Box::pin",
 })  # fmt: skip
 """Functions whose result stands for their argument."""
 
 _OTHERWISE = frozenset({"unwrap_or", "or"})
-_MAPPED = frozenset({"map", "for_each", "flat_map", "filter_map", "and_then", "map_or", "map_or_else", "unwrap_or_else", "fold"})
+_MAPPED = frozenset(
+    {
+        "map",
+        "for_each",
+        "flat_map",
+        "filter_map",
+        "and_then",
+        "map_or",
+        "map_or_else",
+        "unwrap_or_else",
+        "fold",
+    }
+)
 """Methods that call a closure."""
 
 _EMPTY_LISTS = frozenset({"Vec::new", "Vec::with_capacity", "SmallVec::new", "ArrayVec::new"})
@@ -76,7 +98,9 @@ class Expressions(SyntaxReader, ABC):
 
     @abstractmethod
     def block(self, node: SyntaxNode, depth: int, is_value: bool) -> tuple[Term, ...]:
-        """Returns the statements of a block; the last one returns the value of the block if `is_value` is set."""
+        """Returns the statements of a block; the last one returns the value of the block if
+        `is_value` is set.
+        """
 
     @abstractmethod
     def render_pass(self, node: SyntaxNode) -> Term | None:
@@ -99,7 +123,12 @@ class Expressions(SyntaxReader, ABC):
             return self.call(node, deeper)
         if kind == "struct_expression":
             return self.structure(node, deeper)
-        if kind in ("try_expression", "await_expression", "parenthesized_expression", "type_cast_expression"):
+        if kind in (
+            "try_expression",
+            "await_expression",
+            "parenthesized_expression",
+            "type_cast_expression",
+        ):
             inner = node.child_by_field_name("value")
             return self.expression(inner or next(iter(node.named_children), None), deeper)
         if kind == "reference_expression":
@@ -122,9 +151,21 @@ class Expressions(SyntaxReader, ABC):
         left, right = fields(node, "left", "right")
         operator = self.text_of(node.child_by_field_name("operator"))
         if kind == "binary_expression":
-            return (BINARY, operator, self.expression(left, depth), self.expression(right, depth), at)
+            return (
+                BINARY,
+                operator,
+                self.expression(left, depth),
+                self.expression(right, depth),
+                at,
+            )
         if kind in ("assignment_expression", "compound_assignment_expr"):
-            return (ASSIGN, operator or "=", self.expression(left, depth), self.expression(right, depth), at)
+            return (
+                ASSIGN,
+                operator or "=",
+                self.expression(left, depth),
+                self.expression(right, depth),
+                at,
+            )
         if kind == "unary_expression":
             operand = self.expression(next(iter(node.named_children), None), depth)
             sign = self.text[node.start_byte]
@@ -133,7 +174,11 @@ class Expressions(SyntaxReader, ABC):
             owner, index = node.named_children
             # A range of a list is taken for the list.
             term = self.expression(owner, depth)
-            return term if index.type == "range_expression" else (INDEX, term, self.expression(index, depth), at)
+            return (
+                term
+                if index.type == "range_expression"
+                else (INDEX, term, self.expression(index, depth), at)
+            )
         if kind == "closure_expression":
             return self.closure(node, depth)
         return (UNPARSED, self.text_of(node) if node.end_byte - node.start_byte < 200 else "", at)
@@ -144,9 +189,17 @@ class Expressions(SyntaxReader, ABC):
             return (LITERAL, text == "true", at)
         match = _NUMBER.fullmatch(text)
         if match is not None:
-            return (LITERAL, int(match[1].replace("_", ""), 0 if match[1][1:2].isalpha() else 10), at)
+            return (
+                LITERAL,
+                int(match[1].replace("_", ""), 0 if match[1][1:2].isalpha() else 10),
+                at,
+            )
         real = _REAL.fullmatch(text)
-        return (LITERAL, float(real[1].replace("_", "")), at) if real is not None else (UNPARSED, text[:40], at)
+        return (
+            (LITERAL, float(real[1].replace("_", "")), at)
+            if real is not None
+            else (UNPARSED, text[:40], at)
+        )
 
     def path(self, node: SyntaxNode | None) -> str:
         """Returns a path without type arguments, with imported names and `Self` resolved."""
@@ -155,7 +208,11 @@ class Expressions(SyntaxReader, ABC):
         parts = self.path_parts(node)
         if parts and parts[0] == "Self" and self.class_name:
             parts[0] = self.class_name
-        return "::".join(self.imports.resolved([part for part in parts if part not in ("crate", "super", "self")]))
+        return "::".join(
+            self.imports.resolved(
+                [part for part in parts if part not in ("crate", "super", "self")]
+            )
+        )
 
     def path_parts(self, node: SyntaxNode) -> list[str]:
         if node.type in ("scoped_identifier", "scoped_type_identifier"):
@@ -167,7 +224,11 @@ class Expressions(SyntaxReader, ABC):
         if node.type == "bracketed_type":
             # `<T as Trait>::name` and `<T>::name`.
             inner = node.named_children[0] if node.named_child_count else None
-            inner = inner.child_by_field_name("type") if inner is not None and inner.type == "qualified_type" else inner
+            inner = (
+                inner.child_by_field_name("type")
+                if inner is not None and inner.type == "qualified_type"
+                else inner
+            )
             return self.path_parts(inner) if inner is not None else []
         return [self.text_of(node)]
 
@@ -197,12 +258,20 @@ class Expressions(SyntaxReader, ABC):
             # `&*x`
             inner: Term = term[1]
             return inner
-        return (ADDRESS, term, at) if term[0] in (NAME, FIELD, INDEX) and term[:2] != (NAME, "this") else term
+        return (
+            (ADDRESS, term, at)
+            if term[0] in (NAME, FIELD, INDEX) and term[:2] != (NAME, "this")
+            else term
+        )
 
     def listed(self, node: SyntaxNode, depth: int) -> Term:
         """Returns an array or a tuple as a list."""
         at = span(node)
-        items = [child for child in node.named_children if "comment" not in child.type and child.type != "attribute_item"]
+        items = [
+            child
+            for child in node.named_children
+            if "comment" not in child.type and child.type != "attribute_item"
+        ]
         length = node.child_by_field_name("length")
         if length is not None and items:
             count = self.literal(length) if length.type == "integer_literal" else (UNPARSED, "", at)
@@ -235,32 +304,54 @@ class Expressions(SyntaxReader, ABC):
         list_node, body = fields(node, "parameters", "body")
         parameters = []
         for child in list_node.named_children if list_node is not None else ():
-            pattern, kind = fields(child, "pattern", "type") if child.type == "parameter" else (child, None)
+            pattern, kind = (
+                fields(child, "pattern", "type") if child.type == "parameter" else (child, None)
+            )
             parameters.append(Parameter(self.type_text(kind), self.bound_name(pattern), True, None))
         if body is None:
             return (UNPARSED, "", span(node))
-        statements = self.block(body, depth, True) if body.type in BLOCKS else ((RETURN, self.expression(body, depth), span(body)),)
+        statements = (
+            self.block(body, depth, True)
+            if body.type in BLOCKS
+            else ((RETURN, self.expression(body, depth), span(body)),)
+        )
         return (LAMBDA, tuple(parameters), statements, span(node))
 
     def bound_name(self, node: SyntaxNode | None) -> str:
-        """Returns the name that a pattern binds, without `mut`, `ref`, `Some`, and `Ok`; empty for a pattern of several."""
+        """Returns the name that a pattern binds, without `mut`, `ref`, `Some`, and `Ok`; empty for
+        a pattern of several.
+        """
         for _ in range(8):
             if node is None:
                 return ""
             if node.type == "identifier":
                 return self.text_of(node)
-            if node.type == "tuple_struct_pattern" and self.text_of(node.child_by_field_name("type")) not in ("Some", "Ok"):
+            if node.type == "tuple_struct_pattern" and self.text_of(
+                node.child_by_field_name("type")
+            ) not in ("Some", "Ok"):
                 return ""
-            if node.type not in ("mut_pattern", "ref_pattern", "reference_pattern", "tuple_struct_pattern", "captured_pattern"):
+            if node.type not in (
+                "mut_pattern",
+                "ref_pattern",
+                "reference_pattern",
+                "tuple_struct_pattern",
+                "captured_pattern",
+            ):
                 return ""
-            inner = [child for child in node.named_children if child.type not in ("mutable_specifier",)]
+            inner = [
+                child for child in node.named_children if child.type not in ("mutable_specifier",)
+            ]
             node = inner[-1] if inner else None
         return ""
 
     def call(self, node: SyntaxNode, depth: int) -> Term:
         function, list_node = fields(node, "function", "arguments")
         at = span(node)
-        nodes = [child for child in list_node.named_children if "comment" not in child.type] if list_node is not None else []
+        nodes = (
+            [child for child in list_node.named_children if "comment" not in child.type]
+            if list_node is not None
+            else []
+        )
         if function is not None and function.type == "generic_function":
             function = function.child_by_field_name("function")
         if function is not None and function.type == "field_expression":
@@ -274,10 +365,18 @@ class Expressions(SyntaxReader, ABC):
         if name in _EMPTY_LISTS:
             return (BRACES, "", (), at)
         owner, _, short = name.rpartition("::")
-        if short in ("default", "builder", "new", "zeroed") and owner.startswith("vk::") and not nodes:
+        if (
+            short in ("default", "builder", "new", "zeroed")
+            and owner.startswith("vk::")
+            and not nodes
+        ):
             return (BRACES, owner, (), at)
         if short in ("empty", "null", "from_raw") and owner.startswith("vk::"):
-            return (LITERAL, None if short == "null" else 0, at) if short != "from_raw" else self.expression(next(iter(nodes), None), depth)
+            return (
+                (LITERAL, None if short == "null" else 0, at)
+                if short != "from_raw"
+                else self.expression(next(iter(nodes), None), depth)
+            )
         arguments = tuple(self.expression(child, depth) for child in nodes)
         if owner.startswith("vk::") and short.startswith("new"):
             return self.constructed(owner, arguments, at)
@@ -285,7 +384,9 @@ class Expressions(SyntaxReader, ABC):
         return (CALL, term, arguments, at)
 
     def constructed(self, owner: str, arguments: tuple[Term, ...], at: Span) -> Term:
-        """Returns the object that a constructor of vulkano creates, as the call of a function of Vulkan."""
+        """Returns the object that a constructor of vulkano creates, as the call of a function of
+        Vulkan.
+        """
         if owner == "vk::Framebuffer" and len(arguments) == 2 and arguments[1][0] == BRACES:
             # The render pass is not part of the structure.
             kind, items, place = arguments[1][1:]
@@ -301,30 +402,60 @@ class Expressions(SyntaxReader, ABC):
         if name in _SAME and len(nodes) <= 1 and not (name in ("read", "write") and nodes):
             return term
         if name in _OTHERWISE and len(nodes) == 1:
-            return (CHOICE, (CALL, (FIELD, term, "is_some", at), (), at), term, self.expression(nodes[0], depth), at)
+            return (
+                CHOICE,
+                (CALL, (FIELD, term, "is_some", at), (), at),
+                term,
+                self.expression(nodes[0], depth),
+                at,
+            )
         if name in _MAPPED and any(node.type == "closure_expression" for node in nodes):
             # What the closure creates is known, but not for which elements.
-            calls = tuple((CALL, self.expression(node, depth), (term,), span(node)) for node in nodes if node.type == "closure_expression")
+            calls = tuple(
+                (CALL, self.expression(node, depth), (term,), span(node))
+                for node in nodes
+                if node.type == "closure_expression"
+            )
             return (BINARY, ",", calls[0], (UNPARSED, "", at), at)
         if name in ("min", "max") and len(nodes) == 1:
             called = (NAME, name, span(member) if member is not None else at)
             return (CALL, called, (term, self.expression(nodes[0], depth)), at)
         short = {"len": "size"}.get(name, name)
         self.note_call(short)
-        return (CALL, (FIELD, term, short, span(member) if member is not None else at), tuple(self.expression(n, depth) for n in nodes), at)
+        return (
+            CALL,
+            (FIELD, term, short, span(member) if member is not None else at),
+            tuple(self.expression(n, depth) for n in nodes),
+            at,
+        )
 
     def note_call(self, name: str) -> None:
         if name != self.current:
             self.called_names.add(name)
 
     def choice(self, node: SyntaxNode, depth: int) -> Term:
-        """Returns an `if` or a `match` as a value: a choice between expressions, or the result of its statements."""
+        """Returns an `if` or a `match` as a value: a choice between expressions, or the result of
+        its statements.
+        """
         if node.type == "if_expression":
             test, then, other = fields(node, "condition", "consequence", "alternative")
-            last = other.named_children[-1] if other is not None and other.named_child_count else None
+            last = (
+                other.named_children[-1] if other is not None and other.named_child_count else None
+            )
             one, two = self.plain_value(then), self.plain_value(last)
-            if one is not None and two is not None and test is not None and test.type not in ("let_condition", "let_chain"):
-                return (CHOICE, self.expression(test, depth), self.expression(one, depth), self.expression(two, depth), span(node))
+            if (
+                one is not None
+                and two is not None
+                and test is not None
+                and test.type not in ("let_condition", "let_chain")
+            ):
+                return (
+                    CHOICE,
+                    self.expression(test, depth),
+                    self.expression(one, depth),
+                    self.expression(two, depth),
+                    span(node),
+                )
         at = span(node)
         return (CALL, (LAMBDA, (), (self.conditional(node, depth, True),), at), (), at)
 
@@ -336,11 +467,19 @@ class Expressions(SyntaxReader, ABC):
         inner = [child for child in node.named_children if "comment" not in child.type]
         if len(inner) != 1 or inner[0].type.endswith(("statement", "declaration", "item")):
             return None
-        return None if inner[0].type in ("return_expression", "break_expression", "continue_expression") else inner[0]
+        return (
+            None
+            if inner[0].type in ("return_expression", "break_expression", "continue_expression")
+            else inner[0]
+        )
 
     def immediate(self, node: SyntaxNode, depth: int) -> Term:
         """Returns the value of a block."""
-        body = next((child for child in node.named_children if child.type == "block"), node) if node.type != "block" else node
+        body = (
+            next((child for child in node.named_children if child.type == "block"), node)
+            if node.type != "block"
+            else node
+        )
         inner = self.plain_value(body)
         if inner is not None:
             return self.expression(inner, depth)
@@ -348,7 +487,9 @@ class Expressions(SyntaxReader, ABC):
         return (CALL, (LAMBDA, (), self.block(body, depth, True), at), (), at)
 
     def type_text(self, node: SyntaxNode | None) -> str:
-        """Returns a type without references, lifetimes, and owners; lists as the core spells them."""
+        """Returns a type without references, lifetimes, and owners; lists as the core spells
+        them.
+        """
         for _ in range(12):
             if node is None or node.end_byte - node.start_byte > MAX_NAME:
                 return ""
@@ -356,13 +497,17 @@ class Expressions(SyntaxReader, ABC):
                 node = node.child_by_field_name("type")
             elif node.type == "array_type":
                 element, length = fields(node, "element", "length")
-                return f"{self.type_text(element)}[{self.text_of(length) if length is not None else ''}]"
+                return f"{self.type_text(element)}[{self.text_of(length) if length is not None else ''}]"  # noqa: E501
             elif node.type in ("dynamic_type", "abstract_type"):
                 node = node.child_by_field_name("trait")
             elif node.type == "generic_type":
                 name, arguments = fields(node, "type", "type_arguments")
                 short = self.text_of(name).rpartition("::")[2]
-                inner = next((c for c in arguments.named_children if c.type != "lifetime"), None) if arguments is not None else None
+                inner = (
+                    next((c for c in arguments.named_children if c.type != "lifetime"), None)
+                    if arguments is not None
+                    else None
+                )
                 if short in ("Vec", "SmallVec", "ArrayVec", "VecDeque"):
                     return f"std::vector<{self.type_text(inner)}>"
                 if short not in (
@@ -382,7 +527,11 @@ class Expressions(SyntaxReader, ABC):
                     return self.path(name)
                 node = inner
             else:
-                return self.path(node) if node.type in ("type_identifier", "scoped_type_identifier") else self.text_of(node)
+                return (
+                    self.path(node)
+                    if node.type in ("type_identifier", "scoped_type_identifier")
+                    else self.text_of(node)
+                )
         return ""
 
 
@@ -391,13 +540,23 @@ Items = list[tuple[tuple[str, ...] | None, Term]]
 
 
 def stencil_operations(items: Items) -> Items:
-    """Returns the stencil operations of an attachment of vulkano, which are those of color and depth where it states none."""
+    """Returns the stencil operations of an attachment of vulkano, which are those of color and
+    depth where it states none.
+    """
     stated = {path[0]: term for path, term in items if path is not None}
-    return [((f"stencil_{name}",), stated[name]) for name in ("load_op", "store_op") if name in stated and f"stencil_{name}" not in stated]
+    return [
+        ((f"stencil_{name}",), stated[name])
+        for name in ("load_op", "store_op")
+        if name in stated and f"stencil_{name}" not in stated
+    ]
 
 
 def is_default(term: Term) -> bool:
-    """Returns whether a term is a structure of zeros: `Default::default()` or `vk::S::default()`."""
+    """Returns whether a term is a structure of zeros: `Default::default()` or
+    `vk::S::default()`.
+    """
     if term[0] == BRACES:
         return not term[2]
-    return bool(term[0] == CALL and term[1][0] == NAME and str(term[1][1]).rpartition("::")[2] == "default")
+    return bool(
+        term[0] == CALL and term[1][0] == NAME and str(term[1][1]).rpartition("::")[2] == "default"
+    )

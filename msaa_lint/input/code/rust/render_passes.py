@@ -1,6 +1,8 @@
-"""Vulkano's macros that create render passes: `single_pass_renderpass!` and `ordered_passes_renderpass!`.
+"""Vulkano's macros that create render passes: `single_pass_renderpass!` and
+`ordered_passes_renderpass!`.
 
-The grammar does not read the arguments of macros, only their tokens. Vulkano, documentation of both macros in `vulkano::render_pass`.
+The grammar does not read the arguments of macros, only their tokens. Vulkano, documentation of both
+macros in `vulkano::render_pass`.
 """
 
 from __future__ import annotations
@@ -17,11 +19,14 @@ from .statements import Statements
 MACROS = frozenset({"single_pass_renderpass", "ordered_passes_renderpass"})
 
 _MEMBERS = {
-    "load_op": "load_op", "load": "load_op", "store_op": "store_op", "store": "store_op", "format": "format", "samples": "samples",
-    "initial_layout": "initial_layout", "final_layout": "final_layout", "stencil_load_op": "stencil_load_op",
+    "load_op": "load_op", "load": "load_op", "store_op": "store_op", "store": "store_op",
+    "format": "format", "samples": "samples",
+    "initial_layout": "initial_layout", "final_layout": "final_layout",
+    "stencil_load_op": "stencil_load_op",
     "stencil_store_op": "stencil_store_op",
 }  # fmt: skip
-_ENUMS = {"load_op": "AttachmentLoadOp", "store_op": "AttachmentStoreOp", "stencil_load_op": "AttachmentLoadOp",
+_ENUMS = {"load_op": "AttachmentLoadOp", "store_op": "AttachmentStoreOp",
+"stencil_load_op": "AttachmentLoadOp",
           "stencil_store_op": "AttachmentStoreOp"}  # fmt: skip
 _LISTS = {
     "color": "color_attachments",
@@ -38,7 +43,10 @@ class RenderPassMacros(Statements):
     """The macros of one file."""
 
     def render_pass(self, node: SyntaxNode) -> Term | None:
-        name, tokens = node.child_by_field_name("macro"), next((child for child in node.named_children if child.type == "token_tree"), None)
+        name, tokens = (
+            node.child_by_field_name("macro"),
+            next((child for child in node.named_children if child.type == "token_tree"), None),
+        )
         if name is None or tokens is None or self.text_of(name).rpartition("::")[2] not in MACROS:
             return None
         at = span(node)
@@ -52,10 +60,21 @@ class RenderPassMacros(Statements):
         by_name = self.members_of(attachments)
         numbers = {name: number for number, name in enumerate(by_name)}
         info = (
-            (("attachments",), self.list_term([self.attachment(value) for value in by_name.values()], at)),
-            (("subpasses",), self.list_term([self.subpass(part, numbers) for part in subpasses], at)),
+            (
+                ("attachments",),
+                self.list_term([self.attachment(value) for value in by_name.values()], at),
+            ),
+            (
+                ("subpasses",),
+                self.list_term([self.subpass(part, numbers) for part in subpasses], at),
+            ),
         )
-        return (CALL, (NAME, "create_render_pass", at), ((BRACES, "vk::RenderPassCreateInfo", info, at),), at)
+        return (
+            CALL,
+            (NAME, "create_render_pass", at),
+            ((BRACES, "vk::RenderPassCreateInfo", info, at),),
+            at,
+        )
 
     def list_term(self, items: Sequence[Term], at: Span) -> Term:
         return (BRACES, "", tuple((None, item) for item in items), at)
@@ -84,11 +103,22 @@ class RenderPassMacros(Statements):
                 items.append(((member,), self.value(member, value)))
         stated = {path[0] for path, _ in items if path is not None}
         # The macro derives layouts from the passes that use the attachment.
-        items += [((name,), (UNPARSED, "", span(tokens))) for name in ("initial_layout", "final_layout") if name not in stated]
-        return (BRACES, "vk::AttachmentDescription", (*items, *stencil_operations(items)), span(tokens))
+        items += [
+            ((name,), (UNPARSED, "", span(tokens)))
+            for name in ("initial_layout", "final_layout")
+            if name not in stated
+        ]
+        return (
+            BRACES,
+            "vk::AttachmentDescription",
+            (*items, *stencil_operations(items)),
+            span(tokens),
+        )
 
     def value(self, member: str, nodes: list[SyntaxNode]) -> Term:
-        """Returns the value of a member, which is an expression or, for an operation, a variant without its enum."""
+        """Returns the value of a member, which is an expression or, for an operation, a variant
+        without its enum.
+        """
         at = Span(nodes[0].start_byte, nodes[-1].end_byte) if nodes else Span(0, 0)
         text = self.text[at.start : at.end]
         if member in _ENUMS and text.isidentifier():
@@ -107,11 +137,23 @@ class RenderPassMacros(Statements):
             value = _braced(members.get(name))
             if value is not None:
                 items.append(
-                    ((member,), self.list_term([self.attachment_reference(child, numbers) for child in self.names_in(value)], span(value)))
+                    (
+                        (member,),
+                        self.list_term(
+                            [
+                                self.attachment_reference(child, numbers)
+                                for child in self.names_in(value)
+                            ],
+                            span(value),
+                        ),
+                    )
                 )
         depth = _braced(members.get("depth_stencil"))
         if depth is not None:
-            items += [(("depth_stencil_attachment",), self.attachment_reference(child, numbers)) for child in self.names_in(depth)[:1]]
+            items += [
+                (("depth_stencil_attachment",), self.attachment_reference(child, numbers))
+                for child in self.names_in(depth)[:1]
+            ]
         return (BRACES, "vk::SubpassDescription", tuple(items), span(tokens))
 
     @staticmethod
@@ -127,7 +169,11 @@ class RenderPassMacros(Statements):
 
 def _braced(nodes: list[SyntaxNode] | None) -> SyntaxNode | None:
     """Returns the only node of a value if it is a list in brackets, or None."""
-    return nodes[0] if nodes is not None and len(nodes) == 1 and nodes[0].type == "token_tree" else None
+    return (
+        nodes[0]
+        if nodes is not None and len(nodes) == 1 and nodes[0].type == "token_tree"
+        else None
+    )
 
 
 def _trees(tokens: SyntaxNode) -> list[SyntaxNode]:

@@ -16,12 +16,16 @@ _LIST_MACRO = re.compile(r"\bvec!(?=\s*\[)")
 
 
 def prepared(code: Code) -> Code:
-    """Returns code in which `vec![...]` is a list, as the grammar does not read the arguments of macros."""
+    """Returns code in which `vec![...]` is a list, as the grammar does not read the arguments of
+    macros.
+    """
     return code._replace(text=_LIST_MACRO.sub("    ", code.text))
 
 
 def unit(code: Code, root: SyntaxNode) -> Unit:
-    """Returns the functions, the members of structures, and the constants of a file that `prepared` returned."""
+    """Returns the functions, the members of structures, and the constants of a file that `prepared`
+    returned.
+    """
     return _Reader(code.text).unit(root)
 
 
@@ -39,12 +43,20 @@ class _Reader(RenderPassMacros):
         self.found: list[tuple[str, SyntaxNode]] = []
         """The type that each function belongs to, and its node."""
         self.traits: set[str] = set()
-        """The names of functions that types implement for traits, which a call cannot tell apart."""
+        """The names of functions that types implement for traits, which a call cannot tell
+        apart.
+        """
 
     def unit(self, root: SyntaxNode) -> Unit:
         self.read_declarations(root)
         functions = [self.function(class_name, node) for class_name, node in self.found]
-        return Unit([function for function in functions if function is not None], self.members, self.outside, {}, self.called_names)
+        return Unit(
+            [function for function in functions if function is not None],
+            self.members,
+            self.outside,
+            {},
+            self.called_names,
+        )
 
     def read_declarations(self, root: SyntaxNode) -> None:
         items: list[tuple[str, SyntaxNode]] = []
@@ -103,7 +115,17 @@ class _Reader(RenderPassMacros):
         for child in body.named_children if body is not None else ():
             member, kind = fields(child, "name", "type")
             if child.type == "field_declaration" and member is not None:
-                terms.append((DECLARE, self.type_text(kind), self.text_of(member), None, False, False, span(member)))
+                terms.append(
+                    (
+                        DECLARE,
+                        self.type_text(kind),
+                        self.text_of(member),
+                        None,
+                        False,
+                        False,
+                        span(member),
+                    )
+                )
 
     def enumerators(self, node: SyntaxNode) -> None:
         """Adds the variants of an enum without fields as constants."""
@@ -111,10 +133,18 @@ class _Reader(RenderPassMacros):
         number = 0
         for child in body.named_children if body is not None else ():
             variant, value = fields(child, "name", "value")
-            if child.type != "enum_variant" or variant is None or child.child_by_field_name("body") is not None:
+            if (
+                child.type != "enum_variant"
+                or variant is None
+                or child.child_by_field_name("body") is not None
+            ):
                 continue
-            literal = self.expression(value, 0) if value is not None else (LITERAL, number, span(variant))
-            number = literal[1] + 1 if literal[0] == LITERAL and type(literal[1]) is int else number + 1
+            literal = (
+                self.expression(value, 0) if value is not None else (LITERAL, number, span(variant))
+            )
+            number = (
+                literal[1] + 1 if literal[0] == LITERAL and type(literal[1]) is int else number + 1
+            )
             owner = f"{self.text_of(name)}::{self.text_of(variant)}"
             self.outside.append((DECLARE, "int", owner, literal, False, True, span(variant)))
 
@@ -129,6 +159,15 @@ class _Reader(RenderPassMacros):
                 continue
             pattern, type_node = fields(child, "pattern", "type")
             by_reference = type_node is not None and type_node.type == "reference_type"
-            parameters.append(Parameter(self.type_text(type_node), self.bound_name(pattern), by_reference, None))
+            parameters.append(
+                Parameter(self.type_text(type_node), self.bound_name(pattern), by_reference, None)
+            )
         statements = self.block(body, 0, True)
-        return Function(self.current, class_name, self.type_text(kind), tuple(parameters), statements, span(name))
+        return Function(
+            self.current,
+            class_name,
+            self.type_text(kind),
+            tuple(parameters),
+            statements,
+            span(name),
+        )

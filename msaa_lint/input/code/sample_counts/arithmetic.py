@@ -24,7 +24,11 @@ def whole(text: str) -> int | None:
 def arithmetic(operator: str, left: int, right: int) -> int | None:
     """Returns the result of an operator on sample counts or bit indices, or None."""
     if operator in ("<<", ">>"):
-        return (left << right if operator == "<<" else left >> right) if 0 <= right < 32 and 0 <= left < 1 << 32 else None
+        return (
+            (left << right if operator == "<<" else left >> right)
+            if 0 <= right < 32 and 0 <= left < 1 << 32
+            else None
+        )
     if operator == "/":
         return left // right if right > 0 and left >= 0 else None
     if operator in COMPARISONS:
@@ -33,17 +37,37 @@ def arithmetic(operator: str, left: int, right: int) -> int | None:
         return int(bool(left and right) if operator == "&&" else bool(left or right))
     if abs(left) >= 1 << 32 or abs(right) >= 1 << 32:
         return None
-    return {"&": left & right, "|": left | right, "^": left ^ right, "+": left + right, "-": left - right, "*": left * right}.get(operator)
+    return {
+        "&": left & right,
+        "|": left | right,
+        "^": left ^ right,
+        "+": left + right,
+        "-": left - right,
+        "*": left * right,
+    }.get(operator)
 
 
 _TOKENS = re.compile(r"\s*(\d\w*|\?|&&|\|\||[<>=!]=|<<|>>|[-+*/%<>!()&|^])")
-_LEVELS = (("||",), ("&&",), ("|",), ("^",), ("&",), ("==", "!="), ("<", ">", "<=", ">="), ("<<", ">>"), ("+", "-"), ("*", "/"))
+_LEVELS = (
+    ("||",),
+    ("&&",),
+    ("|",),
+    ("^",),
+    ("&",),
+    ("==", "!="),
+    ("<", ">", "<=", ">="),
+    ("<<", ">>"),
+    ("+", "-"),
+    ("*", "/"),
+)
 MAX_TOKENS = 60
 """The maximum number of tokens in a preprocessor condition."""
 
 
 def condition_holds(text: str) -> bool | None:
-    """Returns whether a condition of integers holds; None if it is not one, or if it depends on an unknown one, written `?`."""
+    """Returns whether a condition of integers holds; None if it is not one, or if it depends on an
+    unknown one, written `?`.
+    """
     tokens: list[str] = []
     at = 0
     text = text.rstrip()
@@ -86,5 +110,13 @@ def _primary(tokens: list[str], at: int) -> tuple[int | None, int]:
         return (value, after + 1) if after < len(tokens) and tokens[after] == ")" else (None, after)
     if tokens[at] in ("!", "-", "+"):
         value, after = _primary(tokens, at + 1)
-        return (None if value is None else int(not value) if tokens[at] == "!" else -value if tokens[at] == "-" else value), after
+        return (
+            None
+            if value is None
+            else int(not value)
+            if tokens[at] == "!"
+            else -value
+            if tokens[at] == "-"
+            else value
+        ), after
     return whole(tokens[at]), at + 1

@@ -1,11 +1,25 @@
-"""What caps a sample count that a file chooses: the variables that hold it, and what they are compared with."""
+"""What caps a sample count that a file chooses: the variables that hold it, and what they are
+compared with.
+"""
 
 from __future__ import annotations
 
 import re
 from collections import Counter
 
-from msaa_lint.input.code.core.terms import ADDRESS, ASSIGN, BINARY, BRACES, CALL, DECLARE, FIELD, NAME, TARGET, Term, Unit
+from msaa_lint.input.code.core.terms import (
+    ADDRESS,
+    ASSIGN,
+    BINARY,
+    BRACES,
+    CALL,
+    DECLARE,
+    FIELD,
+    NAME,
+    TARGET,
+    Term,
+    Unit,
+)
 
 from .masks import COUNTS, Expressions, name_of
 from .names import last, parts
@@ -17,7 +31,13 @@ _CAPS = frozenset({"min", "MIN", "Min", "clamp", "Clamp", "CLAMP", "qMin", "qBou
 _LIMIT = re.compile(r"(?:m_|_)?(?:max|limit|supported)", re.IGNORECASE)
 """Members that say what a device offers. Which count is chosen is decided by what reads them."""
 
-_SAMPLES = ("samples", "rasterizationSamples", "sampleCount", "rasterization_samples", "sample_count")
+_SAMPLES = (
+    "samples",
+    "rasterizationSamples",
+    "sampleCount",
+    "rasterization_samples",
+    "sample_count",
+)
 """Members that many structures have, such as those that describe images."""
 
 
@@ -39,13 +59,17 @@ class Caps:
                     self._read(term)
 
     def of(self, name: str) -> int | None:
-        """Returns the count that caps the value of a variable or function, 0 if the cap is unknown, and None if there is none."""
+        """Returns the count that caps the value of a variable or function, 0 if the cap is unknown,
+        and None if there is none.
+        """
         if _LIMIT.match(name) and name in self._mentions and not self._mentions[name]:
             # What a device offers is only reported.
             return 0
         holders = [name]
         for holder in holders:
-            holders += [item for item in dict.fromkeys(self._targets.get(holder, ())) if item not in holders][: MAX_NAMES - len(holders)]
+            holders += [
+                item for item in dict.fromkeys(self._targets.get(holder, ())) if item not in holders
+            ][: MAX_NAMES - len(holders)]
         limits = [limit for holder in holders for limit in self._limits.get(holder, ())]
         return min(limits) if limits else None
 
@@ -61,11 +85,15 @@ class Caps:
             self._assigned(_key(term[2]), term[3])
         elif kind == CALL and name_of(term[1]) in _CAPS:
             # `count.clamp(least, most)` is a method of the count.
-            values = (term[1][1], *term[2]) if term[1][0] == FIELD and len(term[2]) == 2 else term[2]
+            values = (
+                (term[1][1], *term[2]) if term[1][0] == FIELD and len(term[2]) == 2 else term[2]
+            )
             for value in values:
                 others = [item for item in values if item is not value]
                 limit = self.expressions.value(others[0], {}) if len(others) == 1 else None
-                self._limits.setdefault(_source(value), []).append(limit if isinstance(limit, int) and limit in COUNTS else 0)
+                self._limits.setdefault(_source(value), []).append(
+                    limit if isinstance(limit, int) and limit in COUNTS else 0
+                )
         elif kind == BINARY and term[1] in ("<", ">", "<=", ">="):
             for side, other in (term[2:4], term[3:1:-1]):
                 if self.expressions.value(other, {}) not in (0, 1):
@@ -96,7 +124,9 @@ def _source(term: Term) -> str:
 
 
 def _key(term: Term) -> str:
-    """Returns the name of a variable, member, or function; of a member that many structures have, with its object."""
+    """Returns the name of a variable, member, or function; of a member that many structures have,
+    with its object.
+    """
     name = name_of(term)
     if term[0] == FIELD and name in _SAMPLES and term[1][:2] != (NAME, "this"):
         return f"{term[1][1]}.{name}" if term[1][0] == NAME else ""

@@ -11,7 +11,9 @@ MAX_TESTS = 64
 
 
 class Test(NamedTuple):
-    """A test of a bit: the count that it selects, its location, the `if` that it belongs to, and whether the chain ends if it holds."""
+    """A test of a bit: the count that it selects, its location, the `if` that it belongs to, and
+    whether the chain ends if it holds.
+    """
 
     mask: Mask
     bit: int
@@ -23,7 +25,9 @@ class Test(NamedTuple):
 
 
 class Chain:
-    """The tests that assign counts to a variable or return them. `pure` is set if nothing else assigns it."""
+    """The tests that assign counts to a variable or return them. `pure` is set if nothing else
+    assigns it.
+    """
 
     def __init__(self) -> None:
         self.tests: list[Test] = []
@@ -42,11 +46,15 @@ class Chain:
 
 
 def greatest(tests: list[Test]) -> int:
-    """Returns the highest count that a chain selects; tests after one of a count that every device supports are unreachable."""
+    """Returns the highest count that a chain selects; tests after one of a count that every device
+    supports are unreachable.
+    """
     counts = []
     for test in tests:
         counts.append(test.gives)
-        weak = any("Integer" in name or name == "storageImageSampleCounts" for name, _ in test.mask.limits)
+        weak = any(
+            "Integer" in name or name == "storageImageSampleCounts" for name, _ in test.mask.limits
+        )
         if test.bit == 1 or (test.bit == 4 and not weak):
             break
     return max(counts)

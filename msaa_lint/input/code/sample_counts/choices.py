@@ -1,7 +1,9 @@
-"""Reads how a program chooses a sample count from the masks of VkPhysicalDeviceLimits, as section `sampleCountChoices` of a description.
+"""Reads how a program chooses a sample count from the masks of VkPhysicalDeviceLimits, as section
+`sampleCountChoices` of a description.
 
-Masks are tracked through variables, functions, and members; tests of their bits through `if` chains, conditional expressions, and loops
-over known counts. Choices that depend on anything else, such as a setting, are left out.
+Masks are tracked through variables, functions, and members; tests of their bits through `if`
+chains, conditional expressions, and loops over known counts. Choices that depend on anything else,
+such as a setting, are left out.
 """
 
 from __future__ import annotations
@@ -26,7 +28,9 @@ NOBODY = Owner("", None, "")
 
 
 def choices(unit: Unit, text: str) -> list[tuple[str, Span, Node]]:
-    """Returns the sample count choices of a file: name, location, and entry. The formats of images are left out."""
+    """Returns the sample count choices of a file: name, location, and entry. The formats of images
+    are left out.
+    """
     if RELEVANT.search(text) is None:
         return []
     relevant = _relevant(unit, text)
@@ -47,10 +51,16 @@ def choices(unit: Unit, text: str) -> list[tuple[str, Span, Node]]:
         for function in relevant:
             reading.function(function)
     caps = Caps(unit, reading.expressions) if reading.choices else None
-    entries = [(item.name, item.at, _entry(item, caps)) for item in reading.choices if caps is not None]
+    entries = [
+        (item.name, item.at, _entry(item, caps)) for item in reading.choices if caps is not None
+    ]
     covered = {item.mask.at for item in reading.choices}
     # From these masks, no count is selected.
-    entries += [(name, mask.at, mapping(_of_mask(mask), mask.at)) for at, (name, mask) in reading.combined.items() if at not in covered]
+    entries += [
+        (name, mask.at, mapping(_of_mask(mask), mask.at))
+        for at, (name, mask) in reading.combined.items()
+        if at not in covered
+    ]
     return _named(entries)
 
 
@@ -58,7 +68,11 @@ def _relevant(unit: Unit, text: str) -> list[Function]:
     """Returns the functions of a file that mention sample counts."""
     starts = sorted(function.at.start for function in unit.functions)
     ends = dict(zip(starts, [*starts[1:], len(text)], strict=False))
-    return [item for item in unit.functions if RELEVANT.search(text, item.at.start, ends[item.at.start]) is not None]
+    return [
+        item
+        for item in unit.functions
+        if RELEVANT.search(text, item.at.start, ends[item.at.start]) is not None
+    ]
 
 
 def _entry(choice: Choice, caps: Caps) -> Node:
@@ -68,10 +82,19 @@ def _entry(choice: Choice, caps: Caps) -> Node:
     most = choice.at_most if cap is None else min(cap, choice.at_most or cap) if cap else None
     if most is not None:
         chosen = "MAXIMUM" if most >= 16 else "ATMOST"
-        members += [("chosen", choice.at, scalar(chosen, choice.at)), ("atMost", choice.at, scalar(most, choice.at))]
+        members += [
+            ("chosen", choice.at, scalar(chosen, choice.at)),
+            ("atMost", choice.at, scalar(most, choice.at)),
+        ]
     if choice.tests:
         tests = [
-            mapping([("tests", test.at, scalar(test.bit, test.at)), ("gives", test.at, scalar(test.gives, test.at))], test.at)
+            mapping(
+                [
+                    ("tests", test.at, scalar(test.bit, test.at)),
+                    ("gives", test.at, scalar(test.gives, test.at)),
+                ],
+                test.at,
+            )
             for test in choice.tests
         ]
         members.append(("tests", choice.tests[0].at, sequence(tests, choice.tests[0].at)))

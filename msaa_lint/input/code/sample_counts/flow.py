@@ -1,4 +1,6 @@
-"""Where the values of a program flow: assignments, arguments, and results; and which counts and formats describe the same images."""
+"""Where the values of a program flow: assignments, arguments, and results; and which counts and
+formats describe the same images.
+"""
 
 from __future__ import annotations
 
@@ -33,8 +35,9 @@ _LESSER = frozenset({"min", "MIN", "Min", "clamp", "Clamp", "CLAMP", "max", "MAX
 
 
 class Use(NamedTuple):
-    """A use of a count for an image: the function that it is in, whether the count depends on a condition, and the expressions of which
-    some may be the format."""
+    """A use of a count for an image: the function that it is in, whether the count depends on a
+    condition, and the expressions of which some may be the format.
+    """
 
     function: int
     conditional: bool
@@ -44,9 +47,9 @@ class Use(NamedTuple):
 class Flow:
     """The flow of values in a program.
 
-    `targets` has the variables and functions that receive the value of another, and whether under a condition; `sources` the expressions
-    that a variable receives or a function returns, with the functions that they are in; `uses` the uses of a value as the count of an
-    image.
+    `targets` has the variables and functions that receive the value of another, and whether under a
+    condition; `sources` the expressions that a variable receives or a function returns, with the
+    functions that they are in; `uses` the uses of a value as the count of an image.
     """
 
     def __init__(self, unit: Unit) -> None:
@@ -60,7 +63,13 @@ class Flow:
     def _read(self, number: int, body: tuple[Term, ...]) -> None:
         chains: set[int] = set()
         images: dict[Hashable, tuple[list[Term], list[Term]]] = {}
-        lambdas = {id(inner) for term in parts(body) if term[0] == LAMBDA for inner in parts(term[2]) if inner[0] == RETURN}
+        lambdas = {
+            id(inner)
+            for term in parts(body)
+            if term[0] == LAMBDA
+            for inner in parts(term[2])
+            if inner[0] == RETURN
+        }
         for term in parts(body):
             kind = term[0]
             if kind == DECLARE and term[3] is not None:
@@ -71,14 +80,20 @@ class Flow:
                     _describe(images, _object(term[2][1]), term[2][2], term[3])
             elif kind == RETURN and term[1] is not None and id(term) not in lambdas:
                 self._flows((FUNCTION, number), term[1], number)
-            elif kind == LOOP and term[2] is not None and len(term[1]) == 1 and term[1][0][0] == DECLARE:
+            elif (
+                kind == LOOP
+                and term[2] is not None
+                and len(term[1]) == 1
+                and term[1][0][0] == DECLARE
+            ):
                 self._assigned((NAME, term[1][0][2], term[-1]), term[2], number)
             elif kind == CALL and id(term) not in chains:
                 self._called(term, number, chains, images)
             elif kind == BRACES:
                 self._braces(term, number)
         for samples, formats in images.values():
-            # A structure with several counts describes several images; which format goes with which count is unknown.
+            # A structure with several counts describes several images; which format goes with which
+            # count is unknown.
             if len(samples) == 1 and formats:
                 self._used(samples[0], formats, number)
 
@@ -95,7 +110,9 @@ class Flow:
             self.targets.setdefault(source, []).append((target, conditional))
 
     def counts(self, value: Term, number: int) -> Iterator[tuple[Identity, bool]]:
-        """Yields the variables and functions that have the value of an expression, and whether a condition chooses among them."""
+        """Yields the variables and functions that have the value of an expression, and whether a
+        condition chooses among them.
+        """
         stack = [(value, False)]
         while stack:
             term, conditional = stack.pop()
@@ -123,8 +140,16 @@ class Flow:
                 if callee is not None:
                     yield (FUNCTION, callee), conditional
 
-    def _called(self, call: Term, number: int, chains: set[int], images: dict[Hashable, tuple[list[Term], list[Term]]]) -> None:
-        """Reads a call: its arguments, or those of a chain of calls that set the members of a structure."""
+    def _called(
+        self,
+        call: Term,
+        number: int,
+        chains: set[int],
+        images: dict[Hashable, tuple[list[Term], list[Term]]],
+    ) -> None:
+        """Reads a call: its arguments, or those of a chain of calls that set the members of a
+        structure.
+        """
         link = call
         setters: list[tuple[str, Term]] = []
         while link[0] == CALL and link[1][0] == FIELD:
@@ -142,7 +167,9 @@ class Flow:
     def _arguments(self, call: Term, callee: int | None, number: int) -> None:
         arguments = [labeled(item)[1] for item in call[2]]
         if callee is not None:
-            for parameter, argument in zip(self.names.functions[callee].parameters, arguments, strict=False):
+            for parameter, argument in zip(
+                self.names.functions[callee].parameters, arguments, strict=False
+            ):
                 self._flows((PARAMETER, callee, parameter.name), argument, number)
         name = last(call[1][1]) if call[1][0] == NAME else call[1][2] if call[1][0] == FIELD else ""
         if name not in _LESSER:
@@ -166,7 +193,9 @@ class Flow:
 
 
 def _object(term: Term) -> Hashable:
-    """Returns what two mentions of the same object have in common. Each call returns another object."""
+    """Returns what two mentions of the same object have in common. Each call returns another
+    object.
+    """
     path: list[Hashable] = []
     while term[0] == FIELD:
         path.append(term[2])
@@ -174,7 +203,12 @@ def _object(term: Term) -> Hashable:
     return (*path, term[1]) if term[0] == NAME else id(term)
 
 
-def _describe(images: dict[Hashable, tuple[list[Term], list[Term]]], structure: Hashable, member: str, value: Term) -> None:
+def _describe(
+    images: dict[Hashable, tuple[list[Term], list[Term]]],
+    structure: Hashable,
+    member: str,
+    value: Term,
+) -> None:
     """Adds the count or format that a structure receives."""
     name = member.removeprefix("set").removeprefix("Set").lower()
     if name in _SAMPLES:

@@ -30,7 +30,9 @@ def parts_of(loop: Term) -> tuple[Term | None, Term | None, Sequence[Term]]:
 
 
 def loop_iterations(loop: Term, expressions: Expressions, bindings: Bindings) -> Iterator[Bindings]:
-    """Yields the values of variables in each iteration of a loop over counts; nothing if its bounds are unknown."""
+    """Yields the values of variables in each iteration of a loop over counts; nothing if its bounds
+    are unknown.
+    """
     declared, over = loop[1], loop[2]
     if over is not None:
         order = expressions.value(over, bindings)
@@ -46,7 +48,10 @@ def loop_iterations(loop: Term, expressions: Expressions, bindings: Bindings) ->
     for _ in range(MAX_ROUNDS):
         inner = {**bindings, name: value}
         holds = expressions.value(condition, inner) if condition is not None else 1
-        if holds == 0 or not (isinstance(holds, int) or (condition is not None and _TO_THE_END.search(expressions.written(condition)))):
+        if holds == 0 or not (
+            isinstance(holds, int)
+            or (condition is not None and _TO_THE_END.search(expressions.written(condition)))
+        ):
             return
         yield inner
         next_step = _stepped(step, expressions, inner)
@@ -55,8 +60,12 @@ def loop_iterations(loop: Term, expressions: Expressions, bindings: Bindings) ->
         value = next_step[1]
 
 
-def halving_loop(loop: Term, expressions: Expressions, bindings: Bindings) -> tuple[str, list[tuple[Mask, int, Span]]] | None:
-    """Returns the variable of `while (!(counts & c)) c >>= 1;` and the tested counts in order, or None."""
+def halving_loop(
+    loop: Term, expressions: Expressions, bindings: Bindings
+) -> tuple[str, list[tuple[Mask, int, Span]]] | None:
+    """Returns the variable of `while (!(counts & c)) c >>= 1;` and the tested counts in order, or
+    None.
+    """
     condition, step, inner = parts_of(loop)
     if condition is None or step is None or inner:
         return None
@@ -90,7 +99,9 @@ def _is_step(term: Term) -> bool:
     return bool(term[0] == ASSIGN or (term[0] == UNARY and term[1][-2:] in ("++", "--")))
 
 
-def _start(loop: Term, step: Term | None, expressions: Expressions, bindings: Bindings) -> tuple[str, int] | None:
+def _start(
+    loop: Term, step: Term | None, expressions: Expressions, bindings: Bindings
+) -> tuple[str, int] | None:
     """Returns the variable that a loop counts with, and its value before the loop."""
     declared = loop[1]
     if len(declared) == 1 and declared[0][0] == DECLARE and declared[0][3] is not None:

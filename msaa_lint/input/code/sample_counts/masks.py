@@ -1,4 +1,6 @@
-"""Evaluates expressions of sample count masks: the limits that they come from and how they are combined."""
+"""Evaluates expressions of sample count masks: the limits that they come from and how they are
+combined.
+"""
 
 import re
 from collections.abc import Iterable
@@ -26,11 +28,16 @@ from .arithmetic import arithmetic
 from .names import last
 
 LIMITS = frozenset({
-    "framebufferColorSampleCounts", "framebufferDepthSampleCounts", "framebufferStencilSampleCounts",
-    "framebufferNoAttachmentsSampleCounts", "framebufferIntegerColorSampleCounts", "sampledImageColorSampleCounts",
-    "sampledImageIntegerSampleCounts", "sampledImageDepthSampleCounts", "sampledImageStencilSampleCounts", "storageImageSampleCounts",
+    "framebufferColorSampleCounts", "framebufferDepthSampleCounts",
+    "framebufferStencilSampleCounts",
+    "framebufferNoAttachmentsSampleCounts", "framebufferIntegerColorSampleCounts",
+    "sampledImageColorSampleCounts",
+    "sampledImageIntegerSampleCounts", "sampledImageDepthSampleCounts",
+    "sampledImageStencilSampleCounts", "storageImageSampleCounts",
 })  # fmt: skip
-"""The members of VkPhysicalDeviceLimits and VkPhysicalDeviceVulkan12Properties that are sample count masks."""
+"""The members of VkPhysicalDeviceLimits and VkPhysicalDeviceVulkan12Properties that are sample
+count masks.
+"""
 
 _LIMITS = {limit.lower(): limit for limit in LIMITS}
 
@@ -46,14 +53,21 @@ RANK = ("NONE", "AND", "LOGICAL_AND", "LOGICAL_OR", "OR", "MAX", "MIN")
 
 _ENUMERANT = re.compile(r"VK_SAMPLE_COUNT_(\d{1,2})_BIT")
 _HPP = re.compile(r"(?:(?:vk::)?SampleCountFlagBits::)?e(1|2|4|8|16|32|64)")
-_RUST = re.compile(r"(?:\w+::)*(?:SampleCountFlags::(?:TYPE)?_|SampleCounts?::(?:SAMPLE_|Sample))(1|2|4|8|16|32|64)")
-_TYPE = re.compile(r"SampleCountFlag|^(?:u?int(?:8|16|32|64)?(?:_t)?|unsigned|size_t|VkFlags|u32|Uint32|uint|to_underlying|move)$")
+_RUST = re.compile(
+    r"(?:\w+::)*(?:SampleCountFlags::(?:TYPE)?_|SampleCounts?::(?:SAMPLE_|Sample))(1|2|4|8|16|32|64)"
+)
+_TYPE = re.compile(
+    r"SampleCountFlag|^(?:u?int(?:8|16|32|64)?(?:_t)?|unsigned|size_t|VkFlags|u32|Uint32|uint|to_underlying|move)$"
+)
 _LESSER = frozenset({"min", "MIN", "Min", "qMin", "fmin", "SDL_min", "ImMin"})
 _GREATER = frozenset({"max", "MAX", "Max", "qMax", "fmax", "SDL_max", "ImMax"})
 _FORMS = {
-    "bit_floor": "COUNT", "highestBitValue": "COUNT", "highest_one_bit": "COUNT", "prevPowerOfTwo": "COUNT",
-    "__builtin_clz": "ZEROS", "__builtin_clzl": "ZEROS", "countl_zero": "ZEROS", "__lzcnt": "ZEROS", "_lzcnt_u32": "ZEROS", "clz": "ZEROS",
-    "findMSB": "INDEX", "log2": "INDEX", "ilog2": "INDEX", "log2i": "INDEX", "log2f": "INDEX", "bit_width": "WIDTH",
+    "bit_floor": "COUNT", "highestBitValue": "COUNT", "highest_one_bit": "COUNT",
+    "prevPowerOfTwo": "COUNT",
+    "__builtin_clz": "ZEROS", "__builtin_clzl": "ZEROS", "countl_zero": "ZEROS",
+    "__lzcnt": "ZEROS", "_lzcnt_u32": "ZEROS", "clz": "ZEROS",
+    "findMSB": "INDEX", "log2": "INDEX", "ilog2": "INDEX", "log2i": "INDEX", "log2f": "INDEX",
+    "bit_width": "WIDTH",
     "leading_zeros": "ZEROS", "max_count": "COUNT",
 }  # fmt: skip
 """What functions return of the highest bit of a mask."""
@@ -68,8 +82,8 @@ _POWERS = frozenset({"pow", "exp2", "ldexp"})
 
 
 class Mask(NamedTuple):
-    """A sample count mask: the limits that it comes from with their locations, how and where they are combined, and the counts that it may
-    contain.
+    """A sample count mask: the limits that it comes from with their locations, how and where they
+    are combined, and the counts that it may contain.
 
     `known` is set if those are all its limits.
     """
@@ -87,7 +101,9 @@ class Mask(NamedTuple):
 
 
 class Highest(NamedTuple):
-    """The highest bit of a mask (COUNT), its index (INDEX), the index plus one (WIDTH), or the number of zeros above it (ZEROS)."""
+    """The highest bit of a mask (COUNT), its index (INDEX), the index plus one (WIDTH), or the
+    number of zeros above it (ZEROS).
+    """
 
     mask: Mask
     form: str
@@ -120,7 +136,9 @@ def combine(masks: Iterable[Mask], how: str, at: Span) -> Mask:
 
 
 class Expressions:
-    """Evaluates the expressions of one file. `returns` are the results of functions, `members` the values kept outside of functions."""
+    """Evaluates the expressions of one file. `returns` are the results of functions, `members` the
+    values kept outside of functions.
+    """
 
     def __init__(self, text: str) -> None:
         self.text = text
@@ -190,14 +208,24 @@ class Expressions:
                 if operator in ("&&", "and") and left.bit is not None and left.bit == right.bit:
                     return combine((left, right), "AND", at)
                 how = "LOGICAL_AND" if operator in ("&&", "and") else "LOGICAL_OR"
-                return combine((left, right), how, at) if left.bit is None and right.bit is None else None
+                return (
+                    combine((left, right), how, at)
+                    if left.bit is None and right.bit is None
+                    else None
+                )
             return None
-        if isinstance(left, int) and isinstance(right, Mask) and operator in ("&", "bitand", "==", "!="):
+        if (
+            isinstance(left, int)
+            and isinstance(right, Mask)
+            and operator in ("&", "bitand", "==", "!=")
+        ):
             left, right = right, left
         if isinstance(left, Mask) and isinstance(right, int):
             if operator in ("&", "bitand"):
                 return left._replace(allowed=left.allowed & right)
-            same = (operator in ("!=", ">", "not_eq") and right == 0) or (operator == "==" and left.bit == right)
+            same = (operator in ("!=", ">", "not_eq") and right == 0) or (
+                operator == "==" and left.bit == right
+            )
             return left if same else None
         return _highest_bit_arithmetic(operator, left, right)
 
@@ -230,8 +258,11 @@ class Expressions:
             return compared
         return empty_of(term)
 
-    def comparison(self, term: Term | None, bindings: Bindings, depth: int = 0) -> tuple[Mask, Mask, bool, Span] | None:
-        """Returns two masks that a condition compares as numbers, whether it holds if the first is less, and its location;
+    def comparison(
+        self, term: Term | None, bindings: Bindings, depth: int = 0
+    ) -> tuple[Mask, Mask, bool, Span] | None:
+        """Returns two masks that a condition compares as numbers, whether it holds if the first is
+        less, and its location;
 
         None for other conditions.
         """
@@ -242,8 +273,12 @@ class Expressions:
             return None
         return left, right, term[1][0] == "<", term[-1]
 
-    def minimum(self, compared: tuple[Mask, Mask, bool, Span], then: Value | None, other: Value | None) -> Mask | None:
-        """Returns the minimum or maximum of two compared masks, by the branch that is taken; None for other values."""
+    def minimum(
+        self, compared: tuple[Mask, Mask, bool, Span], then: Value | None, other: Value | None
+    ) -> Mask | None:
+        """Returns the minimum or maximum of two compared masks, by the branch that is taken; None
+        for other values.
+        """
         left, right, less, at = compared
         if not (isinstance(then, Mask) and isinstance(other, Mask)):
             return None
@@ -273,7 +308,9 @@ class Expressions:
         if len(term[2]) > 64:
             return None
         values = [self.value(item, bindings, depth) for _, item in term[2]]
-        if len(values) == 1 and (not isinstance(values[0], int) or _TYPE.search(last(term[1])) is not None):
+        if len(values) == 1 and (
+            not isinstance(values[0], int) or _TYPE.search(last(term[1])) is not None
+        ):
             return values[0]
         counts = tuple(value for value in values if isinstance(value, int))
         return Order(counts) if counts and len(counts) == len(values) else None
@@ -281,7 +318,9 @@ class Expressions:
     def _call(self, term: Term, bindings: Bindings, depth: int) -> Value | None:
         function, arguments = term[1], term[2]
         name = name_of(function)
-        if function[0] == FIELD and (name in _TESTS or name in _NUMBERS or (name in _FORMS and not arguments)):
+        if function[0] == FIELD and (
+            name in _TESTS or name in _NUMBERS or (name in _FORMS and not arguments)
+        ):
             return self._method(function[1], name, arguments, bindings, depth)
         if len(arguments) == 1 and arguments[0][0] == BRACES and name in _LESSER | _GREATER:
             arguments = tuple(item for _, item in arguments[0][2])
@@ -292,10 +331,22 @@ class Expressions:
             return values[0]
         if name in _LESSER or name in _GREATER:
             masks = [value for value in values if isinstance(value, Mask)]
-            return combine(masks, "MIN" if name in _LESSER else "MAX", at(function)) if len(masks) == len(values) > 1 else None
-        if name in _POWERS and isinstance(values[-1] if values else None, Highest) and values[:-1] in ([], [2], [1]):
+            return (
+                combine(masks, "MIN" if name in _LESSER else "MAX", at(function))
+                if len(masks) == len(values) > 1
+                else None
+            )
+        if (
+            name in _POWERS
+            and isinstance(values[-1] if values else None, Highest)
+            and values[:-1] in ([], [2], [1])
+        ):
             highest = values[-1]
-            return highest._replace(form="COUNT") if isinstance(highest, Highest) and highest.form == "INDEX" else None
+            return (
+                highest._replace(form="COUNT")
+                if isinstance(highest, Highest) and highest.form == "INDEX"
+                else None
+            )
         first = values[0] if len(values) == 1 else None
         if isinstance(first, Mask) and name in _FORMS:
             return Highest(first, _FORMS[name])
@@ -303,7 +354,9 @@ class Expressions:
             return first
         return self.returns.get(name) if function[0] in (NAME, FIELD) else None
 
-    def _method(self, receiver: Term, name: str, arguments: tuple[Term, ...], bindings: Bindings, depth: int) -> Value | None:
+    def _method(
+        self, receiver: Term, name: str, arguments: tuple[Term, ...], bindings: Bindings, depth: int
+    ) -> Value | None:
         """Returns the result of a method of a mask or a number."""
         value = self.value(receiver, bindings, depth)
         if name in _NUMBERS:

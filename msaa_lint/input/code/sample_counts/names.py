@@ -1,4 +1,6 @@
-"""What the names in the functions of a program refer to: local variables, members of classes, global variables, and functions."""
+"""What the names in the functions of a program refer to: local variables, members of classes,
+global variables, and functions.
+"""
 
 from __future__ import annotations
 
@@ -6,18 +8,39 @@ import re
 from collections.abc import Hashable, Iterator
 
 from msaa_lint.core.text.span import Span
-from msaa_lint.input.code.core.terms import ADDRESS, CALL, DECLARE, FIELD, INDEX, LAMBDA, NAME, TARGET, Function, Term, Unit
+from msaa_lint.input.code.core.terms import (
+    ADDRESS,
+    CALL,
+    DECLARE,
+    FIELD,
+    INDEX,
+    LAMBDA,
+    NAME,
+    TARGET,
+    Function,
+    Term,
+    Unit,
+)
 
 MAX_DEPTH = 12
 """The maximum number of types and base classes followed for a name."""
 
 MAX_OVERLOADS = 8
-"""The maximum number of classes or functions that a name is compared with; if there are more, it is ambiguous."""
+"""The maximum number of classes or functions that a name is compared with; if there are more, it is
+ambiguous.
+"""
 
 Identity = tuple[Hashable, ...]
 """A variable or function: its kind, and its class or the number of its function, and its name."""
 
-LOCAL, PARAMETER, MEMBER, GLOBAL, FUNCTION, UNDECLARED = "local", "parameter", "member", "global", "function", "undeclared"
+LOCAL, PARAMETER, MEMBER, GLOBAL, FUNCTION, UNDECLARED = (
+    "local",
+    "parameter",
+    "member",
+    "global",
+    "function",
+    "undeclared",
+)
 
 _ARGUMENT = re.compile(r"<\s*(?:const\s+)?([\w:]+(?:<.*>)?)")
 _CONSTRUCTING = re.compile(r"make_(?:unique|shared)$")
@@ -44,13 +67,19 @@ class Names:
     def __init__(self, unit: Unit) -> None:
         self.functions = unit.functions
         self.bases = unit.bases
-        self._members = {name: {term[2]: term for term in terms if term[0] == DECLARE} for name, terms in unit.members.items()}
+        self._members = {
+            name: {term[2]: term for term in terms if term[0] == DECLARE}
+            for name, terms in unit.members.items()
+        }
         self._owners: dict[str, list[str]] = {}
         for name, members in self._members.items():
             for member in members:
                 self._owners.setdefault(member, []).append(name)
         self._classes: dict[str, list[str]] = {}
-        for name in {*unit.members, *(function.class_name for function in unit.functions if function.class_name)}:
+        for name in {
+            *unit.members,
+            *(function.class_name for function in unit.functions if function.class_name),
+        }:
             self._classes.setdefault(last(name), []).append(name)
         self._by_name: dict[str, list[int]] = {}
         self._by_class: dict[tuple[str, str], list[int]] = {}
@@ -60,7 +89,9 @@ class Names:
             self._by_name.setdefault(name, []).append(number)
             self._by_class.setdefault((function.class_name, name), []).append(number)
         self.globals = {last(term[2]): term for term in unit.outside if term[0] == DECLARE}
-        self.locals: list[dict[str, tuple[Identity, str, Term | None]]] = [_locals(n, item) for n, item in enumerate(unit.functions)]
+        self.locals: list[dict[str, tuple[Identity, str, Term | None]]] = [
+            _locals(n, item) for n, item in enumerate(unit.functions)
+        ]
 
     def members(self) -> Iterator[tuple[Identity, Term]]:
         """Yields the members of classes with their declarations."""
@@ -79,20 +110,27 @@ class Names:
             found = self._member(owner, name) if owner else None
             if found is None and name not in self.globals:
                 # A member of a class that is declared in a file that is not read.
-                return (UNDECLARED, self.functions[function].class_name, name) if not scope and not name.isupper() else None
+                return (
+                    (UNDECLARED, self.functions[function].class_name, name)
+                    if not scope and not name.isupper()
+                    else None
+                )
             return found or (GLOBAL, name)
         if term[0] != FIELD:
             return None
         owner = self._class_of(term[1], function)
         if owner is not None:
             member = self._member(owner, term[2]) if owner else None
-            return member or ((UNDECLARED, owner, term[2]) if term[1][:2] == (NAME, "this") else None)
+            return member or (
+                (UNDECLARED, owner, term[2]) if term[1][:2] == (NAME, "this") else None
+            )
         owners = self._owners.get(term[2], ())
         return (MEMBER, owners[0], term[2]) if len(owners) == 1 else None
 
     def callee(self, call: Term, function: int, target: Term | None = None) -> int | None:
-        """Returns the number of the function that a call calls, or None. `target` is the variable that a constructor without a name
-        constructs."""
+        """Returns the number of the function that a call calls, or None. `target` is the variable
+        that a constructor without a name constructs.
+        """
         called = call[1]
         owner: str | None = None
         if called[0] == FIELD:
@@ -111,9 +149,13 @@ class Names:
         else:
             return None
         if called[0] == NAME and not owner:
-            numbers = self._methods(self.functions[function].class_name, name) or self._by_class.get(("", name), [])
+            numbers = self._methods(
+                self.functions[function].class_name, name
+            ) or self._by_class.get(("", name), [])
             constructed = self._class(name) if not numbers else None
-            numbers = numbers if constructed is None else self._by_class.get((constructed, name), [])
+            numbers = (
+                numbers if constructed is None else self._by_class.get((constructed, name), [])
+            )
         else:
             numbers = self._methods(owner, name) if owner else self._by_name.get(name, [])
         if len(numbers) > MAX_OVERLOADS:
@@ -123,18 +165,35 @@ class Names:
 
     def _methods(self, owner: str, name: str) -> list[int]:
         """Returns the methods of a name that a class has or inherits."""
-        return next((self._by_class[item, name] for item in self._inherited(owner) if (item, name) in self._by_class), [])
+        return next(
+            (
+                self._by_class[item, name]
+                for item in self._inherited(owner)
+                if (item, name) in self._by_class
+            ),
+            [],
+        )
 
     def _constructed(self, target: Term, function: int) -> str:
         """Returns the class of which a member initializer or declaration constructs an object."""
-        if target[0] == FIELD and target[1][:2] == (NAME, "this") and last(target[2]) in self._classes:
+        if (
+            target[0] == FIELD
+            and target[1][:2] == (NAME, "this")
+            and last(target[2]) in self._classes
+        ):
             return str(target[2])
-        if target[0] == NAME and target[1] not in self.locals[function] and last(target[1]) in self._classes:
+        if (
+            target[0] == NAME
+            and target[1] not in self.locals[function]
+            and last(target[1]) in self._classes
+        ):
             return str(target[1])
         return self._class_of(target, function) or ""
 
     def _class_of(self, term: Term, function: int) -> str | None:
-        """Returns the class of an object, an empty string for a type that is not a class of the program, and None if it is unknown."""
+        """Returns the class of an object, an empty string for a type that is not a class of the
+        program, and None if it is unknown.
+        """
         for _ in range(MAX_DEPTH):
             if term[0] not in (TARGET, ADDRESS, INDEX):
                 break
@@ -145,18 +204,36 @@ class Names:
         if term[0] == NAME and term[1] in self.locals[function]:
             _, kind, value = self.locals[function][term[1]]
         elif term[0] in (NAME, FIELD):
-            found = self.variable(term, function) if term[0] == NAME or term[1][0] in (NAME, TARGET) else None
-            declared = self._members[str(found[1])][str(found[2])] if found is not None and found[0] == MEMBER else None
-            declared = self.globals[str(found[1])] if found is not None and found[0] == GLOBAL else declared
+            found = (
+                self.variable(term, function)
+                if term[0] == NAME or term[1][0] in (NAME, TARGET)
+                else None
+            )
+            declared = (
+                self._members[str(found[1])][str(found[2])]
+                if found is not None and found[0] == MEMBER
+                else None
+            )
+            declared = (
+                self.globals[str(found[1])]
+                if found is not None and found[0] == GLOBAL
+                else declared
+            )
             kind = declared[1] if declared is not None else ""
         elif term[0] == CALL and term[1][0] == NAME and last(term[1][1]) in self._classes:
             kind = term[1][1]
         if kind in ("", "auto"):
-            return self._class_of(value, function) if value is not None and value[0] == CALL and value[1][0] == NAME else None
+            return (
+                self._class_of(value, function)
+                if value is not None and value[0] == CALL and value[1][0] == NAME
+                else None
+            )
         return self._class(kind) or ""
 
     def _class(self, kind: str) -> str | None:
-        """Returns the class that a type names, also as the argument of a template; None if there is none or several."""
+        """Returns the class that a type names, also as the argument of a template; None if there is
+        none or several.
+        """
         for _ in range(MAX_DEPTH):
             name = kind.strip("*& ")
             every = self._classes.get(last(name), [])
@@ -184,16 +261,29 @@ class Names:
         return names
 
     def _member(self, owner: str | None, name: str) -> Identity | None:
-        return next(((MEMBER, item, name) for item in self._inherited(owner or "") if name in self._members.get(item, ())), None)
+        return next(
+            (
+                (MEMBER, item, name)
+                for item in self._inherited(owner or "")
+                if name in self._members.get(item, ())
+            ),
+            None,
+        )
 
 
 def _takes(function: Function, count: int) -> bool:
     """Returns whether a function can be called with a number of arguments."""
-    return sum(item.default is None for item in function.parameters) <= count <= len(function.parameters)
+    return (
+        sum(item.default is None for item in function.parameters)
+        <= count
+        <= len(function.parameters)
+    )
 
 
 def _locals(number: int, function: Function) -> dict[str, tuple[Identity, str, Term | None]]:
-    """Returns the parameters and local variables of a function with their types and initial values."""
+    """Returns the parameters and local variables of a function with their types and initial
+    values.
+    """
     known: dict[str, tuple[Identity, str, Term | None]] = {}
     for term in parts(function.body):
         if term[0] == DECLARE:

@@ -1,4 +1,6 @@
-"""The depth and stencil formats of images that have a chosen count, where the choice and the images are in different functions or files."""
+"""The depth and stencil formats of images that have a chosen count, where the choice and the images
+are in different functions or files.
+"""
 
 from __future__ import annotations
 
@@ -41,25 +43,38 @@ MAX_HOLDERS = 64
 """The maximum number of variables and functions that a count is followed through."""
 
 _FORMATS = {name.replace("_", "").lower(): name for name in VALUES["VkFormat"]}
-"""The formats by their spelling in vulkan.hpp, in lower case: `D24UnormS8Uint` is D24_UNORM_S8_UINT."""
+"""The formats by their spelling in vulkan.hpp, in lower case: `D24UnormS8Uint` is
+D24_UNORM_S8_UINT.
+"""
 
 Choice = tuple[str, Span, Node]
 """A sample count choice: its name, place, and entry."""
 
 
 def with_formats(choices: Sequence[Choice], unit: Unit) -> list[Choice]:
-    """Returns the sample count choices of a program, with the depth and stencil formats of images elsewhere that have the count."""
+    """Returns the sample count choices of a program, with the depth and stencil formats of images
+    elsewhere that have the count.
+    """
     if not any(_lacks_formats(node) for _, _, node in choices):
         return list(choices)
     formats = _Formats(unit)
-    return [(name, at, _completed(node, formats.of(name, at)) if _lacks_formats(node) else node) for name, at, node in choices]
+    return [
+        (name, at, _completed(node, formats.of(name, at)) if _lacks_formats(node) else node)
+        for name, at, node in choices
+    ]
 
 
 def _lacks_formats(node: Node) -> bool:
-    """Returns whether the formats of a choice matter and are unknown: it asks for the counts of depth, but not for those of stencil."""
+    """Returns whether the formats of a choice matter and are unknown: it asks for the counts of
+    depth, but not for those of stencil.
+    """
     limits = node.value.get("limits")
     names = [str(item.value) for item in limits.value] if limits is not None else []
-    return "formats" not in node.value and any("DepthSample" in name for name in names) and not any("Stencil" in name for name in names)
+    return (
+        "formats" not in node.value
+        and any("DepthSample" in name for name in names)
+        and not any("Stencil" in name for name in names)
+    )
 
 
 def _completed(node: Node, formats: dict[str, Span]) -> Node:
@@ -67,7 +82,9 @@ def _completed(node: Node, formats: dict[str, Span]) -> Node:
         return node
     at = next(iter(formats.values()))
     members = [(key, node.keys[key].span, value) for key, value in node.value.items()]
-    members.append(("formats", at, sequence([scalar(name, place) for name, place in formats.items()], at)))
+    members.append(
+        ("formats", at, sequence([scalar(name, place) for name, place in formats.items()], at))
+    )
     return mapping(members, node.span)
 
 
@@ -78,7 +95,9 @@ class _Formats:
         self.flow = Flow(unit)
         self.names = self.flow.names
         self._left = MAX_STEPS
-        self._order = sorted(range(len(unit.functions)), key=lambda number: unit.functions[number].at.start)
+        self._order = sorted(
+            range(len(unit.functions)), key=lambda number: unit.functions[number].at.start
+        )
         self._starts = [unit.functions[number].at.start for number in self._order]
         for variable, term in self.names.members():
             if term[3] is not None:
@@ -88,7 +107,9 @@ class _Formats:
                 self.flow.sources.setdefault((GLOBAL, name), []).append((-1, term[3]))
 
     def of(self, name: str, at: Span) -> dict[str, Span]:
-        """Returns the depth and stencil formats of the images that have the count of a choice, and where each is named."""
+        """Returns the depth and stencil formats of the images that have the count of a choice, and
+        where each is named.
+        """
         start = self._chosen(name, at)
         waiting = [(start, False)] if start is not None else []
         reached = set(waiting)
@@ -100,9 +121,12 @@ class _Formats:
                 if self._left < 0:
                     break
                 for expression in use.beside:
-                    formats |= self._depth_formats(expression, use.function, doubtful or use.conditional)
+                    formats |= self._depth_formats(
+                        expression, use.function, doubtful or use.conditional
+                    )
             for target, conditional in self.flow.targets.get(holder, ()):
-                # A parameter may have another count in another call, in which the format is another, too.
+                # A parameter may have another count in another call, in which the format is
+                # another, too.
                 state = target, doubtful or conditional or target[0] == PARAMETER
                 if state not in reached and len(reached) < MAX_HOLDERS:
                     reached.add(state)
@@ -122,7 +146,9 @@ class _Formats:
         return self.names.variable((NAME, name, at), number) if inside else None
 
     def _depth_formats(self, expression: Term, function: int, doubtful: bool) -> dict[str, Span]:
-        """Returns the depth and stencil formats that an expression may have; nothing if it may have another format."""
+        """Returns the depth and stencil formats that an expression may have; nothing if it may have
+        another format.
+        """
         names: dict[str, Span] = {}
         for name, place in self._formats(expression, function, doubtful, 0, set()):
             form = format_of(name)
@@ -131,9 +157,12 @@ class _Formats:
             names.setdefault(name, place)
         return names
 
-    def _formats(self, term: Term, function: int, doubtful: bool, depth: int, seen: set[Identity]) -> Iterator[tuple[str, Span]]:
-        """Yields the formats that an expression may have. If the count is `doubtful`, those that depend on an argument or a condition are
-        left out."""
+    def _formats(
+        self, term: Term, function: int, doubtful: bool, depth: int, seen: set[Identity]
+    ) -> Iterator[tuple[str, Span]]:
+        """Yields the formats that an expression may have. If the count is `doubtful`, those that
+        depend on an argument or a condition are left out.
+        """
         self._left -= 1
         kind = term[0]
         if self._left < 0 or depth > MAX_DEPTH:
@@ -151,28 +180,51 @@ class _Formats:
             if name is not None:
                 yield from [(name, term[-1])] if name != "UNDEFINED" else []
                 return
-            variable = self.names.variable(term, function) if function >= 0 or (kind == NAME and term[1] in self.names.globals) else None
-            if variable is not None and variable not in seen and not (doubtful and variable[0] == PARAMETER):
+            variable = (
+                self.names.variable(term, function)
+                if function >= 0 or (kind == NAME and term[1] in self.names.globals)
+                else None
+            )
+            if (
+                variable is not None
+                and variable not in seen
+                and not (doubtful and variable[0] == PARAMETER)
+            ):
                 yield from self._received(variable, doubtful, depth, {*seen, variable})
         elif kind == CALL:
             yield from self._returned(term, function, doubtful, depth, seen)
 
-    def _received(self, variable: Identity, doubtful: bool, depth: int, seen: set[Identity]) -> Iterator[tuple[str, Span]]:
+    def _received(
+        self, variable: Identity, doubtful: bool, depth: int, seen: set[Identity]
+    ) -> Iterator[tuple[str, Span]]:
         """Yields the formats that a variable receives."""
         values = self.flow.sources.get(variable, ())
-        received = [list(self._formats(value, function, doubtful, depth + 1, seen)) for function, value in values]
+        received = [
+            list(self._formats(value, function, doubtful, depth + 1, seen))
+            for function, value in values
+        ]
         if doubtful and variable[0] in (MEMBER, UNDECLARED):
-            # Which of the values an object with the count has is unknown, unless all of them are known.
-            known = all(found or _is_undefined(value) for found, (_, value) in zip(received, values, strict=True))
+            # Which of the values an object with the count has is unknown, unless all of them are
+            # known.
+            known = all(
+                found or _is_undefined(value)
+                for found, (_, value) in zip(received, values, strict=True)
+            )
             yield from (item for found in received for item in found if known)
             return
         for found in received:
             # Another call or object has another format.
-            if variable[0] not in (PARAMETER, MEMBER, UNDECLARED) or not any(_is_color(name) for name, _ in found):
+            if variable[0] not in (PARAMETER, MEMBER, UNDECLARED) or not any(
+                _is_color(name) for name, _ in found
+            ):
                 yield from found
 
-    def _returned(self, call: Term, function: int, doubtful: bool, depth: int, seen: set[Identity]) -> Iterator[tuple[str, Span]]:
-        """Yields the formats that a call may return: those that the function names and those among its arguments."""
+    def _returned(
+        self, call: Term, function: int, doubtful: bool, depth: int, seen: set[Identity]
+    ) -> Iterator[tuple[str, Span]]:
+        """Yields the formats that a call may return: those that the function names and those among
+        its arguments.
+        """
         callee = self.names.callee(call, function) if function >= 0 else None
         called = call[1]
         text = called[1] if called[0] == NAME else called[2] if called[0] == FIELD else ""
@@ -195,7 +247,9 @@ class _Formats:
                 yield from self._formats(term[3], callee, True, depth + 1, inner)
 
     def _statements(self, body: tuple[Term, ...]) -> Iterator[Term]:
-        """Yields the terms of a function body that may be its result: all but comparisons and translations of other enumerations."""
+        """Yields the terms of a function body that may be its result: all but comparisons and
+        translations of other enumerations.
+        """
         stack = list(body)
         while stack and self._left > 0:
             term = stack.pop()
@@ -204,7 +258,9 @@ class _Formats:
                 continue
             if term and isinstance(term[-1], Span):
                 yield term
-            stack += [part for part in term if isinstance(part, tuple) and not isinstance(part, Span)]
+            stack += [
+                part for part in term if isinstance(part, tuple) and not isinstance(part, Span)
+            ]
 
 
 def format_name(text: str) -> str | None:

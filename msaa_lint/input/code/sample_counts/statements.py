@@ -11,7 +11,9 @@ MAX_LINKS = 64
 
 
 def statements(body: Sequence[Term]) -> Iterator[Term]:
-    """Yields the statements of a body, including those in preprocessor blocks, but not the dead code after a `return` or `throw`."""
+    """Yields the statements of a body, including those in preprocessor blocks, but not the dead
+    code after a `return` or `throw`.
+    """
     if len(body) == 1 and body[0][0] == BLOCK:
         body = body[0][1]
     end = next((n for n, term in enumerate(body, 1) if term[0] in (RETURN, LEAVE)), len(body))
@@ -27,7 +29,9 @@ def statements(body: Sequence[Term]) -> Iterator[Term]:
 
 
 def links(term: Term) -> Iterator[tuple[Term | None, Sequence[Term]]]:
-    """Yields the conditions of an `if` chain with their branches; the condition of a final `else` is None."""
+    """Yields the conditions of an `if` chain with their branches; the condition of a final `else`
+    is None.
+    """
     for _ in range(MAX_LINKS):
         yield term[1], term[2]
         otherwise = term[3]

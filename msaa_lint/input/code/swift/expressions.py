@@ -1,4 +1,6 @@
-"""Converts Swift expressions to terms. Unwrapping, `try`, `await`, and casts are removed: `a!`, `try a`, and `a as! B` are `a`."""
+"""Converts Swift expressions to terms. Unwrapping, `try`, `await`, and casts are removed: `a!`,
+`try a`, and `a as! B` are `a`.
+"""
 
 from __future__ import annotations
 
@@ -33,11 +35,19 @@ from msaa_lint.input.code.parsing import SyntaxNode, SyntaxReader, fields, span
 MAX_DEPTH = 40
 """The maximum nesting of expressions and statements."""
 
-_NUMBER = re.compile(r"0[xX][0-9a-fA-F_]{1,16}|0[bB][01_]{1,64}|0[oO][0-7_]{1,22}|[0-9][0-9_]{0,18}")
+_NUMBER = re.compile(
+    r"0[xX][0-9a-fA-F_]{1,16}|0[bB][01_]{1,64}|0[oO][0-7_]{1,22}|[0-9][0-9_]{0,18}"
+)
 _REAL = re.compile(r"[0-9_]+(?:\.[0-9_]+)?(?:[eE][-+]?[0-9]+)?")
-_WRAPPERS = {"try_expression": "expr", "as_expression": "expr", "await_expression": "expr", "postfix_expression": "target"}
+_WRAPPERS = {
+    "try_expression": "expr",
+    "as_expression": "expr",
+    "await_expression": "expr",
+    "postfix_expression": "target",
+}
 _BINARY = frozenset({
-    "comparison_expression", "equality_expression", "additive_expression", "multiplicative_expression", "bitwise_operation",
+    "comparison_expression", "equality_expression", "additive_expression",
+    "multiplicative_expression", "bitwise_operation",
     "conjunction_expression", "disjunction_expression", "infix_expression",
 })  # fmt: skip
 _API = ("MTL", "MTK", "CAM")
@@ -94,10 +104,19 @@ class Expressions(SyntaxReader, ABC):
         if kind in _BINARY:
             return self.binary(node, depth)
         if kind == "nil_coalescing_expression":
-            left, right = (self.expression(part, depth + 1) for part in fields(node, "value", "if_nil"))
+            left, right = (
+                self.expression(part, depth + 1) for part in fields(node, "value", "if_nil")
+            )
             return BINARY, "??", left, right, at
         if kind == "ternary_expression":
-            return CHOICE, *(self.expression(part, depth + 1) for part in fields(node, "condition", "if_true", "if_false")), at
+            return (
+                CHOICE,
+                *(
+                    self.expression(part, depth + 1)
+                    for part in fields(node, "condition", "if_true", "if_false")
+                ),
+                at,
+            )
         if kind == "tuple_expression":
             return self.grouped(node, depth)
         if kind == "array_literal":
@@ -115,9 +134,18 @@ class Expressions(SyntaxReader, ABC):
             return LITERAL, written == "true", span(node)
         if kind in ("nil_literal", "nil"):
             return LITERAL, None, span(node)
-        if kind in ("integer_literal", "hex_literal", "oct_literal", "bin_literal") and _NUMBER.fullmatch(written):
+        if kind in (
+            "integer_literal",
+            "hex_literal",
+            "oct_literal",
+            "bin_literal",
+        ) and _NUMBER.fullmatch(written):
             digits = written.replace("_", "")
-            return LITERAL, int(digits, 0) if digits[:2].lower() in ("0x", "0b", "0o") else int(digits), span(node)
+            return (
+                LITERAL,
+                int(digits, 0) if digits[:2].lower() in ("0x", "0b", "0o") else int(digits),
+                span(node),
+            )
         if kind == "real_literal" and len(written) < 40 and _REAL.fullmatch(written):
             return LITERAL, float(written.replace("_", "")), span(node)
         return self.other(node)
@@ -155,22 +183,45 @@ class Expressions(SyntaxReader, ABC):
         if len(children) < 2 or children[-1].type != "call_suffix":
             return self.other(node)
         callee = children[0]
-        function = self.member(callee, depth, True) if callee.type == "navigation_expression" else self.expression(callee, depth + 1)
+        function = (
+            self.member(callee, depth, True)
+            if callee.type == "navigation_expression"
+            else self.expression(callee, depth + 1)
+        )
         arguments: list[Term] = []
         index = False
         for child in children[-1].named_children:
             if child.type == "value_arguments":
                 index = self.text[child.start_byte] == "["
-                arguments += [self.argument(one, depth) for one in child.named_children if one.type == "value_argument"]
+                arguments += [
+                    self.argument(one, depth)
+                    for one in child.named_children
+                    if one.type == "value_argument"
+                ]
             elif child.type == "lambda_literal":
                 arguments.append(self.closure(child, depth))
         if index:
-            return INDEX, function, arguments[0] if len(arguments) == 1 else self.other(node), span(node)
+            return (
+                INDEX,
+                function,
+                arguments[0] if len(arguments) == 1 else self.other(node),
+                span(node),
+            )
         if function[0] == NAME and function[1][:1] == ".":
-            function = (NAME, function[1] if function[1] == ".init" else function[1][1:], function[2])
+            function = (
+                NAME,
+                function[1] if function[1] == ".init" else function[1][1:],
+                function[2],
+            )
         if function[0] == FIELD and function[2] == "init" and function[1][0] == NAME:
             function = function[1]
-        name = str(function[1]).rpartition("::")[2] if function[0] == NAME else function[2] if function[0] == FIELD else ""
+        name = (
+            str(function[1]).rpartition("::")[2]
+            if function[0] == NAME
+            else function[2]
+            if function[0] == FIELD
+            else ""
+        )
         if name != self.current:
             self.called_names.add(name)
         return CALL, function, tuple(arguments), span(node)
@@ -207,8 +258,20 @@ class Expressions(SyntaxReader, ABC):
 
     def closure(self, node: SyntaxNode, depth: int) -> Term:
         kind = node.child_by_field_name("type")
-        groups = [child for child in kind.named_children if child.type == "lambda_function_type_parameters"] if kind is not None else []
-        names = [self.text_of(child.child_by_field_name("name")) for group in groups for child in group.named_children]
+        groups = (
+            [
+                child
+                for child in kind.named_children
+                if child.type == "lambda_function_type_parameters"
+            ]
+            if kind is not None
+            else []
+        )
+        names = [
+            self.text_of(child.child_by_field_name("name"))
+            for group in groups
+            for child in group.named_children
+        ]
         parameters = tuple(Parameter("", name, False, None) for name in names if name)
         body = returning(self.statements(block(node), depth + 1))
         if not parameters and "$0" in self.text_of(node)[:20_000]:
@@ -217,13 +280,17 @@ class Expressions(SyntaxReader, ABC):
 
     def choice(self, node: SyntaxNode, depth: int) -> Term:
         """Returns an `if` or a `switch` that is used as an expression."""
-        terms = self.branches(node, depth) if node.type == "if_statement" else self.cases(node, depth)
+        terms = (
+            self.branches(node, depth) if node.type == "if_statement" else self.cases(node, depth)
+        )
         value = _chosen(terms, 0) if len(terms) == 1 else None
         return value if value is not None else self.other(node)
 
 
 def _chosen(terms: tuple[Term, ...] | list[Term], depth: int) -> Term | None:
-    """Returns the value of statements that consist of a single expression, or a choice of several."""
+    """Returns the value of statements that consist of a single expression, or a choice of
+    several.
+    """
     if len(terms) != 1 or depth > MAX_DEPTH:
         return None
     term = terms[0]
@@ -235,7 +302,11 @@ def _chosen(terms: tuple[Term, ...] | list[Term], depth: int) -> Term | None:
     if term[0] != IF:
         return None
     then, otherwise = _chosen(term[2], depth + 1), _chosen(term[3], depth + 1)
-    return (CHOICE, term[1], then, otherwise, term[-1]) if then is not None and otherwise is not None else None
+    return (
+        (CHOICE, term[1], then, otherwise, term[-1])
+        if then is not None and otherwise is not None
+        else None
+    )
 
 
 def _chosen_case(term: Term, depth: int) -> Term | None:
@@ -245,15 +316,26 @@ def _chosen_case(term: Term, depth: int) -> Term | None:
         value = _chosen(body[:-1], depth + 1)
         if value is None:
             return None
-        conditions = [(BINARY, "==", term[1], label, term[-1]) for label in labels if label is not None]
-        condition = reduce(lambda a, b: (BINARY, "||", a, b, a[-1]), conditions) if conditions else None
-        chosen = value if condition is None or chosen is None else (CHOICE, condition, value, chosen, term[-1])
+        conditions = [
+            (BINARY, "==", term[1], label, term[-1]) for label in labels if label is not None
+        ]
+        condition = (
+            reduce(lambda a, b: (BINARY, "||", a, b, a[-1]), conditions) if conditions else None
+        )
+        chosen = (
+            value
+            if condition is None or chosen is None
+            else (CHOICE, condition, value, chosen, term[-1])
+        )
     return chosen
 
 
 def tuple_of(labels: list[str], terms: list[Term], at: Span) -> Term:
     """Returns a tuple."""
-    items = tuple(((label or str(n),), term) for n, (label, term) in enumerate(zip(labels, terms, strict=True)))
+    items = tuple(
+        ((label or str(n),), term)
+        for n, (label, term) in enumerate(zip(labels, terms, strict=True))
+    )
     return BRACES, TUPLE, items, at
 
 
@@ -266,4 +348,9 @@ def returning(statements: tuple[Term, ...]) -> tuple[Term, ...]:
 
 def block(node: SyntaxNode) -> list[SyntaxNode]:
     """Returns the statements in the braces of a node."""
-    return [item for child in node.named_children if child.type == "statements" for item in child.named_children]
+    return [
+        item
+        for child in node.named_children
+        if child.type == "statements"
+        for item in child.named_children
+    ]

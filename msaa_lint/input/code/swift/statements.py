@@ -40,7 +40,9 @@ MAX_ARMS = 50
 
 _LEAVING = frozenset({"fatalError", "preconditionFailure", "abort", "exit"})
 _LABELS = re.compile(r"[(,]\s*([A-Za-z_]\w*)\s*:")
-_TYPE_WORDS = re.compile(r"^(?:(?:@\w+|inout|any|some|borrowing|consuming|__owned|unowned|weak)\s+)+")
+_TYPE_WORDS = re.compile(
+    r"^(?:(?:@\w+|inout|any|some|borrowing|consuming|__owned|unowned|weak)\s+)+"
+)
 
 _Open = tuple[list[Term], Span, list[tuple[str, list[Term]]]]
 """An open `#if`: the enclosing list, its location, and its branches with their conditions."""
@@ -79,7 +81,14 @@ class Statements(Expressions):
             open_.append((terms, span(node), [(written[3:].strip(), arm)]))
             return arm
         if written.startswith("#else") and open_ and len(open_[-1][2]) < MAX_ARMS:
-            open_[-1][2].append((written.removeprefix("#elseif").strip() if written.startswith("#elseif") else "", arm))
+            open_[-1][2].append(
+                (
+                    written.removeprefix("#elseif").strip()
+                    if written.startswith("#elseif")
+                    else "",
+                    arm,
+                )
+            )
             return arm
         if written.startswith("#endif") and open_:
             return _closed(terms, open_)
@@ -91,14 +100,32 @@ class Statements(Expressions):
             terms += self.declared(node, depth)
         elif kind == "assignment":
             target = node.child_by_field_name("target")
-            inner = target.named_children[0] if target is not None and target.named_children else None
+            inner = (
+                target.named_children[0] if target is not None and target.named_children else None
+            )
             sign, value = fields(node, "operator", "result")
             if inner is not None and sign is not None:
-                self.assignment(self.text_of(sign), self.expression(inner, depth), self.expression(value, depth), at, terms)
-        elif kind == "infix_expression" and node.child_count == 3 and self.text_of(node.children[1]).endswith("="):
+                self.assignment(
+                    self.text_of(sign),
+                    self.expression(inner, depth),
+                    self.expression(value, depth),
+                    at,
+                    terms,
+                )
+        elif (
+            kind == "infix_expression"
+            and node.child_count == 3
+            and self.text_of(node.children[1]).endswith("=")
+        ):
             # The grammar parses `+=` as an assignment, but `<<=` and similar as custom operators.
             target, sign, value = node.children
-            self.assignment(self.text_of(sign), self.expression(target, depth), self.expression(value, depth), at, terms)
+            self.assignment(
+                self.text_of(sign),
+                self.expression(target, depth),
+                self.expression(value, depth),
+                at,
+                terms,
+            )
         elif kind == "if_statement":
             terms += self.branches(node, depth)
         elif kind == "guard_statement":
@@ -116,11 +143,25 @@ class Statements(Expressions):
             result = node.child_by_field_name("result")
             leaving = not self.text.startswith("return", node.start_byte)
             jump = (BREAK if self.text.startswith("break", node.start_byte) else LEAVE, at)
-            terms.append(jump if leaving else (RETURN, self.returned(self.expression(result, depth)) if result else None, at))
+            terms.append(
+                jump
+                if leaving
+                else (RETURN, self.returned(self.expression(result, depth)) if result else None, at)
+            )
         elif kind == "function_declaration":
             name = self.text_of(node.child_by_field_name("name"))
             parameters, labels = self.parameters(node)
-            terms.append((DECLARE, "", name, (LAMBDA, parameters, self.body(node, labels, depth + 1), at), False, True, at))
+            terms.append(
+                (
+                    DECLARE,
+                    "",
+                    name,
+                    (LAMBDA, parameters, self.body(node, labels, depth + 1), at),
+                    False,
+                    True,
+                    at,
+                )
+            )
         elif kind == "ERROR":
             if depth < MAX_DEPTH:
                 terms += self.statements(node.named_children, depth + 20)
@@ -131,7 +172,11 @@ class Statements(Expressions):
 
     def returned(self, term: Term) -> Term:
         """Returns a result with the labels of the declared tuple."""
-        if len(self.labels) > 1 and term[:2] == (BRACES, TUPLE) and len(term[2]) == len(self.labels):
+        if (
+            len(self.labels) > 1
+            and term[:2] == (BRACES, TUPLE)
+            and len(term[2]) == len(self.labels)
+        ):
             return tuple_of(self.labels, [item for _, item in term[2]], term[-1])
         return term
 
@@ -142,14 +187,20 @@ class Statements(Expressions):
                 values = [item for _, item in value[2]]
             else:
                 terms.append((DECLARE, "", f"({at.start})", value, False, True, at))
-                values = [(FIELD, (NAME, f"({at.start})", at), str(n), at) for n in range(len(parts))]
+                values = [
+                    (FIELD, (NAME, f"({at.start})", at), str(n), at) for n in range(len(parts))
+                ]
             for part, item in zip(parts, values, strict=True):
                 self.assignment(sign, part, item, at, terms)
             return
         if target[0] in (NAME, FIELD):
             self.assigned.add(target[1] if target[0] == NAME else target[2])
         if value[0] == CALL and value[1][:2] == (NAME, ".init"):
-            value = (CALL, (NAME, "MTLRenderPassColorAttachmentDescriptor", value[1][-1]), *value[2:])
+            value = (
+                CALL,
+                (NAME, "MTLRenderPassColorAttachmentDescriptor", value[1][-1]),
+                *value[2:],
+            )
         terms.append((DO, (ASSIGN, sign, target, value, at), at))
 
     def branches(self, node: SyntaxNode, depth: int) -> list[Term]:
@@ -169,8 +220,12 @@ class Statements(Expressions):
             otherwise = ((BLOCK, (*declared, chain), place),) if declared else (chain,)
         return list(otherwise)
 
-    def conditions(self, node: SyntaxNode, depth: int) -> tuple[list[Term], Term, list[tuple[Term, ...]]]:
-        """Returns the names that an `if` or `guard` binds, its condition, and the statements in each of its blocks."""
+    def conditions(
+        self, node: SyntaxNode, depth: int
+    ) -> tuple[list[Term], Term, list[tuple[Term, ...]]]:
+        """Returns the names that an `if` or `guard` binds, its condition, and the statements in
+        each of its blocks.
+        """
         declared: list[Term] = []
         terms: list[Term] = []
         bodies: list[tuple[Term, ...]] = []
@@ -196,7 +251,11 @@ class Statements(Expressions):
                             declared.append((DECLARE, "", bound, term, False, True, span(name)))
                         term, name = (NAME, bound, span(name)), None
                     terms.append(term)
-        condition = reduce(lambda a, b: (BINARY, "&&", a, b, a[-1]), terms) if terms else (UNPARSED, "", span(node))
+        condition = (
+            reduce(lambda a, b: (BINARY, "&&", a, b, a[-1]), terms)
+            if terms
+            else (UNPARSED, "", span(node))
+        )
         return declared, condition, bodies
 
     def loop(self, node: SyntaxNode, depth: int) -> Term:
@@ -209,18 +268,39 @@ class Statements(Expressions):
             counter: Term = (NAME, names[0], at)
             sign = "<" if "..<" in self.text_of(over) else "<="
             head = (DECLARE, "", names[0], start, False, False, at)
-            steps = ((DO, (BINARY, sign, counter, end, at), at), *body, (DO, (UNARY, "++", counter, at), at))
+            steps = (
+                (DO, (BINARY, sign, counter, end, at), at),
+                *body,
+                (DO, (UNARY, "++", counter, at), at),
+            )
             return LOOP, (head,), None, steps, at
-        return LOOP, declared, self.expression(over, depth + 1) if over is not None else None, body, at
+        return (
+            LOOP,
+            declared,
+            self.expression(over, depth + 1) if over is not None else None,
+            body,
+            at,
+        )
 
     def cases(self, node: SyntaxNode, depth: int) -> list[Term]:
         """Returns a `switch`, whose cases do not fall through."""
         cases: list[tuple[tuple[Term | None, ...], tuple[Term, ...]]] = []
         for entry in (child for child in node.named_children if child.type == "switch_entry"):
-            patterns = [child for child in entry.named_children if child.type == "switch_pattern"][:MAX_ARMS]
+            patterns = [child for child in entry.named_children if child.type == "switch_pattern"][
+                :MAX_ARMS
+            ]
             labels = tuple(self.pattern(pattern, depth) for pattern in patterns) or (None,)
-            cases.append((labels, (*self.statements(block(entry), depth + 1), (BREAK, span(entry)))))
-        return [(SWITCH, self.expression(node.child_by_field_name("expr"), depth + 1), tuple(cases), span(node))]
+            cases.append(
+                (labels, (*self.statements(block(entry), depth + 1), (BREAK, span(entry))))
+            )
+        return [
+            (
+                SWITCH,
+                self.expression(node.child_by_field_name("expr"), depth + 1),
+                tuple(cases),
+                span(node),
+            )
+        ]
 
     def pattern(self, node: SyntaxNode, depth: int) -> Term:
         """Returns the value that a pattern matches."""
@@ -237,7 +317,10 @@ class Statements(Expressions):
         terms: list[Term] = []
         names: tuple[str, ...] = ()
         kind, value = "", None
-        fixed = any(child.type == "value_binding_pattern" and self.text_of(child) == "let" for child in node.named_children)
+        fixed = any(
+            child.type == "value_binding_pattern" and self.text_of(child) == "let"
+            for child in node.named_children
+        )
         for index, child in enumerate([*node.children, None]):
             field = node.field_name_for_child(index) if child is not None else "name"
             if child is None or (field == "name" and child.type == "pattern"):
@@ -249,23 +332,40 @@ class Statements(Expressions):
                 value = self.expression(child, depth)
         return terms
 
-    def bindings(self, names: tuple[str, ...], kind: str, value: Term | None, fixed: bool, at: Span) -> list[Term]:
+    def bindings(
+        self, names: tuple[str, ...], kind: str, value: Term | None, fixed: bool, at: Span
+    ) -> list[Term]:
         if value is not None and value[0] == CALL and value[1][:2] == (NAME, ".init") and kind:
             value = (CALL, (NAME, kind, value[1][-1]), *value[2:])
         if len(names) == 1:
-            return [(DECLARE, kind, names[0], value, False, fixed, at)] if names[0] not in ("", "_") else []
+            return (
+                [(DECLARE, kind, names[0], value, False, fixed, at)]
+                if names[0] not in ("", "_")
+                else []
+            )
         if not names or value is None:
             return []
         whole: Term = (DECLARE, "", f"({at.start})", value, False, True, at)
         parts = [(FIELD, (NAME, f"({at.start})", at), str(n), at) for n in range(len(names))]
-        return [whole, *((DECLARE, "", n, part, False, fixed, at) for n, part in zip(names, parts, strict=True) if n not in ("", "_"))]
+        return [
+            whole,
+            *(
+                (DECLARE, "", n, part, False, fixed, at)
+                for n, part in zip(names, parts, strict=True)
+                if n not in ("", "_")
+            ),
+        ]
 
     def names(self, node: SyntaxNode) -> tuple[str, ...]:
         """Returns the names that a pattern binds; empty ones are ignored."""
         bound = node.child_by_field_name("bound_identifier")
         if bound is not None:
             return (self.text_of(bound),)
-        return tuple(self.text_of(child) for child in node.named_children if child.type in ("pattern", "simple_identifier")) or ("",)
+        return tuple(
+            self.text_of(child)
+            for child in node.named_children
+            if child.type in ("pattern", "simple_identifier")
+        ) or ("",)
 
     def body(self, node: SyntaxNode, labels: list[str], depth: int = 0) -> tuple[Term, ...]:
         """Returns the statements of a function."""
@@ -284,8 +384,13 @@ class Statements(Expressions):
         children = node.children
         for index, child in enumerate(children):
             if child.type == "parameter":
-                has_default = index + 2 < len(children) and node.field_name_for_child(index + 2) == "default_value"
-                parameters.append(self.parameter(child, children[index + 2] if has_default else None))
+                has_default = (
+                    index + 2 < len(children)
+                    and node.field_name_for_child(index + 2) == "default_value"
+                )
+                parameters.append(
+                    self.parameter(child, children[index + 2] if has_default else None)
+                )
             elif child.type == "tuple_type":
                 labels = _LABELS.findall(self.text_of(child)[:2000])
         return tuple(parameters), labels
@@ -295,8 +400,20 @@ class Statements(Expressions):
         written = self.text_of(name)
         kind = self.text_of(node).partition(":")[2].strip()
         outer = self.text_of(label) if label is not None else written
-        term = self.expression(default) if default is not None else (LITERAL, None, span(node)) if "->" in kind else None
-        return Parameter(type_text(kind), written, kind.startswith("inout "), term, label="" if outer == "_" else outer)
+        term = (
+            self.expression(default)
+            if default is not None
+            else (LITERAL, None, span(node))
+            if "->" in kind
+            else None
+        )
+        return Parameter(
+            type_text(kind),
+            written,
+            kind.startswith("inout "),
+            term,
+            label="" if outer == "_" else outer,
+        )
 
 
 def type_text(written: str) -> str:

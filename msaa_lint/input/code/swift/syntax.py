@@ -56,22 +56,55 @@ class _Reader(Statements):
         functions = self.functions
         if not self.fragments:
             functions = [Function("", "", "", (), statements, span(root)), *functions]
-        functions = [f._replace(open=f.open or f"{f.class_name}::{f.name}" in self.overridden) for f in functions]
-        globals_ = [*self.constants, *(statements if self.fragments else [term for term in statements if term[0] == DECLARE])]
-        return Unit(functions, self.settled(), globals_, {}, self.called_names, bases=self.bases, visible=self.visible)
+        functions = [
+            f._replace(open=f.open or f"{f.class_name}::{f.name}" in self.overridden)
+            for f in functions
+        ]
+        globals_ = [
+            *self.constants,
+            *(
+                statements
+                if self.fragments
+                else [term for term in statements if term[0] == DECLARE]
+            ),
+        ]
+        return Unit(
+            functions,
+            self.settled(),
+            globals_,
+            {},
+            self.called_names,
+            bases=self.bases,
+            visible=self.visible,
+        )
 
     def settled(self) -> dict[str, list[Term]]:
-        """Returns the members of each type; a variable that nothing assigns and no other file can is constant."""
+        """Returns the members of each type; a variable that nothing assigns and no other file can
+        is constant.
+        """
         return {
-            name: [(*t[:5], t[5] or (f"{name}::{t[2]}" in self.hidden and t[2] not in self.assigned), t[6]) for t in terms]
+            name: [
+                (
+                    *t[:5],
+                    t[5] or (f"{name}::{t[2]}" in self.hidden and t[2] not in self.assigned),
+                    t[6],
+                )
+                for t in terms
+            ]
             for name, terms in self.members.items()
         }
 
     def type_declaration(self, node: SyntaxNode) -> str:
         """Returns the name of the type that a declaration or an extension belongs to."""
         name = node.child_by_field_name("name")
-        written = self.text_of(name).partition("<")[0].rpartition(".")[2] if name is not None else "?"
-        bases = tuple(self.text_of(child)[:100] for child in node.named_children if child.type == "inheritance_specifier")
+        written = (
+            self.text_of(name).partition("<")[0].rpartition(".")[2] if name is not None else "?"
+        )
+        bases = tuple(
+            self.text_of(child)[:100]
+            for child in node.named_children
+            if child.type == "inheritance_specifier"
+        )
         self.bases[written] = (*self.bases.get(written, ()), *bases)
         self.members.setdefault(written, [])
         return written
@@ -82,25 +115,38 @@ class _Reader(Statements):
         self.own_class = class_name
         modifiers = self.modifiers(node)
         if kind in ("function_declaration", "init_declaration"):
-            name = self.text_of(node.child_by_field_name("name")).strip("`") if kind == "function_declaration" else class_name
+            name = (
+                self.text_of(node.child_by_field_name("name")).strip("`")
+                if kind == "function_declaration"
+                else class_name
+            )
             self.current = name
             parameters, labels = self.parameters(node)
-            self.add(Function(name, class_name, "", parameters, self.body(node, labels), span(node)), modifiers)
+            self.add(
+                Function(name, class_name, "", parameters, self.body(node, labels), span(node)),
+                modifiers,
+            )
         elif kind == "property_declaration":
             self.property_declaration(node, class_name, modifiers)
         elif kind == "enum_entry":
             self.enum_entry(node, class_name)
 
     def modifiers(self, node: SyntaxNode) -> frozenset[str]:
-        words = " ".join(self.text_of(child) for child in node.named_children if child.type == "modifiers")
+        words = " ".join(
+            self.text_of(child) for child in node.named_children if child.type == "modifiers"
+        )
         return frozenset(words.split())
 
     def add(self, function: Function, modifiers: frozenset[str]) -> None:
         self.functions.append(function._replace(open="open" in modifiers))
         if "override" in modifiers:
-            self.overridden.update(f"{base}::{function.name}" for base in self.bases.get(function.class_name, ()))
+            self.overridden.update(
+                f"{base}::{function.name}" for base in self.bases.get(function.class_name, ())
+            )
 
-    def property_declaration(self, node: SyntaxNode, class_name: str, modifiers: frozenset[str]) -> None:
+    def property_declaration(
+        self, node: SyntaxNode, class_name: str, modifiers: frozenset[str]
+    ) -> None:
         computed = [child for child in node.named_children if child.type == "computed_property"]
         terms = self.declared(node)
         if not computed:
@@ -116,13 +162,17 @@ class _Reader(Statements):
                 self.hidden.add(f"{class_name}::{term[2]}")
         self.current = name
         for child in computed:
-            getter = next((item for item in child.named_children if item.type == "computed_getter"), child)
+            getter = next(
+                (item for item in child.named_children if item.type == "computed_getter"), child
+            )
             body = returning(self.statements(block(getter)))
             self.add(Function(name, class_name, "", (), body, span(node), getter=True), modifiers)
         for child in node.named_children if not computed else ():
             for clause in child.named_children if child.type == "willset_didset_block" else ():
                 body = self.statements(block(clause))
-                self.functions.append(Function(f"{name} {clause.type}", class_name, "", (), body, span(clause)))
+                self.functions.append(
+                    Function(f"{name} {clause.type}", class_name, "", (), body, span(clause))
+                )
 
     def enum_entry(self, node: SyntaxNode, class_name: str) -> None:
         """Adds the cases of an enumeration as constants."""
@@ -137,4 +187,6 @@ class _Reader(Statements):
                 self.constant(class_name, name, self.expression(child))
 
     def constant(self, class_name: str, name: SyntaxNode, value: Term) -> None:
-        self.constants.append((DECLARE, "", f"{class_name}::{self.text_of(name)}", value, False, True, span(name)))
+        self.constants.append(
+            (DECLARE, "", f"{class_name}::{self.text_of(name)}", value, False, True, span(name))
+        )

@@ -1,1 +1,3 @@
-"""Vulkan in source code: what its names, structures, and calls mean, and descriptions of what a program creates."""
+"""Vulkan in source code: what its names, structures, and calls mean, and descriptions of what a
+program creates.
+"""

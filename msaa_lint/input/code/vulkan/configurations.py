@@ -1,4 +1,6 @@
-"""The configuration that is described for a program that can render with one sample or with several."""
+"""The configuration that is described for a program that can render with one sample or with
+several.
+"""
 
 from __future__ import annotations
 
@@ -9,7 +11,17 @@ from msaa_lint.core.text.node import Node
 from msaa_lint.core.text.span import Span
 from msaa_lint.input.code.core.configurations import Configuration
 from msaa_lint.input.code.core.guards import Guards, covers
-from msaa_lint.input.code.core.values import UNKNOWN, ApiObject, Array, Cell, Ref, Struct, Symbol, Value, sole_value
+from msaa_lint.input.code.core.values import (
+    UNKNOWN,
+    ApiObject,
+    Array,
+    Cell,
+    Ref,
+    Struct,
+    Symbol,
+    Value,
+    sole_value,
+)
 
 from .creation import VulkanInterpreter
 from .enumerants import named
@@ -22,7 +34,9 @@ NEEDS = {
     "RenderingAttachmentInfo": ("imageView",),
     "ImageCreateInfo": ("format", "usage"),
 }
-"""Members that are never zero in a valid structure. If one is not set by code that was understood, other members may not be zero either."""
+"""Members that are never zero in a valid structure. If one is not set by code that was understood,
+other members may not be zero either.
+"""
 
 COUNTS = {
     "attachments": "attachmentCount",
@@ -36,7 +50,9 @@ COUNTS = {
 
 
 MAX_WRAPPERS = 3
-"""One more than the maximum number of objects of the program around an object of Vulkan, one in another."""
+"""One more than the maximum number of objects of the program around an object of Vulkan, one in
+another.
+"""
 
 
 class VulkanConfiguration(Configuration):
@@ -70,9 +86,12 @@ class VulkanConfiguration(Configuration):
         """
         cell = struct.fields.get(name)
         if cell is None or not cell.writes:
-            # Without its required members, the structure was filled in a way that was not understood.
+            # Without its required members, the structure was filled in a way that was not
+            # understood.
             needs = NEEDS.get(first_version(struct.kind), ())
-            is_zero = struct.zeroed and cell is None and all(need in struct.fields for need in needs)
+            is_zero = (
+                struct.zeroed and cell is None and all(need in struct.fields for need in needs)
+            )
             return (None if is_zero else UNKNOWN), struct.at
         value = self.settle(cell.writes)
         if struct.zeroed and value and not covers(tuple(a.guards for a in value)):
@@ -92,12 +111,16 @@ class VulkanConfiguration(Configuration):
         return value if isinstance(value, Struct) else None
 
     def structs(self, struct: Struct, name: str) -> list[Struct | None] | None:
-        """Returns the structures that a member lists or points to: empty for null, None if unknown. Unknown elements are None."""
+        """Returns the structures that a member lists or points to: empty for null, None if unknown.
+        Unknown elements are None.
+        """
         structs, complete = self.elements(struct, name)
         return structs if complete else None
 
     def elements(self, struct: Struct, name: str) -> tuple[list[Struct | None], bool]:
-        """Returns the known elements that a member lists or points to, and whether their order and number are known."""
+        """Returns the known elements that a member lists or points to, and whether their order and
+        number are known.
+        """
         value = self.dereference(self.get(struct, name)[0])
         if value is None or (value == 0 and type(value) is int):
             return [], True
@@ -133,7 +156,9 @@ class VulkanConfiguration(Configuration):
         numbers = {self.count_of(a.value, a.at) for a in value}
         count = numbers.pop() if len(numbers) == 1 else None
         if count is None and id(struct) in self.multisampled_structs:
-            count = self.assumed_count(f"count at {at.start}", f"{struct.name}.{name}" if struct.name else name, at)
+            count = self.assumed_count(
+                f"count at {at.start}", f"{struct.name}.{name}" if struct.name else name, at
+            )
         return count, at
 
     def image_of(self, struct: Struct, name: str) -> ApiObject | None:
@@ -142,11 +167,21 @@ class VulkanConfiguration(Configuration):
 
     def image_in(self, view: Any) -> ApiObject | None:
         view = self.wrapped_object(view, "view")
-        image = self.wrapped_object(self.get(view.info, "image")[0], "image") if view is not None else None
-        return self.first_duplicate(image) if image is not None and not self.is_excluded(image) else None
+        image = (
+            self.wrapped_object(self.get(view.info, "image")[0], "image")
+            if view is not None
+            else None
+        )
+        return (
+            self.first_duplicate(image)
+            if image is not None and not self.is_excluded(image)
+            else None
+        )
 
     def wrapped_object(self, value: Any, kind: str) -> ApiObject | None:
-        """Returns an object of Vulkan, or the only one of a kind that an object of the program holds, as a class that converts to it."""
+        """Returns an object of Vulkan, or the only one of a kind that an object of the program
+        holds, as a class that converts to it.
+        """
         level = [self.dereference(value)]
         for _ in range(MAX_WRAPPERS):
             objects = [item for item in level if isinstance(item, ApiObject) and item.kind == kind]
@@ -154,19 +189,37 @@ class VulkanConfiguration(Configuration):
                 return objects[0] if all(item is objects[0] for item in objects) else None
             wrappers = [item for item in level if isinstance(item, Struct) and not item.kind]
             pointers = [item for item in level if isinstance(item, Symbol)]
-            level = [self.dereference(sole_value(self.settle(cell.writes))) for item in wrappers for cell in item.fields.values()]
+            level = [
+                self.dereference(sole_value(self.settle(cell.writes)))
+                for item in wrappers
+                for cell in item.fields.values()
+            ]
             level += [value for pointer in pointers for value in self.members_of_pointed(pointer)]
         return None
 
     def members_of_pointed(self, pointer: Symbol) -> list[Any]:
-        """Returns what methods assign to the members of the object that a member points to: a singleton, for example."""
+        """Returns what methods assign to the members of the object that a member points to: a
+        singleton, for example.
+        """
         program = self.program
-        class_name = program.pointed_class(pointer.key).removesuffix("::") if "::" in pointer.key else ""
-        names = [f"{owner}::{name}" for owner in program.classes.chain(class_name) for name in program.members.get(owner, ())]
-        return [self.dereference(write.value) for name in names for write in program.summary.get(name, ())]
+        class_name = (
+            program.pointed_class(pointer.key).removesuffix("::") if "::" in pointer.key else ""
+        )
+        names = [
+            f"{owner}::{name}"
+            for owner in program.classes.chain(class_name)
+            for name in program.members.get(owner, ())
+        ]
+        return [
+            self.dereference(write.value)
+            for name in names
+            for write in program.summary.get(name, ())
+        ]
 
     def first_duplicate(self, obj: ApiObject) -> ApiObject:
-        """Returns the first object that is identical to this one; calling a function twice creates two."""
+        """Returns the first object that is identical to this one; calling a function twice creates
+        two.
+        """
         return self.duplicates.setdefault((obj.name, obj.signature()), obj)
 
 
@@ -176,8 +229,12 @@ def chosen_counts(value: Value) -> set[int]:
     return counts if len(counts) > 2 else set()
 
 
-def guarded_structs(cell: Cell, depth: int, guards: Guards = frozenset()) -> Iterator[tuple[Struct, Guards]]:
-    """Yields the structures that a member lists or points to in any configuration, and under which conditions."""
+def guarded_structs(
+    cell: Cell, depth: int, guards: Guards = frozenset()
+) -> Iterator[tuple[Struct, Guards]]:
+    """Yields the structures that a member lists or points to in any configuration, and under which
+    conditions.
+    """
     for write in cell.writes if depth < 6 else ():
         if isinstance(write.value, Struct):
             yield write.value, guards | write.guards

@@ -1,7 +1,8 @@
 """Vulkan objects that calls create.
 
-A call creates what its structure describes, whatever the function is called: vkCreateImage, the entry of a dispatch table, vmaCreateImage,
-vulkan.hpp's `createImage`, and vk::raii::Image all take a VkImageCreateInfo. The structure is copied at the call.
+A call creates what its structure describes, whatever the function is called: vkCreateImage, the
+entry of a dispatch table, vmaCreateImage, vulkan.hpp's `createImage`, and vk::raii::Image all take
+a VkImageCreateInfo. The structure is copied at the call.
 """
 
 from __future__ import annotations
@@ -13,12 +14,28 @@ from typing import Any, NamedTuple
 
 from msaa_lint.core.text.span import Span
 from msaa_lint.frame.vulkan.enums import VALUES
-from msaa_lint.input.code.core.escapes import forget, forget_captures, mark_escaped, mark_used, settle_under
+from msaa_lint.input.code.core.escapes import (
+    forget,
+    forget_captures,
+    mark_escaped,
+    mark_used,
+    settle_under,
+)
 from msaa_lint.input.code.core.executions import Results
 from msaa_lint.input.code.core.limits import Work
 from msaa_lint.input.code.core.scope import Scope, name_objects
 from msaa_lint.input.code.core.structures import Items
-from msaa_lint.input.code.core.terms import ADDRESS, CALL, FIELD, INDEX, NAME, Function, Parameter, Term, Unit
+from msaa_lint.input.code.core.terms import (
+    ADDRESS,
+    CALL,
+    FIELD,
+    INDEX,
+    NAME,
+    Function,
+    Parameter,
+    Term,
+    Unit,
+)
 from msaa_lint.input.code.core.values import (
     UNKNOWN,
     UNKNOWN_VALUE,
@@ -57,11 +74,14 @@ STANDALONE_INFOS = ("PipelineMultisampleStateCreateInfo",)
 """Structures that are described even if no call takes them."""
 
 _RESOLVES = frozenset({
-    "vkCmdResolveImage", "vkCmdResolveImage2", "vkCmdResolveImage2KHR", "resolveImage", "resolveImage2", "cmdResolveImage",
+    "vkCmdResolveImage", "vkCmdResolveImage2", "vkCmdResolveImage2KHR", "resolveImage",
+    "resolveImage2", "cmdResolveImage",
     "cmdResolveImage2",
 })  # fmt: skip
 
-_QUERIES = re.compile(r"[gG]et|Requirement|[pP]ropert|[fF]ind|[lL]og|[pP]rint|assert|Supported|[hH]ash|validate|setDebug|Name$")
+_QUERIES = re.compile(
+    r"[gG]et|Requirement|[pP]ropert|[fF]ind|[lL]og|[pP]rint|assert|Supported|[hH]ash|validate|setDebug|Name$"
+)
 
 _HARMLESS = re.compile(
     r"[dD]estroy|[dD]elete|[fF]ree|[rR]elease|[nN]ame|[lL]og|[pP]rint|[aA]ssert|[cC]heck|CHECK|[mM]emory|[rR]equire|push_back|emplace"
@@ -99,7 +119,10 @@ def _traits(name: str) -> _Traits:
         _QUERIES.search(name) is not None,
         _MEMORY.search(name) is not None,
         _VIEW.search(name) is not None,
-        name != "" and not name.startswith(("vk", "vma")) and not name.isupper() and _HARMLESS.search(name) is None,
+        name != ""
+        and not name.startswith(("vk", "vma"))
+        and not name.isupper()
+        and _HARMLESS.search(name) is None,
     )
 
 
@@ -119,7 +142,14 @@ _MEMORY_BITS = VALUES["VkMemoryPropertyFlagBits"]
 class VulkanInterpreter(ForeignCode):
     """Executes a program that calls Vulkan."""
 
-    def __init__(self, unit: Unit, fragments: bool, is_cpp: bool, work: Work, names: VulkanLibrary | None = None) -> None:
+    def __init__(
+        self,
+        unit: Unit,
+        fragments: bool,
+        is_cpp: bool,
+        work: Work,
+        names: VulkanLibrary | None = None,
+    ) -> None:
         self.names = names or VulkanLibrary()
         super().__init__(unit, self.names, fragments, is_cpp, work)
         self.resolves: dict[Span, tuple[Value, Value, Value]] = {}
@@ -135,7 +165,9 @@ class VulkanInterpreter(ForeignCode):
     def construct(self, kind: str, items: Items, place: Span, scope: Scope) -> Value:
         return self.noted(super().construct(kind, items, place, scope))
 
-    def default_value(self, kind: str, name: str, place: Span, scope: Scope, zeroed: bool = False) -> Value:
+    def default_value(
+        self, kind: str, name: str, place: Span, scope: Scope, zeroed: bool = False
+    ) -> Value:
         return self.noted(super().default_value(kind, name, place, scope, zeroed))
 
     def unset_element(self, kind: str, place: Span, zeroed: bool) -> Cell:
@@ -150,26 +182,52 @@ class VulkanInterpreter(ForeignCode):
 
     def noted(self, value: Value) -> Value:
         """Returns a value; notes descriptors of images in it."""
-        self.descriptors += [struct for a in value for struct in structures_in(a.value) if struct.kind == "DescriptorImageInfo"]
+        self.descriptors += [
+            struct
+            for a in value
+            for struct in structures_in(a.value)
+            if struct.kind == "DescriptorImageInfo"
+        ]
         return value
 
-    def external_call(self, term: Term, name: str, owner: Term | None, values: Sequence[Value], scope: Scope) -> Value:
-        """Returns the result of a function outside the file: the object that the structures among its arguments create."""
+    def external_call(
+        self, term: Term, name: str, owner: Term | None, values: Sequence[Value], scope: Scope
+    ) -> Value:
+        """Returns the result of a function outside the file: the object that the structures among
+        its arguments create.
+        """
         place, name = term[3], self.library.command(name)
         if name in _RESOLVES:
             self.record_resolve(name, values, place)
             return UNKNOWN_VALUE
         traits = _traits(name)
         if traits.copies:
-            info = next((v for v in (pointee(sole_value(value)) for value in values) if isinstance(v, Struct)), None)
+            info = next(
+                (
+                    v
+                    for v in (pointee(sole_value(value)) for value in values)
+                    if isinstance(v, Struct)
+                ),
+                None,
+            )
             ends = values[1:] if name.startswith("vk") else values
-            self.copied.append(info.cell("srcImage").writes if info is not None else ends[0] if ends else UNKNOWN_VALUE)
+            self.copied.append(
+                info.cell("srcImage").writes
+                if info is not None
+                else ends[0]
+                if ends
+                else UNKNOWN_VALUE
+            )
         if traits.sets_samples:
             self.names.has_dynamic_samples = True
         if name in ("vkBindImageMemory2", "vkBindImageMemory2KHR", "bindImageMemory2"):
-            infos = (struct for value in values for struct in structures_in(pointee(sole_value(value))))
+            infos = (
+                struct for value in values for struct in structures_in(pointee(sole_value(value)))
+            )
             for info in infos:
-                self.bind_memory([info.cell("image").writes, info.cell("memory").writes], None, scope)
+                self.bind_memory(
+                    [info.cell("image").writes, info.cell("memory").writes], None, scope
+                )
             return UNKNOWN_VALUE
         if name in ("vkBindImageMemory", "bindImageMemory", "bindMemory"):
             self.bind_memory(values, owner, scope)
@@ -193,7 +251,9 @@ class VulkanInterpreter(ForeignCode):
                 content = pointee(sole_value(cell.read(scope.guards))) if cell is not None else None
                 if isinstance(content, Struct):
                     # Functions that only query Vulkan fill the structure.
-                    is_input = name.startswith(("vk", "vma")) and not name.startswith(("vkGet", "vkEnumerate"))
+                    is_input = name.startswith(("vk", "vma")) and not name.startswith(
+                        ("vkGet", "vkEnumerate")
+                    )
                     parameter = self.declared_parameter(name, position)
                     if not is_input and (parameter is None or not parameter.fixed):
                         forget(content)
@@ -210,27 +270,45 @@ class VulkanInterpreter(ForeignCode):
         helper_value = self.initializer(term, name, values, place)
         if helper_value is not None:
             return helper_value
-        return (Alternative(Symbol(self.key_of_call(term, scope), name, bool(self.library.is_count_choice(name))), place),)
+        return (
+            Alternative(
+                Symbol(
+                    self.key_of_call(term, scope), name, bool(self.library.is_count_choice(name))
+                ),
+                place,
+            ),
+        )
 
     def declared_parameter(self, name: str, position: int) -> Parameter | None:
-        """Returns the parameter that an argument is passed to, if the file declares the function."""
+        """Returns the parameter that an argument is passed to, if the file declares the
+        function.
+        """
         parameters = self.unit.prototypes.get(name, ())
         return parameters[position] if position < len(parameters) else None
 
     def escape_argument(self, name: str, argument: Value, position: int) -> None:
-        """Handles a list or a structure that is passed to an external function, which may change it through a reference."""
+        """Handles a list or a structure that is passed to an external function, which may change it
+        through a reference.
+        """
         parameter = self.declared_parameter(name, position)
         # In C++, any argument may be passed by reference; a macro may do anything.
-        by_reference = parameter.by_reference if parameter is not None else self.is_cpp or name.isupper()
+        by_reference = (
+            parameter.by_reference if parameter is not None else self.is_cpp or name.isupper()
+        )
         for value in [item.value for item in argument]:
             if isinstance(value, Closure):
                 forget_captures(value)
-            elif (parameter is None or not parameter.fixed) and (by_reference or name in _MOVES or not isinstance(value, Struct)):
+            elif (parameter is None or not parameter.fixed) and (
+                by_reference or name in _MOVES or not isinstance(value, Struct)
+            ):
                 forget(pointee(value))
 
-    def initializer(self, term: Term, name: str, values: Sequence[Value], place: Span) -> Value | None:
-        """Returns the structure made by a helper of Sascha Willems's examples, which many samples use: named after it, zeroed except for
-        its arguments."""
+    def initializer(
+        self, term: Term, name: str, values: Sequence[Value], place: Span
+    ) -> Value | None:
+        """Returns the structure made by a helper of Sascha Willems's examples, which many samples
+        use: named after it, zeroed except for its arguments.
+        """
         function = term[1]
         if function[0] != NAME or "initializers::" not in function[1]:
             return None
@@ -242,20 +320,32 @@ class VulkanInterpreter(ForeignCode):
             struct.cell("rasterizationSamples").writes = values[0]
         return (Alternative(struct, place),)
 
-    def create_from_call(self, info: Struct, n: int, term: Term, name: str, values: Sequence[Value], scope: Scope) -> Value:
+    def create_from_call(
+        self, info: Struct, n: int, term: Term, name: str, values: Sequence[Value], scope: Scope
+    ) -> Value:
         kind = CREATE_INFOS[first_version(info.kind)]
         obj = self.create(kind, info, term, scope)
         plain = (name.startswith(("vk", "vma")) and name[2:3].isupper()) or name.startswith("vma")
         result: Value = (Alternative(obj, term[3]),)
         stored = False
         for position, argument in enumerate(term[2]):
-            if position <= n or (name.startswith("vk") and position < len(term[2]) - 1 and argument[0] != ADDRESS):
+            if position <= n or (
+                name.startswith("vk") and position < len(term[2]) - 1 and argument[0] != ADDRESS
+            ):
                 continue
-            target = argument[1] if argument[0] == ADDRESS else argument if plain and argument[0] in (NAME, FIELD, INDEX) else None
+            target = (
+                argument[1]
+                if argument[0] == ADDRESS
+                else argument
+                if plain and argument[0] in (NAME, FIELD, INDEX)
+                else None
+            )
             if target is None:
                 continue
             value = pointee(sole_value(values[position]))
-            if isinstance(value, Struct) and (value.kind or "requiredFlags" in value.fields or "usage" in value.fields):
+            if isinstance(value, Struct) and (
+                value.kind or "requiredFlags" in value.fields or "usage" in value.fields
+            ):
                 if kind == "image":
                     obj.memory = obj.memory or self.vma_memory(value)
                 continue
@@ -266,7 +356,11 @@ class VulkanInterpreter(ForeignCode):
             if cell is not None:
                 self.store(cell, result, term[3], scope)
                 stored = True
-        if not plain and not stored and (output := self.output_argument(kind, term[2], values, scope)) is not None:
+        if (
+            not plain
+            and not stored
+            and (output := self.output_argument(kind, term[2], values, scope)) is not None
+        ):
             self.store(output, result, term[3], scope)
         # The function itself returns a VkResult.
         return (Alternative(0, term[3]),) if plain else result
@@ -308,7 +402,11 @@ class VulkanInterpreter(ForeignCode):
 
     def view_of_argument(self, values: Sequence[Value], term: Term, scope: Scope) -> Value | None:
         """Returns a view of the only image among the arguments, or None."""
-        images = [v for v in values if any(isinstance(a.value, ApiObject) and a.value.kind == "image" for a in v)]
+        images = [
+            v
+            for v in values
+            if any(isinstance(a.value, ApiObject) and a.value.kind == "image" for a in v)
+        ]
         if len(images) != 1:
             return None
         info = Struct("ImageViewCreateInfo", term[3], False)
@@ -317,10 +415,21 @@ class VulkanInterpreter(ForeignCode):
 
     def record_resolve(self, name: str, values: Sequence[Value], place: Span) -> None:
         if name.endswith(("2", "2KHR")):
-            info = next((v for v in (pointee(sole_value(value)) for value in values) if isinstance(v, Struct)), None)
+            info = next(
+                (
+                    v
+                    for v in (pointee(sole_value(value)) for value in values)
+                    if isinstance(v, Struct)
+                ),
+                None,
+            )
             if info is not None:
                 chain = info.cell("next").writes if "next" in info.fields else ()
-                self.resolves[place] = (info.cell("srcImage").writes, info.cell("dstImage").writes, chain)
+                self.resolves[place] = (
+                    info.cell("srcImage").writes,
+                    info.cell("dstImage").writes,
+                    chain,
+                )
         elif len(ends := values[1:] if name.startswith(("vk", "cmd")) else values) >= 3:
             self.resolves[place] = (ends[0], ends[2], ())
 
@@ -328,7 +437,11 @@ class VulkanInterpreter(ForeignCode):
         """Creates objects for the structures of an entry point that no call takes."""
         for info, guards in self.declared_structs:
             kind = first_version(info.kind)
-            if info.used or not info.fields or not (kind in STANDALONE_INFOS or (self.fragments and kind in CREATE_INFOS)):
+            if (
+                info.used
+                or not info.fields
+                or not (kind in STANDALONE_INFOS or (self.fragments and kind in CREATE_INFOS))
+            ):
                 continue
             term = (CALL, (NAME, "", info.at), (), info.at)
             scope.guards = guards
@@ -337,11 +450,16 @@ class VulkanInterpreter(ForeignCode):
         self.declared_structs.clear()
 
     def create_from_fragments(self, overlay: dict[str, Cell]) -> None:
-        """On a page of code fragments, creates objects for undeclared structures, identified by a member that only they have."""
+        """On a page of code fragments, creates objects for undeclared structures, identified by a
+        member that only they have.
+        """
         keys = {key for key in (*self.summary, *overlay) if key.count(".") == 1}
         for key in sorted(keys):
             owner, _, name = key.partition(".")
-            kind = {"rasterizationSamples": "PipelineMultisampleStateCreateInfo", "attachments": "FramebufferCreateInfo"}.get(name)
+            kind = {
+                "rasterizationSamples": "PipelineMultisampleStateCreateInfo",
+                "attachments": "FramebufferCreateInfo",
+            }.get(name)
             cell = self.member_cell(key)
             if kind is None or not cell.writes:
                 continue
@@ -350,25 +468,36 @@ class VulkanInterpreter(ForeignCode):
             if struct and (kind in STANDALONE_INFOS or self.lists_views(cell)):
                 info = struct[0].value
                 info.kind = kind
-                obj = self.create(CREATE_INFOS.get(kind, "state"), info, (CALL, (NAME, "", at), (), at), Scope())
+                obj = self.create(
+                    CREATE_INFOS.get(kind, "state"), info, (CALL, (NAME, "", at), (), at), Scope()
+                )
                 obj.name = owner.rpartition("::")[2]
 
     def lists_views(self, cell: Cell) -> bool:
         array = pointee(sole_value(cell.writes))
-        items = [sole_value(item.writes) for item in array.items] if isinstance(array, Array) else []
+        items = (
+            [sole_value(item.writes) for item in array.items] if isinstance(array, Array) else []
+        )
         return any(isinstance(item, ApiObject) and item.kind == "view" for item in items)
 
-    def result_of(self, function: Function, term: Term, value: Value, creates: bool, scope: Scope) -> Value:
+    def result_of(
+        self, function: Function, term: Term, value: Value, creates: bool, scope: Scope
+    ) -> Value:
         if self.fragments and not creates:
             image = self.image_by_types(function, term, scope)
             if image is not None:
                 return image
         if not value and _VIEW.search(function.name):
-            return self.view_of_argument([self.value(a, scope) for a in term[2]], term, scope) or UNKNOWN_VALUE
+            return (
+                self.view_of_argument([self.value(a, scope) for a in term[2]], term, scope)
+                or UNKNOWN_VALUE
+            )
         return value
 
     def image_by_types(self, function: Function, term: Term, scope: Scope) -> Value | None:
-        """Returns the image created by a function whose body a page leaves out, based on the types of its parameters."""
+        """Returns the image created by a function whose body a page leaves out, based on the types
+        of its parameters.
+        """
         info, out = Struct("ImageCreateInfo", term[3], False), None
         memory: Value = ()
         for parameter, argument in zip(function.parameters, term[2], strict=False):
@@ -394,4 +523,6 @@ class VulkanInterpreter(ForeignCode):
 def _of_memory(value: Any) -> bool:
     if isinstance(value, Flags):
         return bool(value.bits) and all(_of_memory(bit) for bit, _ in value.bits)
-    return isinstance(value, str) and (value.startswith("VK_MEMORY_PROPERTY_") or value in _MEMORY_BITS)
+    return isinstance(value, str) and (
+        value.startswith("VK_MEMORY_PROPERTY_") or value in _MEMORY_BITS
+    )

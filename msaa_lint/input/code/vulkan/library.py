@@ -17,7 +17,9 @@ _COUNTS = re.compile(
     re.IGNORECASE,
 )
 
-_DYNAMIC = re.compile(r"(?:DYNAMIC_STATE_|^)(?:RASTERIZATION_SAMPLES|SAMPLE_MASK|ALPHA_TO_|SAMPLE_LOCATIONS_ENABLE)")
+_DYNAMIC = re.compile(
+    r"(?:DYNAMIC_STATE_|^)(?:RASTERIZATION_SAMPLES|SAMPLE_MASK|ALPHA_TO_|SAMPLE_LOCATIONS_ENABLE)"
+)
 
 _MEMBER_TYPES = {
     "extent": "VkExtent3D",
@@ -42,7 +44,9 @@ class VulkanLibrary(Library):
 
     def __init__(self) -> None:
         self.has_dynamic_samples = False
-        """Whether the program makes a part of the multisample state dynamic (VK_EXT_extended_dynamic_state3, VK_EXT_shader_object)."""
+        """Whether the program makes a part of the multisample state dynamic
+        (VK_EXT_extended_dynamic_state3, VK_EXT_shader_object).
+        """
 
     def constant(self, name: str) -> int | str | bool | None:
         value = names.constant(name)
@@ -59,7 +63,9 @@ class VulkanLibrary(Library):
         members = names.MEMBERS[structure]
         if structure not in names.WITHOUT_TYPE:
             members = (*members, "pNext") if is_hpp else ("sType", "pNext", *members)
-        return Construction(structure, members, _ONE_SAMPLE.get(structure, {}) if is_hpp else {}, is_hpp)
+        return Construction(
+            structure, members, _ONE_SAMPLE.get(structure, {}) if is_hpp else {}, is_hpp
+        )
 
     def is_alike(self, structure: str, other: str) -> bool:
         return names.first_version(structure) == names.first_version(other)

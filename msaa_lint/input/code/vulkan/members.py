@@ -18,16 +18,27 @@ Item = tuple[str, Span, Node]
 _T = TypeVar("_T")
 
 ZERO = {
-    "loadOp": "LOAD", "storeOp": "STORE", "stencilLoadOp": "LOAD", "stencilStoreOp": "STORE", "initialLayout": "UNDEFINED",
-    "imageType": "1D", "tiling": "OPTIMAL", "sharingMode": "EXCLUSIVE", "depthResolveMode": "NONE", "stencilResolveMode": "NONE",
-    "resolveMode": "NONE", "sampleShadingEnable": False, "alphaToCoverageEnable": False, "alphaToOneEnable": False, "minSampleShading": 0.0,
+    "loadOp": "LOAD", "storeOp": "STORE", "stencilLoadOp": "LOAD", "stencilStoreOp": "STORE",
+    "initialLayout": "UNDEFINED",
+    "imageType": "1D", "tiling": "OPTIMAL", "sharingMode": "EXCLUSIVE", "depthResolveMode": "NONE",
+    "stencilResolveMode": "NONE",
+    "resolveMode": "NONE", "sampleShadingEnable": False, "alphaToCoverageEnable": False,
+    "alphaToOneEnable": False, "minSampleShading": 0.0,
     "srcAccessMask": (), "dstAccessMask": (), "blendEnable": False,
 }  # fmt: skip
 """What zero means for members where it is a valid value."""
 
 
-WITHOUT_USES = frozenset({"RenderPassMultiviewCreateInfo", "RenderPassInputAttachmentAspectCreateInfo", "ImageFormatListCreateInfo"})
-"""Structures of a pNext chain that are not read, and that neither name an attachment or image nor change how one is used."""
+WITHOUT_USES = frozenset(
+    {
+        "RenderPassMultiviewCreateInfo",
+        "RenderPassInputAttachmentAspectCreateInfo",
+        "ImageFormatListCreateInfo",
+    }
+)
+"""Structures of a pNext chain that are not read, and that neither name an attachment or image nor
+change how one is used.
+"""
 
 
 def complete(nodes: Iterable[_T | None]) -> list[_T] | None:
@@ -44,7 +55,9 @@ class Members(Multisampling):
     """Converts members of structures to nodes."""
 
     def item(self, struct: Struct, name: str) -> Iterator[Item]:
-        """Yields a member that is an enumerant, flags, a boolean, or a number, if its value is known."""
+        """Yields a member that is an enumerant, flags, a boolean, or a number, if its value is
+        known.
+        """
         value, at = self.get(struct, name)
         if value is None and name in ZERO:
             value = ZERO[name]
@@ -55,11 +68,19 @@ class Members(Multisampling):
             yield name, at, node
 
     def discarding_operation(self, struct: Struct, name: str) -> Any:
-        """Returns one of the load operations that a program chooses from if none of them is LOAD, otherwise UNKNOWN."""
+        """Returns one of the load operations that a program chooses from if none of them is LOAD,
+        otherwise UNKNOWN.
+        """
         cell = struct.fields.get(name)
         values = [write.value for write in self.settle(cell.writes)] if cell is not None else []
-        operations = {parse_enum(ENUMS[name], value) if isinstance(value, str) else None for value in values}
-        return next((v for v in values if "CLEAR" in v), UNKNOWN) if operations == {"CLEAR", "DONT_CARE"} else UNKNOWN
+        operations = {
+            parse_enum(ENUMS[name], value) if isinstance(value, str) else None for value in values
+        }
+        return (
+            next((v for v in values if "CLEAR" in v), UNKNOWN)
+            if operations == {"CLEAR", "DONT_CARE"}
+            else UNKNOWN
+        )
 
     def node(self, name: str, value: Any, at: Span) -> Node | None:
         if name in FLAGS:
@@ -69,15 +90,23 @@ class Members(Multisampling):
                 value = ZERO[name]
             short = parse_enum(ENUMS[name], value) if isinstance(value, str) else None
             # An undefined format means that the format is unknown.
-            return scalar(short, at) if short is not None and (short != "UNDEFINED" or name != "format") else None
-        if isinstance(value, bool) or (isinstance(value, (int, float)) and name == "minSampleShading"):
+            return (
+                scalar(short, at)
+                if short is not None and (short != "UNDEFINED" or name != "format")
+                else None
+            )
+        if isinstance(value, bool) or (
+            isinstance(value, (int, float)) and name == "minSampleShading"
+        ):
             return scalar(value, at)
         if type(value) is int and name.endswith("Enable"):
             return scalar(bool(value), at)
         return None
 
     def chain(self, struct: Struct) -> tuple[list[Struct], bool]:
-        """Returns the structures of a pNext chain that may use something, and whether these are all of them."""
+        """Returns the structures of a pNext chain that may use something, and whether these are all
+        of them.
+        """
         structs: list[Struct] = []
         value = self.get(struct, "next")[0] if struct.zeroed or "next" in struct.fields else None
         for _ in range(8):
@@ -88,7 +117,9 @@ class Members(Multisampling):
                 return structs, False
             if chained.kind not in WITHOUT_USES:
                 structs.append(chained)
-            value = self.get(chained, "next")[0] if chained.zeroed or "next" in chained.fields else None
+            value = (
+                self.get(chained, "next")[0] if chained.zeroed or "next" in chained.fields else None
+            )
         return structs, False
 
     def unread(self, struct: Struct) -> Item:
@@ -99,7 +130,9 @@ class Members(Multisampling):
     def object_name(self, obj: ApiObject, otherwise: str) -> str:
         """Returns a unique name for an object."""
         if id(obj) not in self.object_names:
-            self.object_names[id(obj)] = self.unique(obj.name.rpartition("::")[2].strip("*&") or otherwise)
+            self.object_names[id(obj)] = self.unique(
+                obj.name.rpartition("::")[2].strip("*&") or otherwise
+            )
         return self.object_names[id(obj)]
 
     def unique(self, base: str) -> str:
@@ -113,9 +146,15 @@ class Members(Multisampling):
 
 def flags_of(enum: str, value: Any, at: Span) -> Node | None:
     """Returns a list of flags, or None if any of them is unknown."""
-    if value == () or (type(value) is int and value == 0) or (isinstance(value, Array) and value.complete and not value.items):
+    if (
+        value == ()
+        or (type(value) is int and value == 0)
+        or (isinstance(value, Array) and value.complete and not value.items)
+    ):
         return sequence([], at)
-    bits = value.bits if isinstance(value, Flags) else ((value, at),) if isinstance(value, str) else ()
+    bits = (
+        value.bits if isinstance(value, Flags) else ((value, at),) if isinstance(value, str) else ()
+    )
     nodes = []
     for text, place in bits:
         try:

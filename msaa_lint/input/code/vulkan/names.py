@@ -1,5 +1,6 @@
-"""Vulkan names as C and C++ spell them: `VK_ATTACHMENT_STORE_OP_STORE`, `vk::AttachmentStoreOp::eStore`, `VkImageCreateInfo`,
-`vk::ImageCreateInfo`, `pAttachments`, `setAttachments`.
+"""Vulkan names as C and C++ spell them: `VK_ATTACHMENT_STORE_OP_STORE`,
+`vk::AttachmentStoreOp::eStore`, `VkImageCreateInfo`, `vk::ImageCreateInfo`, `pAttachments`,
+`setAttachments`.
 
 Members are in the order of the Vulkan registry (vk.xml); a test checks that.
 """
@@ -13,80 +14,109 @@ from msaa_lint.frame.vulkan.enums import VALUES
 
 MEMBERS: dict[str, tuple[str, ...]] = {
     "AttachmentDescription": (
-        "flags", "format", "samples", "loadOp", "storeOp", "stencilLoadOp", "stencilStoreOp", "initialLayout", "finalLayout",
+        "flags", "format", "samples", "loadOp", "storeOp", "stencilLoadOp", "stencilStoreOp",
+        "initialLayout", "finalLayout",
     ),
     "AttachmentReference": ("attachment", "layout"),
     "SubpassDescription": (
-        "flags", "pipelineBindPoint", "inputAttachmentCount", "pInputAttachments", "colorAttachmentCount", "pColorAttachments",
-        "pResolveAttachments", "pDepthStencilAttachment", "preserveAttachmentCount", "pPreserveAttachments",
+        "flags", "pipelineBindPoint", "inputAttachmentCount", "pInputAttachments",
+        "colorAttachmentCount", "pColorAttachments",
+        "pResolveAttachments", "pDepthStencilAttachment", "preserveAttachmentCount",
+        "pPreserveAttachments",
     ),
     "SubpassDescription2": (
-        "flags", "pipelineBindPoint", "viewMask", "inputAttachmentCount", "pInputAttachments", "colorAttachmentCount", "pColorAttachments",
-        "pResolveAttachments", "pDepthStencilAttachment", "preserveAttachmentCount", "pPreserveAttachments",
+        "flags", "pipelineBindPoint", "viewMask", "inputAttachmentCount", "pInputAttachments",
+        "colorAttachmentCount", "pColorAttachments",
+        "pResolveAttachments", "pDepthStencilAttachment", "preserveAttachmentCount",
+        "pPreserveAttachments",
     ),
-    "SubpassDescriptionDepthStencilResolve": ("depthResolveMode", "stencilResolveMode", "pDepthStencilResolveAttachment"),
+    "SubpassDescriptionDepthStencilResolve": ("depthResolveMode", "stencilResolveMode",
+    "pDepthStencilResolveAttachment"),
     "RenderPassFragmentDensityMapCreateInfo": ("fragmentDensityMapAttachment",),
-    "FragmentShadingRateAttachmentInfo": ("pFragmentShadingRateAttachment", "shadingRateAttachmentTexelSize"),
+    "FragmentShadingRateAttachmentInfo": ("pFragmentShadingRateAttachment",
+    "shadingRateAttachmentTexelSize"),
     "RenderingFragmentDensityMapAttachmentInfo": ("imageView", "imageLayout"),
-    "RenderingFragmentShadingRateAttachmentInfo": ("imageView", "imageLayout", "shadingRateAttachmentTexelSize"),
+    "RenderingFragmentShadingRateAttachmentInfo": ("imageView", "imageLayout",
+    "shadingRateAttachmentTexelSize"),
     "RenderPassMultiviewCreateInfo": (
-        "subpassCount", "pViewMasks", "dependencyCount", "pViewOffsets", "correlationMaskCount", "pCorrelationMasks",
+        "subpassCount", "pViewMasks", "dependencyCount", "pViewOffsets", "correlationMaskCount",
+        "pCorrelationMasks",
     ),
     "RenderPassInputAttachmentAspectCreateInfo": ("aspectReferenceCount", "pAspectReferences"),
     "ImageFormatListCreateInfo": ("viewFormatCount", "pViewFormats"),
     "SubpassDependency": (
-        "srcSubpass", "dstSubpass", "srcStageMask", "dstStageMask", "srcAccessMask", "dstAccessMask", "dependencyFlags",
+        "srcSubpass", "dstSubpass", "srcStageMask", "dstStageMask", "srcAccessMask",
+        "dstAccessMask", "dependencyFlags",
     ),
     "RenderPassCreateInfo": (
-        "flags", "attachmentCount", "pAttachments", "subpassCount", "pSubpasses", "dependencyCount", "pDependencies",
+        "flags", "attachmentCount", "pAttachments", "subpassCount", "pSubpasses",
+        "dependencyCount", "pDependencies",
     ),
-    "FramebufferCreateInfo": ("flags", "renderPass", "attachmentCount", "pAttachments", "width", "height", "layers"),
+    "FramebufferCreateInfo": ("flags", "renderPass", "attachmentCount", "pAttachments", "width",
+    "height", "layers"),
     "ImageCreateInfo": (
-        "flags", "imageType", "format", "extent", "mipLevels", "arrayLayers", "samples", "tiling", "usage", "sharingMode",
+        "flags", "imageType", "format", "extent", "mipLevels", "arrayLayers", "samples", "tiling",
+        "usage", "sharingMode",
         "queueFamilyIndexCount", "pQueueFamilyIndices", "initialLayout",
     ),
-    "ImageViewCreateInfo": ("flags", "image", "viewType", "format", "components", "subresourceRange"),
+    "ImageViewCreateInfo": ("flags", "image", "viewType", "format", "components",
+    "subresourceRange"),
     "RenderingAttachmentInfo": (
-        "imageView", "imageLayout", "resolveMode", "resolveImageView", "resolveImageLayout", "loadOp", "storeOp", "clearValue",
+        "imageView", "imageLayout", "resolveMode", "resolveImageView", "resolveImageLayout",
+        "loadOp", "storeOp", "clearValue",
     ),
     "ResolveImageModeInfo": ("flags", "resolveMode", "stencilResolveMode"),
     "RenderingInfo": (
-        "flags", "renderArea", "layerCount", "viewMask", "colorAttachmentCount", "pColorAttachments", "pDepthAttachment",
+        "flags", "renderArea", "layerCount", "viewMask", "colorAttachmentCount",
+        "pColorAttachments", "pDepthAttachment",
         "pStencilAttachment",
     ),
     "PipelineMultisampleStateCreateInfo": (
-        "flags", "rasterizationSamples", "sampleShadingEnable", "minSampleShading", "pSampleMask", "alphaToCoverageEnable",
+        "flags", "rasterizationSamples", "sampleShadingEnable", "minSampleShading", "pSampleMask",
+        "alphaToCoverageEnable",
         "alphaToOneEnable",
     ),
     "PipelineColorBlendAttachmentState": (
-        "blendEnable", "srcColorBlendFactor", "dstColorBlendFactor", "colorBlendOp", "srcAlphaBlendFactor", "dstAlphaBlendFactor",
+        "blendEnable", "srcColorBlendFactor", "dstColorBlendFactor", "colorBlendOp",
+        "srcAlphaBlendFactor", "dstAlphaBlendFactor",
         "alphaBlendOp", "colorWriteMask",
     ),
     "PipelineColorBlendStateCreateInfo": (
         "flags", "logicOpEnable", "logicOp", "attachmentCount", "pAttachments", "blendConstants",
     ),
     "PipelineDynamicStateCreateInfo": ("flags", "dynamicStateCount", "pDynamicStates"),
-    "PipelineRasterizationStateCreateInfo": ("flags", "depthClampEnable", "rasterizerDiscardEnable"),
+    "PipelineRasterizationStateCreateInfo": ("flags", "depthClampEnable",
+    "rasterizerDiscardEnable"),
     "PipelineRenderingCreateInfo": (
-        "viewMask", "colorAttachmentCount", "pColorAttachmentFormats", "depthAttachmentFormat", "stencilAttachmentFormat",
+        "viewMask", "colorAttachmentCount", "pColorAttachmentFormats", "depthAttachmentFormat",
+        "stencilAttachmentFormat",
     ),
     "GraphicsPipelineCreateInfo": (
-        "flags", "stageCount", "pStages", "pVertexInputState", "pInputAssemblyState", "pTessellationState", "pViewportState",
-        "pRasterizationState", "pMultisampleState", "pDepthStencilState", "pColorBlendState", "pDynamicState", "layout", "renderPass",
+        "flags", "stageCount", "pStages", "pVertexInputState", "pInputAssemblyState",
+        "pTessellationState", "pViewportState",
+        "pRasterizationState", "pMultisampleState", "pDepthStencilState", "pColorBlendState",
+        "pDynamicState", "layout", "renderPass",
         "subpass", "basePipelineHandle", "basePipelineIndex",
     ),
-    "MultisampledRenderToSingleSampledInfo": ("multisampledRenderToSingleSampledEnable", "rasterizationSamples"),
+    "MultisampledRenderToSingleSampledInfo": ("multisampledRenderToSingleSampledEnable",
+    "rasterizationSamples"),
     "DeviceCreateInfo": (
-        "flags", "queueCreateInfoCount", "pQueueCreateInfos", "enabledLayerCount", "ppEnabledLayerNames", "enabledExtensionCount",
+        "flags", "queueCreateInfoCount", "pQueueCreateInfos", "enabledLayerCount",
+        "ppEnabledLayerNames", "enabledExtensionCount",
         "ppEnabledExtensionNames", "pEnabledFeatures",
     ),
     "PhysicalDeviceFeatures": (
-        "robustBufferAccess", "fullDrawIndexUint32", "imageCubeArray", "independentBlend", "geometryShader", "tessellationShader",
-        "sampleRateShading", "dualSrcBlend", "logicOp", "multiDrawIndirect", "drawIndirectFirstInstance", "depthClamp", "depthBiasClamp",
-        "fillModeNonSolid", "depthBounds", "wideLines", "largePoints", "alphaToOne", "multiViewport", "samplerAnisotropy",
-        "textureCompressionETC2", "textureCompressionASTC_LDR", "textureCompressionBC", "occlusionQueryPrecise",
+        "robustBufferAccess", "fullDrawIndexUint32", "imageCubeArray", "independentBlend",
+        "geometryShader", "tessellationShader",
+        "sampleRateShading", "dualSrcBlend", "logicOp", "multiDrawIndirect",
+        "drawIndirectFirstInstance", "depthClamp", "depthBiasClamp",
+        "fillModeNonSolid", "depthBounds", "wideLines", "largePoints", "alphaToOne",
+        "multiViewport", "samplerAnisotropy",
+        "textureCompressionETC2", "textureCompressionASTC_LDR", "textureCompressionBC",
+        "occlusionQueryPrecise",
         "pipelineStatisticsQuery", "vertexPipelineStoresAndAtomics", "fragmentStoresAndAtomics",
-        "shaderTessellationAndGeometryPointSize", "shaderImageGatherExtended", "shaderStorageImageExtendedFormats",
+        "shaderTessellationAndGeometryPointSize", "shaderImageGatherExtended",
+        "shaderStorageImageExtendedFormats",
         "shaderStorageImageMultisample",
     ),
     "PhysicalDeviceFeatures2": ("features",),
@@ -98,7 +128,8 @@ MEMBERS: dict[str, tuple[str, ...]] = {
 """The members of structures in order, without sType and pNext."""
 
 WITHOUT_TYPE = frozenset({
-    "AttachmentDescription", "AttachmentReference", "SubpassDescription", "SubpassDependency", "PipelineColorBlendAttachmentState",
+    "AttachmentDescription", "AttachmentReference", "SubpassDescription", "SubpassDependency",
+    "PipelineColorBlendAttachmentState",
     "DescriptorImageInfo", "PhysicalDeviceFeatures", "Extent3D", "Extent2D",
 })  # fmt: skip
 """Structures without sType and pNext."""
@@ -115,16 +146,24 @@ VERSIONED = {
 MEMBERS["AttachmentDescription2"] = MEMBERS["AttachmentDescription"]
 MEMBERS["AttachmentReference2"] = (*MEMBERS["AttachmentReference"], "aspectMask")
 MEMBERS["SubpassDependency2"] = (*MEMBERS["SubpassDependency"], "viewOffset")
-MEMBERS["RenderPassCreateInfo2"] = (*MEMBERS["RenderPassCreateInfo"], "correlatedViewMaskCount", "pCorrelatedViewMasks")
+MEMBERS["RenderPassCreateInfo2"] = (
+    *MEMBERS["RenderPassCreateInfo"],
+    "correlatedViewMaskCount",
+    "pCorrelatedViewMasks",
+)
 
-_SCALAR = re.compile(r"(?:FlagBits2?|Flags2?|Format|Layout|Op|Mode|Bool32|Tiling|Type|DeviceSize)(?:KHR|EXT)?$")
+_SCALAR = re.compile(
+    r"(?:FlagBits2?|Flags2?|Format|Layout|Op|Mode|Bool32|Tiling|Type|DeviceSize)(?:KHR|EXT)?$"
+)
 _SUFFIX = re.compile(r"(?:KHR|EXT)$")
 _STRUCTURE = re.compile(r"(?:::)?(?:Vk|vk::|VULKAN_HPP_NAMESPACE::)([A-Za-z0-9]+)$")
 _COUNT = re.compile(r"VK_SAMPLE_COUNT_(1|2|4|8|16|32|64)_BIT$")
 _SCOPED = re.compile(r"(?:.*::)?([A-Z][A-Za-z0-9]+)::e([A-Z0-9][A-Za-z0-9]*)$")
 
 MAX_NAMES = 1 << 14
-"""The number of names of which is kept what they stand for; a program asks for most of its names many times."""
+"""The number of names of which is kept what they stand for; a program asks for most of its names
+many times.
+"""
 
 TABLES = {
     "VkPipelineStageFlagBits": "VkPipelineStageFlagBits2",
@@ -135,7 +174,9 @@ TABLES = {
 
 @lru_cache(MAX_NAMES)
 def vulkan_struct(type_text: str) -> str:
-    """Returns the name of a Vulkan structure type without `Vk` and vendor suffix, or an empty string for other types."""
+    """Returns the name of a Vulkan structure type without `Vk` and vendor suffix, or an empty
+    string for other types.
+    """
     match = _STRUCTURE.match(type_text.removeprefix("VULKAN_HPP_NAMESPACE::"))
     if match is None:
         return ""
@@ -145,8 +186,12 @@ def vulkan_struct(type_text: str) -> str:
 
 @lru_cache(MAX_NAMES)
 def is_scalar(type_text: str) -> bool:
-    """Returns whether a Vulkan type is an enum, flags, or a number, whose braces contain a single value."""
-    return _SCALAR.search(type_text) is not None or not type_text.startswith(("Vk", "vk::", "VULKAN"))
+    """Returns whether a Vulkan type is an enum, flags, or a number, whose braces contain a single
+    value.
+    """
+    return _SCALAR.search(type_text) is not None or not type_text.startswith(
+        ("Vk", "vk::", "VULKAN")
+    )
 
 
 def first_version(kind: str) -> str:
@@ -156,7 +201,8 @@ def first_version(kind: str) -> str:
 
 @lru_cache(MAX_NAMES)
 def constant(name: str) -> int | str | bool | None:
-    """Returns the value of a Vulkan constant: a sample count as a number, a boolean, or an enumerant as descriptions spell it;
+    """Returns the value of a Vulkan constant: a sample count as a number, a boolean, or an
+    enumerant as descriptions spell it;
 
     None for other names.
     """
@@ -175,7 +221,13 @@ def constant(name: str) -> int | str | bool | None:
         return 0
     match = _SCOPED.match(name)
     if match is None:
-        return "VK_SUBPASS_EXTERNAL" if name.endswith("::SubpassExternal") else 2**32 - 1 if name.endswith("::AttachmentUnused") else None
+        return (
+            "VK_SUBPASS_EXTERNAL"
+            if name.endswith("::SubpassExternal")
+            else 2**32 - 1
+            if name.endswith("::AttachmentUnused")
+            else None
+        )
     enum = f"Vk{match[1]}"
     if enum == "VkSampleCountFlagBits":
         return int(match[2]) if match[2].isdecimal() and len(match[2]) < 3 else None
@@ -187,14 +239,22 @@ def constant(name: str) -> int | str | bool | None:
 
 @cache
 def squashed(enum: str) -> dict[str, str]:
-    """Returns the values of an enum by their spelling in vulkan.hpp and in Rust: without underscores, in lower case."""
+    """Returns the values of an enum by their spelling in vulkan.hpp and in Rust: without
+    underscores, in lower case.
+    """
     return {value.replace("_", "").lower(): value for value in VALUES[enum]}
 
 
 @lru_cache(MAX_NAMES)
 def member(name: str) -> str:
-    """Returns the name that descriptions give a member: without the `p` of pointers. `pNext` is `next`."""
-    return name[1].lower() + name[2:] if len(name) > 1 and name[0] == "p" and name[1].isupper() else name
+    """Returns the name that descriptions give a member: without the `p` of pointers. `pNext` is
+    `next`.
+    """
+    return (
+        name[1].lower() + name[2:]
+        if len(name) > 1 and name[0] == "p" and name[1].isupper()
+        else name
+    )
 
 
 def setter_member(method: str) -> str | None:

@@ -30,8 +30,12 @@ _SETTER = re.compile(r"[a-z][a-z0-9_]*$")
 def _members() -> dict[str, str]:
     """Returns the names of members in descriptions by their names in Rust."""
     every = {name for members in names.MEMBERS.values() for name in members} | {"pNext"}
-    spellings = {spelling: names.member(name) for name in every for spelling in (name, names.member(name))}
-    return {_CAPITAL.sub(r"_\g<0>", spelling).lower(): member for spelling, member in spellings.items()}
+    spellings = {
+        spelling: names.member(name) for name in every for spelling in (name, names.member(name))
+    }
+    return {
+        _CAPITAL.sub(r"_\g<0>", spelling).lower(): member for spelling, member in spellings.items()
+    }
 
 
 _RENAMED = {"color_resolve_attachments": "resolveAttachments"}
@@ -46,9 +50,12 @@ class RustLibrary(VulkanLibrary):
     def constant(self, name: str) -> int | str | bool | None:
         match = _CONSTANT.match(name)
         if match is None:
-            return {"vk::QUEUE_FAMILY_IGNORED": None, "vk::ATTACHMENT_UNUSED": 2**32 - 1, "vk::TRUE": True, "vk::FALSE": False}.get(
-                name, "VK_SUBPASS_EXTERNAL" if name.endswith("SUBPASS_EXTERNAL") else None
-            )
+            return {
+                "vk::QUEUE_FAMILY_IGNORED": None,
+                "vk::ATTACHMENT_UNUSED": 2**32 - 1,
+                "vk::TRUE": True,
+                "vk::FALSE": False,
+            }.get(name, "VK_SUBPASS_EXTERNAL" if name.endswith("SUBPASS_EXTERNAL") else None)
         enum, value = match[1], match[2]
         if enum.startswith("SampleCount"):
             count = re.fullmatch(r"(?:TYPE_|_|Sample)(1|2|4|8|16|32|64)", value)
@@ -66,7 +73,14 @@ class RustLibrary(VulkanLibrary):
             if table in VALUES:
                 values = names.squashed(table)
                 short = value.removeprefix("TYPE_").removeprefix("Dim")
-                return next((values[key] for key in map(_squeezed, (short, _SUFFIX.sub("", short))) if key in values), None)
+                return next(
+                    (
+                        values[key]
+                        for key in map(_squeezed, (short, _SUFFIX.sub("", short)))
+                        if key in values
+                    ),
+                    None,
+                )
         return None
 
     def construction(self, type_text: str) -> Construction:
@@ -96,18 +110,26 @@ class RustInterpreter(VulkanInterpreter):
     def __init__(self, unit: Unit, fragments: bool, is_cpp: bool, work: Work) -> None:
         super().__init__(unit, fragments, is_cpp, work, RustLibrary())
 
-    def method(self, receiver: Receiver, name: str, arguments: Sequence[Term], place: Span, scope: Scope) -> Value | None:
+    def method(
+        self, receiver: Receiver, name: str, arguments: Sequence[Term], place: Span, scope: Scope
+    ) -> Value | None:
         if name == "push_next" and len(arguments) == 1:
             name = "next"
             extended = pointee(sole_value(receiver.content))
             first = pointee(sole_value(self.value(arguments[0], scope)))
-            if isinstance(extended, Struct) and "next" in extended.fields and isinstance(first, Struct):
+            if (
+                isinstance(extended, Struct)
+                and "next" in extended.fields
+                and isinstance(first, Struct)
+            ):
                 # The structures that are there follow the new one.
                 first.cell("next").write(extended.fields["next"].writes, place, scope.guards)
         return super().method(receiver, name, arguments, place, scope)
 
     def braced_value(self, term: Term, scope: Scope, kind: str) -> Value:
-        """Returns the value of a structure. One of a type that the program declares sets the members of the type, as constructors do."""
+        """Returns the value of a structure. One of a type that the program declares sets the
+        members of the type, as constructors do.
+        """
         value = super().braced_value(term, scope, kind)
         owner = self.class_of(term[1] or kind, scope.enclosing) if term[2] else None
         if owner is not None and len(value) == 1 and isinstance(value[0].value, Struct):
@@ -115,5 +137,10 @@ class RustInterpreter(VulkanInterpreter):
                 if sole_value(cell.writes) is None:
                     # What a constructor leaves null is set later.
                     continue
-                self.store(self.member_cell(f"{owner}::{name}"), cell.writes, cell.writes[-1].at if cell.writes else term[-1], scope)
+                self.store(
+                    self.member_cell(f"{owner}::{name}"),
+                    cell.writes,
+                    cell.writes[-1].at if cell.writes else term[-1],
+                    scope,
+                )
         return value

@@ -1,6 +1,7 @@
 """Converts subpasses and their dependencies to nodes of a description.
 
-What other code decides of a subpass is left out. An unknown reference is null, so that the others keep their index.
+What other code decides of a subpass is left out. An unknown reference is null, so that the others
+keep their index.
 """
 
 from __future__ import annotations
@@ -39,18 +40,30 @@ class Subpasses(Members):
         if targets and not (colors and len(colors) >= len(targets)):
             lists["resolveAttachments"], complete = None, False
         elif colors and targets:
-            # Of an unknown color attachment, or to an unknown target, nothing is known to be resolved.
-            known = [target if color is not None else None for color, target in zip(colors, targets, strict=False)]
+            # Of an unknown color attachment, or to an unknown target, nothing is known to be
+            # resolved.
+            known = [
+                target if color is not None else None
+                for color, target in zip(colors, targets, strict=False)
+            ]
             lists["resolveAttachments"] = known
         items: list[Item] = []
         for name, nodes in lists.items():
             if nodes:
                 at = head_of(self.get(struct, name)[1])
-                items.append((name, self.get(struct, name)[1], sequence([node or scalar(None, at) for node in nodes], at)))
+                items.append(
+                    (
+                        name,
+                        self.get(struct, name)[1],
+                        sequence([node or scalar(None, at) for node in nodes], at),
+                    )
+                )
         depth, depth_known = self.depth_reference(struct, names)
         items += depth
         chained, chain_known = self.chained(struct, names)
-        return SubpassNode(mapping([*items, *chained], head), complete and depth_known and chain_known)
+        return SubpassNode(
+            mapping([*items, *chained], head), complete and depth_known and chain_known
+        )
 
     def depth_reference(self, struct: Struct, names: Sequence[str]) -> tuple[list[Item], bool]:
         """Returns the depth/stencil attachment of a subpass, and whether it is known."""
@@ -63,7 +76,9 @@ class Subpasses(Members):
         return ([("depthStencilAttachment", at, node)], True) if node is not None else ([], False)
 
     def chained(self, struct: Struct, names: Sequence[str]) -> tuple[list[Item], bool]:
-        """Returns what the pNext chain of a subpass states, and whether all of the chain is known."""
+        """Returns what the pNext chain of a subpass states, and whether all of the chain is
+        known.
+        """
         items: list[Item] = []
         structs, known = self.chain(struct)
         for chained in structs:
@@ -73,19 +88,26 @@ class Subpasses(Members):
             elif chained.kind == "MultisampledRenderToSingleSampledInfo":
                 name, node = "multisampledRenderToSingleSampled", self.single_sampled(chained)
             elif chained.kind == "FragmentShadingRateAttachmentInfo":
-                name, node = "fragmentShadingRateAttachment", self.chained_reference(chained, "fragmentShadingRateAttachment", names)
+                name, node = (
+                    "fragmentShadingRateAttachment",
+                    self.chained_reference(chained, "fragmentShadingRateAttachment", names),
+                )
             if node is not None:
                 items.append((name, head_of(chained.at), node))
             known = known and node is not None
         return (items, True) if known else ([*items, self.unread(struct)], False)
 
     def chained_reference(self, struct: Struct, name: str, names: Sequence[str]) -> Node | None:
-        """Returns the attachment that a structure of a pNext chain refers to, null for none; None if it is unknown."""
+        """Returns the attachment that a structure of a pNext chain refers to, null for none; None
+        if it is unknown.
+        """
         value, at = self.get(struct, name)
         target = self.dereference(value)
         if target is None or (target == 0 and type(target) is int):
             # A pointer that is null, or a reference whose members are all zero.
-            return scalar(None, at) if name != "fragmentDensityMapAttachment" else scalar(names[0], at)
+            return (
+                scalar(None, at) if name != "fragmentDensityMapAttachment" else scalar(names[0], at)
+            )
         if isinstance(target, Array) and target.items:
             # `{2, layout}` is assigned to a member.
             items = target.items
@@ -114,7 +136,9 @@ class Subpasses(Members):
             items += self.item(struct, name)
         return mapping(items, head_of(struct.at))
 
-    def references(self, struct: Struct, name: str, names: Sequence[str]) -> list[Node | None] | None:
+    def references(
+        self, struct: Struct, name: str, names: Sequence[str]
+    ) -> list[Node | None] | None:
         """Returns a list of references, with None for unknown ones; None if the list is unknown."""
         if name not in struct.fields:
             return [] if struct.zeroed or self.fragments else None
@@ -126,8 +150,13 @@ class Subpasses(Members):
             return None
         index, at = self.get(struct, "attachment")
         if index is UNKNOWN and self.fragments:
-            # Pages that modify a program do not repeat that `colorAttachmentRef` refers to `colorAttachment`.
-            indices = [n for n, name in enumerate(names) if struct.name and struct.name.startswith(name) and struct.name != name]
+            # Pages that modify a program do not repeat that `colorAttachmentRef` refers to
+            # `colorAttachment`.
+            indices = [
+                n
+                for n, name in enumerate(names)
+                if struct.name and struct.name.startswith(name) and struct.name != name
+            ]
             index = indices[-1] if len(indices) == 1 else UNKNOWN
         if index is None:
             index = 0

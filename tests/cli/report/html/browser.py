@@ -28,14 +28,29 @@ class Browser:
         for switch in (*SWITCHES, f"--user-data-dir={profile}"):
             options.add_argument(switch)
         options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
-        self.driver: Any = webdriver.Chrome(options=options, service=webdriver.ChromeService(DRIVER))
+        self.driver: Any = webdriver.Chrome(
+            options=options, service=webdriver.ChromeService(DRIVER)
+        )
 
     def open(
-        self, page: Path, *, width: int = 1280, dark: bool = False, media: str = "screen", script: bool = True, fragment: str = ""
+        self,
+        page: Path,
+        *,
+        width: int = 1280,
+        dark: bool = False,
+        media: str = "screen",
+        script: bool = True,
+        fragment: str = "",
     ) -> None:
         """Shows a page anew, and waits until its figures are drawn."""
         scheme = {"name": "prefers-color-scheme", "value": "dark" if dark else "light"}
-        self._command("Emulation.setDeviceMetricsOverride", width=width, height=900, deviceScaleFactor=1, mobile=False)
+        self._command(
+            "Emulation.setDeviceMetricsOverride",
+            width=width,
+            height=900,
+            deviceScaleFactor=1,
+            mobile=False,
+        )
         self._command("Emulation.setEmulatedMedia", media=media, features=[scheme])
         self._command("Emulation.setScriptExecutionDisabled", value=not script)
         self.driver.get("about:blank")
@@ -67,23 +82,36 @@ class Browser:
 
     def complaints(self) -> list[str]:
         """Errors of scripts, and violations of the Content-Security-Policy, since the last call."""
-        return [entry["message"] for entry in self.driver.get_log("browser") if entry["level"] in ("SEVERE", "WARNING")]
+        return [
+            entry["message"]
+            for entry in self.driver.get_log("browser")
+            if entry["level"] in ("SEVERE", "WARNING")
+        ]
 
     def violations(self) -> list[str]:
         """What axe finds against the rules of WCAG."""
         axe = pytest.importorskip("axe_core_python.selenium").Axe()
         found = axe.run(self.driver)["violations"]
-        return [f"{each['id']}: {json.dumps([node['html'][:200] for node in each['nodes'][:3]])}" for each in found]
+        return [
+            f"{each['id']}: {json.dumps([node['html'][:200] for node in each['nodes'][:3]])}"
+            for each in found
+        ]
 
     def overflow(self) -> int:
         """The pixels by which the page is wider than the window."""
-        return int(self.run("return document.documentElement.scrollWidth - document.documentElement.clientWidth"))
+        return int(
+            self.run(
+                "return document.documentElement.scrollWidth - document.documentElement.clientWidth"
+            )
+        )
 
     def picture(self, path: Path, *, height: int, top: int = 0) -> None:
         """Writes a part of the page as PNG."""
         width = self.run("return innerWidth")
         clip = {"x": 0, "y": top, "width": width, "height": height, "scale": 1}
-        data = self._command("Page.captureScreenshot", captureBeyondViewport=True, clip=clip)["data"]
+        data = self._command("Page.captureScreenshot", captureBeyondViewport=True, clip=clip)[
+            "data"
+        ]
         path.write_bytes(base64.b64decode(data))
 
     def _command(self, name: str, **parameters: Any) -> Any:

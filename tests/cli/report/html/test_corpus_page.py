@@ -1,4 +1,6 @@
-"""The page of `corpus`: its tables in Chromium, without a message, a violation of WCAG, or a name of a stranger that is not text."""
+"""The page of `corpus`: its tables in Chromium, without a message, a violation of WCAG, or a name
+of a stranger that is not text.
+"""
 
 from __future__ import annotations
 
@@ -42,7 +44,9 @@ def pages(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
 
 @pytest.mark.parametrize("name", WORDS)
 @pytest.mark.parametrize("dark", [False, True], ids=["light", "dark"])
-def test_opens_without_a_message_or_a_violation_of_wcag(browser: Browser, pages: dict[str, Path], name: str, dark: bool) -> None:
+def test_opens_without_a_message_or_a_violation_of_wcag(
+    browser: Browser, pages: dict[str, Path], name: str, dark: bool
+) -> None:
     browser.open(pages[name], dark=dark)
     assert browser.complaints() == []
     assert browser.run("return performance.getEntriesByType('resource').length") == 0
@@ -50,7 +54,9 @@ def test_opens_without_a_message_or_a_violation_of_wcag(browser: Browser, pages:
 
 
 @pytest.mark.parametrize("name", WORDS)
-def test_a_phone_scrolls_in_one_direction(browser: Browser, pages: dict[str, Path], name: str) -> None:
+def test_a_phone_scrolls_in_one_direction(
+    browser: Browser, pages: dict[str, Path], name: str
+) -> None:
     browser.open(pages[name], width=PHONE)
     assert browser.overflow() == 0
     assert browser.violations() == []
@@ -58,13 +64,22 @@ def test_a_phone_scrolls_in_one_direction(browser: Browser, pages: dict[str, Pat
 
 def test_prints(browser: Browser, pages: dict[str, Path]) -> None:
     browser.open(pages["devices"], dark=True)
-    assert base64.b64decode(browser.driver.execute_cdp_cmd("Page.printToPDF", {})["data"]).startswith(b"%PDF")
+    assert base64.b64decode(
+        browser.driver.execute_cdp_cmd("Page.printToPDF", {})["data"]
+    ).startswith(b"%PDF")
     browser.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "print"})
-    assert browser.run("return getComputedStyle(document.body).backgroundColor") == "rgb(255, 255, 255)"
+    assert (
+        browser.run("return getComputedStyle(document.body).backgroundColor")
+        == "rgb(255, 255, 255)"
+    )
 
 
-@pytest.mark.parametrize("words", [("--by", "device"), ("--by", "input"), ("--sql", "select rule, input from findings")])
-def test_names_of_strangers_stay_text(browser: Browser, tmp_path: Path, words: tuple[str, ...]) -> None:
+@pytest.mark.parametrize(
+    "words", [("--by", "device"), ("--by", "input"), ("--sql", "select rule, input from findings")]
+)
+def test_names_of_strangers_stay_text(
+    browser: Browser, tmp_path: Path, words: tuple[str, ...]
+) -> None:
     (tmp_path / "a.msaa.yaml").write_text(SIZE + STORED)
     run(tmp_path, "check", "--isolated", "a.msaa.yaml", "--output", "sqlite=a.sqlite")
     name = " ".join(HOSTILE)

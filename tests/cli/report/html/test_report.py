@@ -41,7 +41,9 @@ class Page(HTMLParser):
     def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
         self.elements.append((tag, dict(attrs)))
         if tag in ("script", "style"):
-            self._into = self.texts["data" if dict(attrs).get("type") == "application/json" else tag]
+            self._into = self.texts[
+                "data" if dict(attrs).get("type") == "application/json" else tag
+            ]
             self._into.append("")
 
     def handle_endtag(self, tag: str) -> None:
@@ -57,7 +59,10 @@ def page(command: str, *arguments: str) -> str:
 
 
 def hashes(texts: list[str]) -> str:
-    return " ".join(f"'sha256-{base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()}'" for text in texts)
+    return " ".join(
+        f"'sha256-{base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()}'"
+        for text in texts
+    )
 
 
 COMPARISON = ("cost", "phone/frame.msaa.yaml", "khronos-msaa/inline.msaa.yaml")
@@ -67,13 +72,21 @@ COMPARISON = ("cost", "phone/frame.msaa.yaml", "khronos-msaa/inline.msaa.yaml")
 def test_a_page_is_one_file_under_a_strict_policy(inputs: tuple[str, ...]) -> None:
     text = page(*inputs)
     found = Page(text)
-    policy = next(each["content"] for tag, each in found.elements if each.get("http-equiv") == "Content-Security-Policy")
+    policy = next(
+        each["content"]
+        for tag, each in found.elements
+        if each.get("http-equiv") == "Content-Security-Policy"
+    )
     assert policy == (
-        f"default-src 'none'; script-src {hashes(found.texts['script'])}; style-src {hashes(found.texts['style'])}; "
+        f"default-src 'none'; script-src {hashes(found.texts['script'])}; style-src "
+        f"{hashes(found.texts['style'])}; "
         "img-src data:; base-uri 'none'; form-action 'none'"
     )
     for tag, attributes in found.elements:
-        assert not {"style", "src", "onload", "onclick", "srcset"} & attributes.keys(), (tag, attributes)
+        assert not {"style", "src", "onload", "onclick", "srcset"} & attributes.keys(), (
+            tag,
+            attributes,
+        )
         assert tag not in ("link", "iframe", "object", "embed", "img")
         assert tag == "a" or "href" not in attributes
     ids = [each["id"] for _, each in found.elements if "id" in each]
@@ -91,12 +104,16 @@ def test_json_of_a_script_element_ends_no_element() -> None:
 def test_a_rule_links_to_the_documentation(tmp_path: Path) -> None:
     (tmp_path / "msaa-lint.toml").write_text('docs-url = "https://example.com/msaa"\n')
     frame = EXAMPLES / "phone" / "frame.msaa.yaml"
-    linked = run(tmp_path, "check", str(frame), "--config", "msaa-lint.toml", "--output", "html").stdout
+    linked = run(
+        tmp_path, "check", str(frame), "--config", "msaa-lint.toml", "--output", "html"
+    ).stdout
     assert 'href="https://example.com/msaa/rules/resolve-outside-pass/"' in linked
     assert "example.com" not in page("check", "phone/frame.msaa.yaml")
 
 
-def test_without_the_extra_a_message_names_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_without_the_extra_a_message_names_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr(common, "find_spec", lambda name: None)
     for command in ("check", "cost"):
         done = run(tmp_path, command, str(EXAMPLES / "phone"), "--output", "html=report.html")
@@ -106,11 +123,15 @@ def test_without_the_extra_a_message_names_it(tmp_path: Path, monkeypatch: pytes
 
 
 def costed(*paths: str, terms: Terms | None = None) -> list[CostedFrame]:
-    request = Request(paths=[str(EXAMPLES / path) for path in paths], isolated=True, formats=["html"])
+    request = Request(
+        paths=[str(EXAMPLES / path) for path in paths], isolated=True, formats=["html"]
+    )
     return list(run_costs(request, terms or Terms(), (1, 4)).frames)
 
 
-@pytest.mark.parametrize("terms", [Terms(), Terms(fps=24.0, width=640, height=360)], ids=["as stated", "other terms"])
+@pytest.mark.parametrize(
+    "terms", [Terms(), Terms(fps=24.0, width=640, height=360)], ids=["as stated", "other terms"]
+)
 def test_a_waterfall_adds_up(terms: Terms) -> None:
     checked = 0
     for frame in costed("phone", "khronos-msaa", "tutorial", "frame", "impeller", terms=terms):
@@ -121,10 +142,15 @@ def test_a_waterfall_adds_up(terms: Terms) -> None:
         names = [bar.name for bar in bars]
         end = names.index("as fixed")
         assert float(bars[0].traffic) == pytest.approx(frame.cost.total.traffic_mb_per_s, abs=0.01)
-        assert float(bars[end].traffic) == pytest.approx(frame.fixed.total.traffic_mb_per_s, abs=0.01)
+        assert float(bars[end].traffic) == pytest.approx(
+            frame.fixed.total.traffic_mb_per_s, abs=0.01
+        )
         for column in ("traffic", "milliwatts", "memory"):
             values = [float(getattr(bar, column)) for bar in bars[: end + 1]]
-            assert sum(values[:-1]) == pytest.approx(values[-1], abs=0.06 * len(values)), (frame.file, column)
+            assert sum(values[:-1]) == pytest.approx(values[-1], abs=0.06 * len(values)), (
+                frame.file,
+                column,
+            )
         assert all(bar.start >= 0 and bar.start + bar.length <= 100.001 for bar in bars)
         checked += 1
     assert checked > 8
@@ -145,20 +171,47 @@ def test_fixes_that_save_the_same_bytes_count_once() -> None:
 def test_the_graph_of_a_frame() -> None:
     found = costed("khronos-msaa/color-separate.msaa.yaml")[0].graph
     assert found is not None
-    assert [(row.name, row.image, row.samples, row.action, row.path, row.megabytes) for row in graph.flow_rows(found)] == [
+    assert [
+        (row.name, row.image, row.samples, row.action, row.path, row.megabytes)
+        for row in graph.flow_rows(found)
+    ] == [
         ("scene", "depth_ms", "4x", "drawn to", "stays on the tile", ""),
         ("scene", "color_ms", "4x", "store", "through memory", "37.46"),
-        ("resolveImage color_ms, backbuffer", "color_ms", "4x", "resolve command", "through memory", "37.46"),
-        ("resolveImage color_ms, backbuffer", "backbuffer", "1x", "resolve command", "through memory", "9.37"),
+        (
+            "resolveImage color_ms, backbuffer",
+            "color_ms",
+            "4x",
+            "resolve command",
+            "through memory",
+            "37.46",
+        ),
+        (
+            "resolveImage color_ms, backbuffer",
+            "backbuffer",
+            "1x",
+            "resolve command",
+            "through memory",
+            "9.37",
+        ),
     ]
 
 
 def chain(passes: int) -> FrameGraph:
     """Each pass reads the image of the one before it."""
     images = [GraphImage(f"image{n}", "R8G8B8A8_UNORM", 4, 100) for n in range(passes)]
-    flows = [[*([Flow(n - 1, "read", "read", 4, 1000)] if n else []), Flow(n, "store", "write", 4, 10 ** (n % 9))] for n in range(passes)]
+    flows = [
+        [
+            *([Flow(n - 1, "read", "read", 4, 1000)] if n else []),
+            Flow(n, "store", "write", 4, 10 ** (n % 9)),
+        ]
+        for n in range(passes)
+    ]
     return FrameGraph(
-        tuple(GraphPass(f"pass{n}", f"renderPasses.pass{n}", "renderPass", 1, tuple(flows[n])) for n in range(passes)), tuple(images)
+        tuple(
+            GraphPass(f"pass{n}", f"renderPasses.pass{n}", "renderPass", 1, tuple(flows[n]))
+            for n in range(passes)
+        ),
+        tuple(images),
     )
 
 
@@ -167,7 +220,11 @@ def test_boxes_do_not_overlap_and_columns_are_shared() -> None:
     assert drawing.left_out == ""
     boxes = [*drawing.passes, *drawing.images]
     for number, one in enumerate(boxes):
-        assert one.x >= 0 and one.x + one.width <= drawing.width and one.y + one.height <= drawing.height
+        assert (
+            one.x >= 0
+            and one.x + one.width <= drawing.width
+            and one.y + one.height <= drawing.height
+        )
         for other in boxes[:number]:
             apart = one.x >= other.x + other.width or other.x >= one.x + one.width
             assert apart or one.y >= other.y + other.height or other.y >= one.y + one.height
@@ -179,15 +236,25 @@ def test_a_long_frame_is_cut_and_says_so() -> None:
     drawing = graph.drawing(chain(200), 60)
     assert len(drawing.passes) == graph.MAX_PASSES
     assert drawing.left_out == "The graph shows the first 60 of 200 passes."
-    wide = GraphPass("wide", "p", "renderPass", 1, tuple(Flow(n, "store", "write", 1, 1) for n in range(300)))
-    drawing = graph.drawing(FrameGraph((wide,), tuple(GraphImage(f"{n}", None, None, None) for n in range(300))), 60)
+    wide = GraphPass(
+        "wide", "p", "renderPass", 1, tuple(Flow(n, "store", "write", 1, 1) for n in range(300))
+    )
+    drawing = graph.drawing(
+        FrameGraph((wide,), tuple(GraphImage(f"{n}", None, None, None) for n in range(300))), 60
+    )
     assert drawing.left_out == "The graph shows 16 of their 300 reads and writes."
 
 
 def test_a_frame_without_passes_has_no_graph(tmp_path: Path) -> None:
-    (tmp_path / "a.msaa.yaml").write_text("images: {a: {format: R8G8B8A8_UNORM, samples: 4, extent: {width: 8, height: 8}}}\n")
+    (tmp_path / "a.msaa.yaml").write_text(
+        "images: {a: {format: R8G8B8A8_UNORM, samples: 4, extent: {width: 8, height: 8}}}\n"
+    )
     (tmp_path / "b.msaa.yaml").write_text("images: {}\n")
-    for arguments in (["check", "a.msaa.yaml"], ["cost", "a.msaa.yaml"], ["cost", "a.msaa.yaml", "b.msaa.yaml"]):
+    for arguments in (
+        ["check", "a.msaa.yaml"],
+        ["cost", "a.msaa.yaml"],
+        ["cost", "a.msaa.yaml", "b.msaa.yaml"],
+    ):
         done = run(tmp_path, *arguments, "--isolated", "--output", "html")
         assert "</html>" in done.stdout, done.stderr
         assert '<figure class="graph">' not in done.stdout
@@ -195,7 +262,10 @@ def test_a_frame_without_passes_has_no_graph(tmp_path: Path) -> None:
 
 def test_ten_thousand_findings_have_a_limit() -> None:
     def size(count: int) -> int:
-        run = result(*(finding(f"finding {n}", span=Span(0, 1), severity="note") for n in range(count)), text="a: b\n" * 20)
+        run = result(
+            *(finding(f"finding {n}", span=Span(0, 1), severity="note") for n in range(count)),
+            text="a: b\n" * 20,
+        )
         text = printed("html", run)
         assert text.count("<article") == min(count, check.MAX_FINDINGS)
         assert text.count('<pre class="source">') == min(count, check.MAX_CARDS)
@@ -203,40 +273,77 @@ def test_ten_thousand_findings_have_a_limit() -> None:
 
     sizes = [size(count) for count in (2000, 4000, 8000)]
     assert (sizes[2] - sizes[1]) == pytest.approx(2 * (sizes[1] - sizes[0]), rel=0.05)
-    text = printed("html", result(*(finding(f"finding {n}") for n in range(check.MAX_FINDINGS + 7))))
-    assert f"7 of {check.MAX_FINDINGS + 7} findings are not on this page; --output json has all." in text
+    text = printed(
+        "html", result(*(finding(f"finding {n}") for n in range(check.MAX_FINDINGS + 7)))
+    )
+    assert (
+        f"7 of {check.MAX_FINDINGS + 7} findings are not on this page; --output json has all."
+        in text
+    )
 
 
 def test_a_fix_is_a_diff_of_its_lines() -> None:
     text = "".join(f"line {n}\n" for n in range(1000))
     at = text.index("500")
     lines = diff.fix_diff(Source("a", text), [Edit(Span(at, at + 3), "five hundred")])
-    assert [(line.sign + line.text) for line in lines] == ["@@ line 500 @@", " line 499", "-line 500", "+line five hundred", " line 501"]
+    assert [(line.sign + line.text) for line in lines] == [
+        "@@ line 500 @@",
+        " line 499",
+        "-line 500",
+        "+line five hundred",
+        " line 501",
+    ]
     many = [Edit(Span(match.start(), match.end()), "x") for match in re.finditer("[0-9]+", text)]
     lines = diff.fix_diff(Source("a", text), many)
     assert len(lines) <= diff.MAX_LINES + 1
-    assert lines[-1].text == f"{len(many) - diff.MAX_EDITS} more edits are not shown; `msaa-lint check --diff` prints all"
+    assert (
+        lines[-1].text
+        == f"{len(many) - diff.MAX_EDITS} more edits are not shown; `msaa-lint check --diff` "
+        f"prints all"
+    )
 
 
 def test_pages_of_rules_are_text_of_a_stranger(tmp_path: Path) -> None:
     rule = (
-        "---\ncode: ACME1\nseverity: warning\nsubject: image\nwhen: image.samples > 1\nmessage: too many\n"
+        "---\ncode: ACME1\nseverity: warning\nsubject: image\nwhen: image.samples > 1\nmessage: "
+        "too many\n"
         "at: image.samples\n---\nToo many.\n\n"
-        "<script>alert(1)</script> [x](javascript:alert(1)) ![y](http://evil.example/) <http://evil.example>\n"
+        "<script>alert(1)</script> [x](javascript:alert(1)) ![y](http://evil.example/) "
+        "<http://evil.example>\n"
     )
     (tmp_path / "too-many.md").write_text(rule)
-    done = run(tmp_path, "check", "--isolated", "--rules", "too-many.md", "--select", "ACME1", str(EXAMPLES / "phone"), "--output", "html")
+    done = run(
+        tmp_path,
+        "check",
+        "--isolated",
+        "--rules",
+        "too-many.md",
+        "--select",
+        "ACME1",
+        str(EXAMPLES / "phone"),
+        "--output",
+        "html",
+    )
     found = Page(done.stdout)
     assert "too many" in done.stdout, done.stderr
-    assert not [each for tag, each in found.elements if tag == "img" or (each.get("href") or "#").startswith(("javascript", "http://evil"))]
+    assert not [
+        each
+        for tag, each in found.elements
+        if tag == "img" or (each.get("href") or "#").startswith(("javascript", "http://evil"))
+    ]
     assert len(found.texts["script"]) == 1
 
 
 def test_a_comparison_leads_from_the_old_cost_to_the_new_one() -> None:
-    old, new = (EXAMPLES / "khronos-msaa" / f"{name}.msaa.yaml" for name in ("color-separate", "inline"))
+    old, new = (
+        EXAMPLES / "khronos-msaa" / f"{name}.msaa.yaml" for name in ("color-separate", "inline")
+    )
     text = run(EXAMPLES, "cost", "--isolated", str(old), str(new), "--output", "html").stdout
     found = re.findall(
-        r'<tr class="(?:total|saving|addition)">\s*<th scope="row">(\w+).*?<td class="figure">([-+.\d]+)</td>', text, re.DOTALL
+        r'<tr class="(?:total|saving|addition)">\s*<th scope="row">(\w+).*?<td '
+        r'class="figure">([-+.\d]+)</td>',
+        text,
+        re.DOTALL,
     )
     assert found[:6] == [
         ("old", "5057.51"),

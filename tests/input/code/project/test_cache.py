@@ -30,10 +30,14 @@ def project(tmp_path: Path) -> Path:
 
 
 def check(project: Path, kept: Path, *options: str) -> Done:
-    return run(project, "check", ".", "--isolated", "--output", "json", *options, XDG_CACHE_HOME=str(kept))
+    return run(
+        project, "check", ".", "--isolated", "--output", "json", *options, XDG_CACHE_HOME=str(kept)
+    )
 
 
-def test_a_second_run_says_the_same(project: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_second_run_says_the_same(
+    project: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     first = check(project, tmp_path / "kept")
     assert "MSAA201" in first.stdout
 
@@ -45,7 +49,9 @@ def test_a_second_run_says_the_same(project: Path, tmp_path: Path, monkeypatch: 
     assert (second.stdout, second.returncode) == (first.stdout, first.returncode)
 
 
-def test_a_second_run_lints_nothing(project: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_second_run_lints_nothing(
+    project: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     first = check(project, tmp_path / "kept")
 
     def lint(*_: object) -> None:
@@ -60,12 +66,15 @@ def test_a_second_run_lints_nothing(project: Path, tmp_path: Path, monkeypatch: 
     assert "MSAA201" not in check(project, tmp_path / "kept", "--ignore", "MSAA201").stdout
 
 
-def test_of_a_program_only_the_files_that_change_are_parsed(project: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_of_a_program_only_the_files_that_change_are_parsed(
+    project: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     write(project, {"settings.h": settings(4) + FILLER})
     check(project, tmp_path / "kept")
     parsed = []
     monkeypatch.setattr(
-        "msaa_lint.input.code.c.description_trees.file_syntax", lambda code, macros: parsed.append(code.text) or file_syntax(code, macros)
+        "msaa_lint.input.code.c.description_trees.file_syntax",
+        lambda code, macros: parsed.append(code.text) or file_syntax(code, macros),
     )
     write(project, {"settings.h": settings(1) + FILLER})
     done = check(project, tmp_path / "kept")
@@ -77,14 +86,23 @@ def test_of_a_program_only_the_files_that_change_are_parsed(project: Path, tmp_p
     assert len(parsed) == 3
 
 
-def test_a_run_of_many_programs_says_the_same_as_their_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_run_of_many_programs_says_the_same_as_their_runs(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """Above `MIN_DIVIDED`, processes divide the programs."""
-    filler = "".join(f"void unrelated_{number}(int a) {{ work(a + {number}); }}\n" for number in range(4000))
+    filler = "".join(
+        f"void unrelated_{number}(int a) {{ work(a + {number}); }}\n" for number in range(4000)
+    )
     for name in "abc":
         write(tmp_path / name, {"pass.cpp": PASS + filler, "settings.h": settings(4)})
     divided = run(tmp_path, "check", "a", "b", "c", "--isolated", "--no-cache", "--output", "json")
     monkeypatch.setattr("msaa_lint.linter.input_runs.MIN_DIVIDED", 1 << 40)
-    assert divided.stdout == run(tmp_path, "check", "a", "b", "c", "--isolated", "--no-cache", "--output", "json").stdout
+    assert (
+        divided.stdout
+        == run(
+            tmp_path, "check", "a", "b", "c", "--isolated", "--no-cache", "--output", "json"
+        ).stdout
+    )
     assert divided.stdout.count("MSAA201") == 3
 
 
@@ -92,18 +110,26 @@ def test_a_run_of_many_programs_says_the_same_as_their_runs(tmp_path: Path, monk
 def many(tmp_path: Path) -> Path:
     """A project with more files than are read in any case, all of them old."""
     folder = tmp_path / "many"
-    write(folder, {f"other{number:03}.cpp": f"int other{number};\n" for number in range(MIN_KEPT + 10)})
+    write(
+        folder,
+        {f"other{number:03}.cpp": f"int other{number};\n" for number in range(MIN_KEPT + 10)},
+    )
     write(folder, {"pass.cpp": PASS + FILLER, "settings.h": settings(4)})
     for path in folder.iterdir():
         os.utime(path, (1, 1))
     return folder
 
 
-def test_files_that_have_not_been_written_are_not_opened(many: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_files_that_have_not_been_written_are_not_opened(
+    many: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr("msaa_lint.core.text.files.FINE_CLOCK", -(10**12))
     first = check(many, tmp_path / "kept")
     opened = []
-    monkeypatch.setattr("msaa_lint.input.code.project.index.open_entry", lambda path: opened.append(path) or open_entry(path))
+    monkeypatch.setattr(
+        "msaa_lint.input.code.project.index.open_entry",
+        lambda path: opened.append(path) or open_entry(path),
+    )
     assert check(many, tmp_path / "kept").stdout == first.stdout
     assert len(opened) == MIN_KEPT
     # Neither the size nor the time of modification shows it.
@@ -112,12 +138,17 @@ def test_files_that_have_not_been_written_are_not_opened(many: Path, tmp_path: P
     assert "MSAA201" not in check(many, tmp_path / "kept").stdout
 
 
-def test_files_that_are_too_young_are_read_again(many: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_files_that_are_too_young_are_read_again(
+    many: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """Within the resolution of times, another content may have the same."""
     monkeypatch.setattr("msaa_lint.core.text.files.FINE_CLOCK", 10**12)
     check(many, tmp_path / "kept")
     opened = []
-    monkeypatch.setattr("msaa_lint.input.code.project.index.open_entry", lambda path: opened.append(path) or open_entry(path))
+    monkeypatch.setattr(
+        "msaa_lint.input.code.project.index.open_entry",
+        lambda path: opened.append(path) or open_entry(path),
+    )
     check(many, tmp_path / "kept")
     assert len(opened) == len(list(many.iterdir()))
 
@@ -138,10 +169,16 @@ def test_no_cache_keeps_nothing(project: Path, tmp_path: Path) -> None:
 @pytest.mark.parametrize("damage", [b"", b"\x00" * 40, None])
 def test_a_damaged_entry_is_ignored(project: Path, tmp_path: Path, damage: bytes | None) -> None:
     first = check(project, tmp_path / "kept")
-    with contextlib.closing(sqlite3.connect(tmp_path / "kept" / "msaa-lint" / FILE)) as database, database:
+    with (
+        contextlib.closing(sqlite3.connect(tmp_path / "kept" / "msaa-lint" / FILE)) as database,
+        database,
+    ):
         rows = database.execute("select number, data from entries").fetchall()
         damaged = ((data[:-1] if damage is None else damage, number) for number, data in rows)
-        assert database.executemany("update entries set data = ? where number = ?", damaged).rowcount > 1
+        assert (
+            database.executemany("update entries set data = ? where number = ?", damaged).rowcount
+            > 1
+        )
     assert check(project, tmp_path / "kept").stdout == first.stdout
 
 

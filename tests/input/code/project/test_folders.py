@@ -75,7 +75,9 @@ def places(data: dict[str, Any]) -> list[tuple[str, str, int]]:
 
 
 def confidences(data: dict[str, Any]) -> list[tuple[str, str, str]]:
-    """What is resolved has an unknown sample count above one, which gives a finding of low confidence."""
+    """What is resolved has an unknown sample count above one, which gives a finding of low
+    confidence.
+    """
     return [(each["file"], each["code"], each["confidence"]) for each in data["findings"]]
 
 
@@ -101,7 +103,9 @@ def test_a_file_that_is_named_sees_the_headers_of_its_project(tmp_path: Path, he
 
 
 def test_a_header_outside_the_project_is_not_read(tmp_path: Path) -> None:
-    write(tmp_path, {"settings.h": settings(4), "project/src/pass.cpp": PASS, "project/.git/HEAD": ""})
+    write(
+        tmp_path, {"settings.h": settings(4), "project/src/pass.cpp": PASS, "project/.git/HEAD": ""}
+    )
     (tmp_path / "project" / "src" / "link").symlink_to(tmp_path)
     unknown = [("src/pass.cpp", "MSAA201", "low")]
     assert confidences(check(tmp_path / "project", "src/pass.cpp")) == unknown
@@ -111,8 +115,17 @@ def test_a_header_outside_the_project_is_not_read(tmp_path: Path) -> None:
 
 def test_programs_side_by_side_stay_apart(tmp_path: Path) -> None:
     """Each has a constant and a class of the same names."""
-    write(tmp_path, {"one.cpp": settings(4) + PASS.partition("\n")[2] + MAIN, "two.cpp": settings(1) + PASS.partition("\n")[2] + MAIN})
-    assert [(file, code) for file, code, _ in places(check(tmp_path))] == [("one.cpp", "MSAA201"), ("two.cpp", "MSAA304")]
+    write(
+        tmp_path,
+        {
+            "one.cpp": settings(4) + PASS.partition("\n")[2] + MAIN,
+            "two.cpp": settings(1) + PASS.partition("\n")[2] + MAIN,
+        },
+    )
+    assert [(file, code) for file, code, _ in places(check(tmp_path))] == [
+        ("one.cpp", "MSAA201"),
+        ("two.cpp", "MSAA304"),
+    ]
 
 
 def test_programs_in_folders_see_their_own_header_and_what_is_shared(tmp_path: Path) -> None:
@@ -149,7 +162,10 @@ def test_definitions_that_differ_leave_the_value_unknown(tmp_path: Path) -> None
 
 def test_a_library_is_reported_once(tmp_path: Path) -> None:
     write(tmp_path, {"lib/pass.cpp": PASS, "lib/settings.h": settings(4)})
-    write(tmp_path, {f"app{number}/main.cpp": '#include "../lib/settings.h"\n' + MAIN for number in range(3)})
+    write(
+        tmp_path,
+        {f"app{number}/main.cpp": '#include "../lib/settings.h"\n' + MAIN for number in range(3)},
+    )
     assert places(check(tmp_path)) == [("lib/pass.cpp", *STORED)]
 
 
@@ -159,13 +175,25 @@ def test_suppression_works_in_the_file_of_the_finding(tmp_path: Path) -> None:
     write(tmp_path, {"pass.cpp": source, "settings.h": settings(4)})
     data = check(tmp_path)
     assert places(data) == []
-    assert [(entry["finding"]["file"], entry["reason"]) for entry in data["suppressed"]] == [("pass.cpp", "read back by a tool")]
+    assert [(entry["finding"]["file"], entry["reason"]) for entry in data["suppressed"]] == [
+        ("pass.cpp", "read back by a tool")
+    ]
 
 
 def test_a_file_that_cannot_be_read_loses_no_other(tmp_path: Path) -> None:
-    write(tmp_path, {"pass.cpp": PASS, "settings.h": settings(4), "long.cpp": "// msaa VkImageCreateInfo\n" + "int a;\n" * 700_000})
+    write(
+        tmp_path,
+        {
+            "pass.cpp": PASS,
+            "settings.h": settings(4),
+            "long.cpp": "// msaa VkImageCreateInfo\n" + "int a;\n" * 700_000,
+        },
+    )
     data = check_failed(tmp_path)
-    assert [(each["file"], each["code"]) for each in data["findings"]] == [("long.cpp", "MSAA906"), ("pass.cpp", "MSAA201")]
+    assert [(each["file"], each["code"]) for each in data["findings"]] == [
+        ("long.cpp", "MSAA906"),
+        ("pass.cpp", "MSAA201"),
+    ]
 
 
 def check_failed(folder: Path) -> dict[str, Any]:
@@ -180,7 +208,9 @@ def test_convert_writes_what_the_files_of_a_folder_state(tmp_path: Path) -> None
     done = run(tmp_path, "convert", ".", "--output", "frame.msaa.yaml")
     assert (done.returncode, done.stderr) == (0, "")
     text = (tmp_path / "frame.msaa.yaml").read_text(encoding="utf-8")
-    assert text.startswith("# Read from settings.h, pass.cpp; what it does not state is left out.\nrenderPasses:\n")
+    assert text.startswith(
+        "# Read from settings.h, pass.cpp; what it does not state is left out.\nrenderPasses:\n"
+    )
     assert "samples: 4" in text
     assert run(tmp_path, "convert", "pass.cpp", "settings.h").stdout == text
     alone = run(tmp_path, "convert", "pass.cpp").stdout
@@ -191,7 +221,11 @@ def test_facts_name_the_file_of_each_place(tmp_path: Path) -> None:
     write(tmp_path, {"pass.cpp": PASS, "settings.h": settings(4)})
     done = run(tmp_path, "facts", ".", "--output", "json")
     assert done.returncode == 0, done.stderr
-    (color,) = (row for row in json.loads(done.stdout) if row["subject"] == "attachment" and row["path"].endswith(".color"))
+    (color,) = (
+        row
+        for row in json.loads(done.stdout)
+        if row["subject"] == "attachment" and row["path"].endswith(".color")
+    )
     assert (color["file"], color["line"]) == ("pass.cpp", 4)
     assert color["facts"]["attachment.samples"] == {"value": 4, "line": 6}
 
@@ -205,20 +239,30 @@ def test_convert_joins_source_code_only(tmp_path: Path) -> None:
 
 def compiled(folder: Path, file: str, *words: str, target: str = "app") -> dict[str, Any]:
     arguments = ["c++", *words, "-c", str(folder / file)]
-    return {"directory": str(folder), "file": file, "arguments": arguments, "output": f"CMakeFiles/{target}.dir/{file}.o"}
+    return {
+        "directory": str(folder),
+        "file": file,
+        "arguments": arguments,
+        "output": f"CMakeFiles/{target}.dir/{file}.o",
+    }
 
 
 def test_a_build_defines_macros(tmp_path: Path) -> None:
     source = PASS.partition("\n")[2].replace("= SAMPLES", "= COUNT")
     write(tmp_path, {"src/pass.cpp": source, "src/other.cpp": "// msaa\n", ".git/HEAD": ""})
     assert confidences(check(tmp_path)) == [("src/pass.cpp", "MSAA201", "low")]
-    commands = [compiled(tmp_path, "src/pass.cpp", "-DCOUNT=VK_SAMPLE_COUNT_4_BIT"), compiled(tmp_path, "../outside.cpp", "-DA")]
+    commands = [
+        compiled(tmp_path, "src/pass.cpp", "-DCOUNT=VK_SAMPLE_COUNT_4_BIT"),
+        compiled(tmp_path, "../outside.cpp", "-DA"),
+    ]
     write(tmp_path, {"build/compile_commands.json": json.dumps(commands)})
     assert confidences(check(tmp_path)) == [("src/pass.cpp", "MSAA201", "medium")]
     assert confidences(check(tmp_path, "src/pass.cpp")) == [("src/pass.cpp", "MSAA201", "medium")]
 
 
-@pytest.mark.parametrize("text", ["", "[", "{}", '[1, {}, {"file": 3}, {"file": "a", "command": "\'"}]'])
+@pytest.mark.parametrize(
+    "text", ["", "[", "{}", '[1, {}, {"file": 3}, {"file": "a", "command": "\'"}]']
+)
 def test_a_broken_compile_commands_is_passed_over(tmp_path: Path, text: str) -> None:
     write(tmp_path, {"pass.cpp": PASS, "settings.h": settings(4), "compile_commands.json": text})
     assert confidences(check(tmp_path)) == [("pass.cpp", "MSAA201", "medium")]
@@ -230,10 +274,18 @@ def test_the_files_of_a_target_are_a_program(tmp_path: Path) -> None:
         tmp_path,
         {
             "app/main.cpp": "// msaa\n" + PASS.partition("\n")[2] + MAIN,
-            "config/values.cpp": "extern const VkSampleCountFlagBits SAMPLES = VK_SAMPLE_COUNT_4_BIT;\n",
+            "config/values.cpp": "extern const VkSampleCountFlagBits SAMPLES = "
+            "VK_SAMPLE_COUNT_4_BIT;\n",
             ".git/HEAD": "",
         },
     )
     assert confidences(check(tmp_path)) == [("app/main.cpp", "MSAA201", "low")]
-    write(tmp_path, {"compile_commands.json": json.dumps([compiled(tmp_path, file) for file in ("app/main.cpp", "config/values.cpp")])})
+    write(
+        tmp_path,
+        {
+            "compile_commands.json": json.dumps(
+                [compiled(tmp_path, file) for file in ("app/main.cpp", "config/values.cpp")]
+            )
+        },
+    )
     assert confidences(check(tmp_path)) == [("app/main.cpp", "MSAA201", "medium")]

@@ -19,11 +19,17 @@ from msaa_lint.input.code.project.swift_modules import SwiftModules
         ("App/App.xcodeproj/project.pbxproj", "App/Views/Scene/View.swift", "App"),
         ("App/App.xcodeproj/project.pbxproj", "Other/View.swift", None),
         ("Engine.podspec", "extensions/Pass.swift", ""),
-        ("a/Page.playground/contents.xcplayground", "a/Page.playground/Sources/Renderer.swift", "a/Page.playground"),
+        (
+            "a/Page.playground/contents.xcplayground",
+            "a/Page.playground/Sources/Renderer.swift",
+            "a/Page.playground",
+        ),
         ("readme", "a/b.swift", None),
     ],
 )
-def test_the_folder_of_a_module(tmp_path: Path, manifest: str, file: str, module: str | None) -> None:
+def test_the_folder_of_a_module(
+    tmp_path: Path, manifest: str, file: str, module: str | None
+) -> None:
     (tmp_path / manifest).parent.mkdir(parents=True, exist_ok=True)
     (tmp_path / manifest).touch()
     (tmp_path / file).parent.mkdir(parents=True, exist_ok=True)
@@ -34,4 +40,7 @@ def test_the_folder_of_a_module(tmp_path: Path, manifest: str, file: str, module
 def test_a_module_does_not_reach_out_of_its_project(tmp_path: Path) -> None:
     (tmp_path / "Package.swift").touch()
     (tmp_path / "inner").mkdir()
-    assert SwiftModules(str(tmp_path / "inner")).folder((tmp_path / "inner" / "a.swift").as_posix()) == ""
+    assert (
+        SwiftModules(str(tmp_path / "inner")).folder((tmp_path / "inner" / "a.swift").as_posix())
+        == ""
+    )
