@@ -33,6 +33,4 @@ LAZILY_ALLOCATED: dict[str, tuple[int, int]] = {
 """A vendor's devices that have a lazily allocated memory type, and all its devices."""
 
 INTEGER_SINGLE_SAMPLED = (487, 1423)
-"""Devices that offer integer colour attachments no more than one sample, of those that report
-it.
-"""
+"""Devices that offer integer color attachments no more than one sample, of those that report it."""

@@ -63,7 +63,7 @@ def source(table: str) -> str:
     )
     out.append(f"INTEGER_SINGLE_SAMPLED = ({integer.count(1)}, {len(integer)})\n")
     out.append(
-        '"""Devices that offer integer colour attachments no more than one sample, of those that '
+        '"""Devices that offer integer color attachments no more than one sample, of those that '
         'report it."""\n'
     )
     return "".join(out)
