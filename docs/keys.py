@@ -1,10 +1,8 @@
 """Prints keys.md: what the keys of a description mean, and the values of enumerants."""
 
-import inspect
-
 from msaa_lint.frame.description import models
 from msaa_lint.frame.description.reference.enumerants import ENUMERANTS
-from msaa_lint.frame.description.reference.lookup import STRUCTURES, key_parts
+from msaa_lint.frame.description.reference.lookup import STRUCTURES, key_parts, structure_text
 
 HEAD = """\
 # The keys of a description
@@ -33,8 +31,7 @@ def table(name: str) -> str:
                 parts.references,
             )
         )
-    text = (inspect.getdoc(kind) or "").partition("\n\n")[0]
-    return "\n".join([f"## {structure.title}", "", text, "", *rows])
+    return "\n".join([f"## {structure.title}", "", structure_text(kind), "", *rows])
 
 
 if __name__ == "__main__":

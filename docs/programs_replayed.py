@@ -153,7 +153,7 @@ def right(name: str) -> str:
     if name not in RIGHT:
         raise SystemExit(
             f"docs/programs_replayed.py: nothing says who is right about {name}; read the calls, "
-            f"and add it to RIGHT"
+            "and add it to RIGHT"
         )
     return RIGHT[name]
 

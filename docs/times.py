@@ -70,7 +70,7 @@ def main() -> None:
             if each["time_ms"] is None:
                 print(
                     f"| {samples} | {name} | {each['name']} | {each['status']}: {each['reason']} | "
-                    f"| |"
+                    "| |"
                 )
                 continue
             times = each["time_ms"]
@@ -79,7 +79,7 @@ def main() -> None:
             print(f"| {samples} | {name} | {each['name']} | {' | '.join(cells)} |")
     print(
         f"\n{device.get('name')}, {device.get('driver')}, {arguments.size}, {arguments.repeats} "
-        f"repeats: median and its 95 % interval."
+        "repeats: median and its 95 % interval."
     )
 
 

@@ -197,7 +197,7 @@ def rule_list() -> str:
     return (
         "# Rules\n\n"
         f"{len(RULES)} rules. A rule's page has its reasons, with numbers and their source, its "
-        f"examples, and the price of its mistake; "
+        "examples, and the price of its mistake; "
         "`msaa-lint rule NAME` prints it. [Custom rules](../docs/configuration.md#custom-rules) "
         "are pages of the same form.\n\n"
         f'<form class="rule-filters" autocomplete="off">\n{boxes}</form>\n\n'

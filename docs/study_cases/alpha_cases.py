@@ -119,7 +119,7 @@ def alpha_to_coverage() -> Iterator[Row]:
     for samples in COUNTS:
         case = (
             f"dithered, {samples}x: greatest error of a 4x4 block over 256 alphas; naive: the "
-            f"nearest count in every pixel"
+            "nearest count in every pixel"
         )
         every, each = np.repeat(CODES, 16), np.tile(THRESHOLDS, 256)
         exact = np.array(

@@ -183,7 +183,7 @@ def phases() -> Iterator[Row]:
         on_rows = sum(0 in row for row in heights)
         case = (
             f"horizontal edge at 64 phases, {on_rows} of them on sample rows, {samples}x: wrong "
-            f"counts; naive: edges belong to both sides"
+            "counts; naive: edges belong to both sides"
         )
         yield Row("coverage", case, 0, wrong[0], wrong[0], wrong[1])
 

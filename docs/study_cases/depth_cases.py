@@ -64,12 +64,12 @@ def _outline(samples: int) -> Iterator[Row]:
     in_double = sum(float(one.exact) < float(wall.exact) for one, wall in disc)
     case = (
         f"{words}, reversed depth: samples that show it; naive: standard depth; float64: "
-        f"standard depth, not stored in D32_SFLOAT"
+        "standard depth, not stored in D32_SFLOAT"
     )
     yield Row("depth", case, len(disc), held, in_double, _shown(reverse, edge, samples))
     case = (
         f"{words}, standard depth: samples of {len(disc)} for which D32_SFLOAT keeps it in "
-        f"front; naive: planes in float32"
+        "front; naive: planes in float32"
     )
     yield Row("depth", case, held, in_single, in_double, _shown(standard, edge, samples))
     yield _resolved(f"{words}, reversed depth", reverse, samples)
@@ -95,6 +95,6 @@ def _resolved(words: str, scene: Scene, samples: int) -> Row:
         wrong.append(float(sum(float(depth[pixel]) != due for pixel, due in nearest.items())))
     case = (
         f"{words}: pixels of {len(nearest)} resolved to another depth than the nearest; naive: "
-        f"MIN; float64: AVERAGE; ours: MAX"
+        "MIN; float64: AVERAGE; ours: MAX"
     )
     return Row("depth", case, 0, *wrong)

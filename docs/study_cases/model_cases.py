@@ -89,7 +89,7 @@ def models() -> Iterator[Row]:
         between = sum(float(exact_time(technique, cost)) for cost in COSTS[1:]) / 2
         case = (
             f"milliseconds of {name} at a cost between those of {len(measured)} exact times; "
-            f"naive: 1x times its samples; float64: a line"
+            "naive: 1x times its samples; float64: a line"
         )
         yield Row(
             "times",

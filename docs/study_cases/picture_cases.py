@@ -67,7 +67,7 @@ def flickering() -> Iterator[Row]:
         double = changes([float(share) - (1 - step / STEPS) for step, share in enumerate(shares)])
         case = (
             f"flicker of a horizontal edge, {technique.name}; naive: the change of the picture "
-            f"instead of its error"
+            "instead of its error"
         )
         yield Row("as seen", case, exact, changes(shares), double, flicker(scene, technique), 1e-14)
 

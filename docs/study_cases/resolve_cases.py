@@ -287,7 +287,7 @@ def weighted_resolves() -> Iterator[Row]:
         samples = gray(value, 1, 1, 1)
         case = (
             f"weighted resolve of {value:.0f} and three of 1, where negative light counts as "
-            f"none; naive: weight of 1 / (1 + luma)"
+            "none; naive: weight of 1 / (1 + luma)"
         )
         in_single, in_double = (
             floating_weighted(samples, kind) for kind in (np.float32, np.float64)

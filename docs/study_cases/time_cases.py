@@ -117,7 +117,7 @@ def intervals() -> Iterator[Row]:
         )
         case = (
             f"how often the interval of {count} times contains the true median; naive: of "
-            f"resampled medians; float64: Student's t"
+            "resampled medians; float64: Student's t"
         )
         yield Row(
             "times", case, due, resampled, simulated(student, count), simulated(ours, count), 0.01
@@ -130,7 +130,7 @@ def intervals() -> Iterator[Row]:
         )
         case = (
             f"how often two sets of {count} times of the same technique seem to differ; naive: "
-            f"their medians differ; float64: Student's t"
+            "their medians differ; float64: Student's t"
         )
         yield Row(
             "times",

@@ -86,7 +86,7 @@ def _check_once(arguments: Arguments) -> int:
     if arguments.get("verbose"):
         warn(
             f"checked {plural(len(outcome.result.files), 'input')} in {perf_counter() - start:.2f} "
-            f"s"
+            "s"
         )
     if not targets:
         targets = parse_outputs(outcome.settings.output, OUTPUT_FORMATS, EXAMPLE) or [
@@ -106,7 +106,7 @@ def _check_once(arguments: Arguments) -> int:
         if savings.all.findings and savings.all.price is None:
             note(
                 f"{file}: the sizes or formats that price its fixes are unknown, so --fail-on-cost "
-                f"does not apply to it"
+                "does not apply to it"
             )
     return code
 

@@ -186,7 +186,7 @@ def parse_outputs(texts: Sequence[str], formats: Sequence[str], example: str) ->
         raise UsageError(needs_extra("--output html", "html"))
     if sum(target.path is None for target in targets) > 1:
         raise UsageError(
-            f"only one output can go to standard output; write the others to files, as in --output "
+            "only one output can go to standard output; write the others to files, as in --output "
             f"{example}"
         )
     return targets

@@ -185,7 +185,7 @@ def _planned(
                 continue
             problem = (
                 f"{path} is an input, and the description of another one; write that to "
-                f"another folder"
+                "another folder"
             )
         elif target in first:
             problem = (
@@ -236,7 +236,7 @@ def _write(text: str, modules: Mapping[str, bytes], output: str | None, force: b
         if modules:
             note(
                 f"{plural(len(modules), 'shader')} not written; -o FILE writes shaders next to the "
-                f"description"
+                "description"
             )
         return
     if (os.path.isfile(output) or os.path.islink(output)) and not force:

@@ -144,7 +144,7 @@ def write_files(folder: str, hints: bool) -> int:
             # msaa-lint.toml would take its place.
             note(
                 f"{os.path.normpath(configuration.path)} configures msaa-lint: wrote no "
-                f"msaa-lint.toml"
+                "msaa-lint.toml"
             )
             del files["msaa-lint.toml"]
         for name, text in files.items():

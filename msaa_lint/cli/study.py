@@ -200,7 +200,7 @@ def _study(arguments: Arguments, options: StudyOptions) -> int:
     if costs.unstable:
         warn(
             f"the times of {costs.device} had not settled after 3 s: something else may be using "
-            f"the device"
+            "the device"
         )
     studied = [subject for subject in studied if subject.input.name in costs.subjects]
     untimed = _warn_of_failures(costs, errors)

@@ -199,7 +199,7 @@ def _priced(frame: Any, timed: Costs) -> str:
     stated = f", {size[0]}x{size[1]}" if size is not None else ""
     return (
         f"bytes, power, and memory are those of the frame at its described size{stated}, with a "
-        f"technique's sample count"
+        "technique's sample count"
     )
 
 

@@ -103,7 +103,7 @@ def _refuse_options(arguments: Arguments) -> None:
         if arguments.get(name):
             raise UsageError(
                 f"`--watch` changes no files; leave out `--{name}`, or run it once without "
-                f"`--watch`"
+                "`--watch`"
             )
     for output in arguments.get("output", ()):
         if output not in FORMATS:
@@ -153,7 +153,7 @@ class Watched:
             if is_url(path):
                 raise UsageError(
                     f"cannot watch {name_of(path)}: a storage does not say what changes; check it "
-                    f"without --watch"
+                    "without --watch"
                 )
         for path in [os.curdir, *request.paths]:
             loaded = self._configurations.load(path)

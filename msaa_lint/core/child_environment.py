@@ -66,7 +66,7 @@ def ignored_paths() -> list[str]:
     ]
     return [
         f"{name}: paths that are relative or in the project {root} are ignored: name drivers and "
-        f"layers outside it"
+        "layers outside it"
         for name in ignored
     ]
 

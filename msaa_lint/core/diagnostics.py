@@ -103,5 +103,5 @@ def internal_error(error: Exception) -> str:
     text = f": {quoted(str(error), 300)}" if str(error) else ""
     return (
         f"internal error: {type(error).__name__}{text}; please report it with the output of "
-        f"--traceback"
+        "--traceback"
     )

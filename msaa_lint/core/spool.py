@@ -244,7 +244,7 @@ class SpooledDict(Mapping[str, T]):
         rows = ((_stored(key), _dumps(value)) for key, value in self._last.items())
         self._spool.execute_all(
             f"insert into {self._table} values (?, ?) on conflict (key) do update set data = "
-            f"excluded.data",
+            "excluded.data",
             rows,
         )
         self._last = {}

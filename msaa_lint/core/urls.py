@@ -388,7 +388,7 @@ def _reason(error: Exception) -> str:
     if isinstance(error, PermissionError) or getattr(error, "status", None) in (401, 403):
         return (
             f"access denied ({_first_line(error)}): check the credentials in the environment, "
-            f"and what they may read"
+            "and what they may read"
         )
     if _NO_CREDENTIALS.search(kinds):
         return (

@@ -135,7 +135,7 @@ def _frame_end_notes(tracker: Tracker, name: str) -> list[str]:
     if frames.frame_end == "present" and frames.total and not frames.is_marked:
         return [
             f"{name}: the capture presents nothing, so that it is one frame: `--frame-end submit` "
-            f"ends frames at submissions"
+            "ends frames at submissions"
         ]
     return []
 

@@ -95,7 +95,7 @@ def _pieces(stream: BinaryIO, compression: Compression) -> Iterator[bytes]:
             if room < 0:
                 size = f"{MAX_BYTES >> 30} GiB and {MAX_RATIO} times its size"
                 raise StreamFailure(
-                    f"the rest of the capture was not read because it decompresses to more than "
+                    "the rest of the capture was not read because it decompresses to more than "
                     f"{size}",
                     True,
                 )

@@ -149,5 +149,5 @@ def _unconverted(names: Sequence[str]) -> str:
         return f"{names[0]} is a binary capture and was skipped: name it to convert and lint it"
     return (
         f"{len(names)} binary captures were skipped, the first one {names[0]}: name them to "
-        f"convert and lint them"
+        "convert and lint them"
     )

@@ -170,7 +170,7 @@ class FolderSearch:
             if folder.depth > MAX_DEPTH:
                 self.notes.append(
                     f"{shown(folder.path)} is more than {MAX_DEPTH} folders deep: name it to lint "
-                    f"it"
+                    "it"
                 )
                 continue
             try:

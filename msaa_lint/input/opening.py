@@ -62,7 +62,7 @@ def unreadable(error: OSError | Unreadable, name: str) -> Finding:
         return diagnostic(
             "MSAA901",
             f"this is {error}, not an input: name the description, capture, or source code that it "
-            f"is about",
+            "is about",
             name,
         )
     if isinstance(error, MissingExtra):
@@ -346,5 +346,5 @@ def hint(head: bytes) -> str | None:
 def _dump(form: str) -> str:
     return (
         f"api_dump output in {form} format: run the program again with "
-        f"VK_APIDUMP_OUTPUT_FORMAT=json in its environment"
+        "VK_APIDUMP_OUTPUT_FORMAT=json in its environment"
     )

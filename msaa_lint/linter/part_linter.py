@@ -165,7 +165,7 @@ class PartLinter:
             kind = "source code" if isinstance(file.data, SourceFile) else "a capture"
             note = (
                 f"{file.name} is {kind} and is not fixed: `msaa-lint convert` writes a "
-                f"description that can be fixed"
+                "description that can be fixed"
             )
             part = part._replace(notes=[*part.notes, note])
             if is_stdin and isinstance(file.data, SourceFile):
@@ -181,7 +181,7 @@ class PartLinter:
         if write and not is_stdin and os.path.exists(file.path) and not os.path.isfile(file.path):
             note = (
                 f"{file.name} is not a regular file and is not fixed: name `-` to print the "
-                f"fixed text"
+                "fixed text"
             )
             return result, part._replace(notes=[*part.notes, note])
         if write and is_url(file.path):

@@ -122,7 +122,7 @@ def measure(folder: Path, kept: Path) -> tuple[float, float, float, int]:
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
+    parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n\n")[0])
     parser.add_argument("megabytes", nargs="?", type=int, default=100)
     parser.add_argument(
         "--keep", metavar="FOLDER", help="write the tree to this folder, and leave it there"

@@ -210,7 +210,7 @@ def table(folder: str, rounds: int, long_rounds: int) -> list[str]:
     long = measure([pipeline_files, many], long_rounds, folder)
     out = [
         f"Python {sys.version.split()[0]}, {os.cpu_count()} cores, {rounds} and {long_rounds} "
-        f"runs.",
+        "runs.",
         "",
     ]
     out.append("| what | wall ms, least | median | CPU ms, least | median | peak MB | goal |")

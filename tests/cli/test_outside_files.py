@@ -21,7 +21,7 @@ pytestmark = pytest.mark.skipif(os.name != "posix", reason="links and pipes are 
 SECRET = "hunter2"
 FRAME = "images: {color: {format: R8G8B8A8_UNORM, samples: 4, usage: [COLOR_ATTACHMENT]}}\n"
 PAGE = (
-    f"---\ncode: OWN1\nseverity: error\nsubject: image\nwhen: image.samples > 1\nmessage: "
+    "---\ncode: OWN1\nseverity: error\nsubject: image\nwhen: image.samples > 1\nmessage: "
     f'"{SECRET}"\n---\nThe page, {SECRET}.\n'
 )
 BASELINE = '{"schema": "msaa-lint/baseline-v1", "entries": {}}\n'
@@ -125,7 +125,7 @@ def test_a_rule_page_that_links_elsewhere(project: Path, target: str, named: str
     errors = [line for line in done.stdout.splitlines() if "error[" in line]
     problem = (
         f"error[configuration] cannot read the rule page: {OUTSIDE}; only `--rules` can name "
-        f"such a page (MSAA921)"
+        "such a page (MSAA921)"
     )
     assert (done.returncode, errors) == (
         2,

@@ -107,7 +107,7 @@ def test_a_broken_page_comes_first(project: Path) -> None:
     )
     problem = (
         f"msaa-lint: team/{NAME}.md:3:1: rule page `{NAME}`: unknown key `severty`: did you "
-        f"mean `severity`?\n"
+        "mean `severity`?\n"
     )
     for name in (NAME, "acme001"):
         done = run(project, "rule", name)
@@ -139,7 +139,7 @@ def test_the_list_has_custom_rules(project: Path) -> None:
     assert (rows["ACME001"]["page_path"], rows["MSAA201"]["page_path"]) == (f"team/{NAME}.md", None)
     page = run(project, "rule", "--all", "--output", "markdown").stdout
     assert (
-        f"## Custom\n\n| code | rule | severity | summary |\n|---|---|---|---|\n| ACME001 | "
+        "## Custom\n\n| code | rule | severity | summary |\n|---|---|---|---|\n| ACME001 | "
         f"[{NAME}](team/{NAME}.md) | error |" in page
     )
 

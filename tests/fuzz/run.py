@@ -185,7 +185,7 @@ def load(kind: Kind, folder: Path) -> None:
 
 def main() -> int:
     """Fuzzes in rounds over the kinds until the time is over, and prints a table."""
-    parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
+    parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n\n")[0])
     parser.add_argument("--seconds", type=float, help="processor time of all commands together")
     parser.add_argument("--inputs", type=int, help="inputs of each kind, instead of a time")
     parser.add_argument(

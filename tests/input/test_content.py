@@ -91,7 +91,7 @@ OTHERS = {
     '{"app": "packer"}}',
     "translation.yaml": "images: Bilder\npipelines: Leitungen\ncommands: Befehle\nrenderPasses: "
     "Durchgänge\n",
-    "fixture.yaml": f"- name: reads a description\n  text: |\n    "
+    "fixture.yaml": "- name: reads a description\n  text: |\n    "
     f"{FRAME.replace(chr(10), chr(10) + '    ')}\n",
     "words.json": json.dumps(
         {

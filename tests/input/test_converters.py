@@ -168,7 +168,7 @@ def test_a_converter_that_writes_nothing_says_why(folder: Path, bin: Path) -> No
     install(bin, renderdoccmd="echo \"Couldn't load '$5'\" >&2; exit 1")
     done = check(folder, bin, "frame.rdc")
     assert (
-        f"the capture ends here: renderdoccmd failed with exit code 1: Couldn't load "
+        "the capture ends here: renderdoccmd failed with exit code 1: Couldn't load "
         f"'{folder}/frame.rdc' (MSAA901)" in done.stdout
     )
     assert done.returncode == 2

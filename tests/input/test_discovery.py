@@ -161,7 +161,7 @@ def test_a_folder_without_inputs_is_an_error() -> None:
     assert (
         problem.message
         == f"nothing to lint in `f`: inputs are called {names} or contain a Vulkan or Metal frame; "
-        f"name other files"
+        "name other files"
     )
 
 

@@ -454,7 +454,7 @@ def test_a_program_gets_a_copy(put: Put, tmp_path: Path) -> None:
     size = 'test "$(wc -c < "$5")" = 104'
     program.write_text(
         f'#!/bin/sh\ncase "$*" in --help) echo "  --format";; *) {size} && cat \'{CAPTURE}\';; '
-        f"esac\n"
+        "esac\n"
     )
     program.chmod(0o755)
     (tmp_path / "project").mkdir()

@@ -87,7 +87,7 @@ def test_the_installation(clone: Path) -> None:
     done = execute(
         clone,
         f"{extras}\ncd examples\nmsaa-lint study --list-scenes\nmsaa-lint check --fail-confidence "
-        f"high code/forward.cpp",
+        "high code/forward.cpp",
     )
     assert done.returncode == 0, done.stdout + done.stderr
 
@@ -155,7 +155,7 @@ def test_the_snippets_for_ci(clone: Path, tmp_path: Path) -> None:
     done = execute(
         project,
         f"git add renderer && PRE_COMMIT_HOME=$PWD/../cache {sys.executable} -m pre_commit run "
-        f"--color never",
+        "--color never",
     )
     assert done.returncode == 1, done.stdout + done.stderr
     assert (

@@ -295,5 +295,5 @@ def test_the_search_finds_a_rule(browser: Browser, address: str) -> None:  # noq
     ActionChains(browser.driver).send_keys("resolve-outside-pass").perform()
     browser.wait(
         f"return [...({dialog}?.querySelectorAll('a') ?? [])].some(each => "
-        f"each.href.includes('/rules/resolve-outside-pass/'))"
+        "each.href.includes('/rules/resolve-outside-pass/'))"
     )

@@ -135,7 +135,7 @@ def test_a_rule_page_that_fails_is_a_finding_of_the_page(folder: Path, words: st
         code = "ACME1" if name == "acme-one" else "ACME2"
         page = (
             f"---\ncode: {code}\nseverity: warning\nsubject: image\nwhen: image.samples > 1\n"
-            f"message: x\n---\nText.\n"
+            "message: x\n---\nText.\n"
         )
         (folder / f"{name}.md").write_text(page)
     read = registry.read_page

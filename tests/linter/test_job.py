@@ -90,6 +90,6 @@ def test_a_machine_without_the_folder_says_so(
     with pytest.raises(
         Unusable,
         match=f"has no folder {project}: inputs must have the same paths on all machines, or be "
-        f"URLs",
+        "URLs",
     ):
         codes(there, str(project / "msaa-lint.toml"))

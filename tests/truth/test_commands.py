@@ -307,7 +307,7 @@ def legacy(
         f"images:\n{lines}renderPasses:\n  p:\n    attachments:\n{attachments}    subpasses:\n     "
         f" - {subpass}\nframebuffers:\n{buffers}"
         f"commands:\n  - beginRenderPass: {{renderPass: p, framebuffer: f0{begin}}}\n  - "
-        f"endRenderPass\n"
+        "endRenderPass\n"
     )
 
 

@@ -93,7 +93,7 @@ def frame(subpasses: list[str], dependencies: str) -> str:
     pairs = (pair.split() for pair in dependencies.split(",") if pair)
     stated = "".join(
         f"      - {{srcSubpass: {source}, dstSubpass: {target}, srcStageMask: [ALL_GRAPHICS], "
-        f"dstStageMask: [ALL_GRAPHICS], "
+        "dstStageMask: [ALL_GRAPHICS], "
         "srcAccessMask: [MEMORY_WRITE], dstAccessMask: [MEMORY_READ, MEMORY_WRITE]}\n"
         for source, target in pairs
     )

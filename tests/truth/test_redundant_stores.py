@@ -44,7 +44,7 @@ def codes(aspect: str, samples: int, between: str, passes: str = "") -> list[str
     )
     images = "".join(
         f"  {name}: {{format: {format}, samples: {samples}, usage: [{usage}_ATTACHMENT, SAMPLED, "
-        f"TRANSFER_SRC, TRANSFER_DST], "
+        "TRANSFER_SRC, TRANSFER_DST], "
         "extent: {width: 64, height: 64}}\n"
         for name in "ab"
     )

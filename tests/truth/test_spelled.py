@@ -160,9 +160,9 @@ def test_a_fix_of_one_of_two_structures_with_an_anchor(kept: str) -> None:
 
     def text(one: str, other: str) -> str:
         usages = TWO.replace(f"{kept}: {{format: R8G8B8A8_UNORM, samples: 4, usage: "
-            f"[COLOR_ATTACHMENT, TRANSIENT_ATTACHMENT]",
+            "[COLOR_ATTACHMENT, TRANSIENT_ATTACHMENT]",
                              f"{kept}: {{format: R8G8B8A8_UNORM, samples: 4, usage: "
-                             f"[COLOR_ATTACHMENT, SAMPLED]")  # fmt: skip
+                             "[COLOR_ATTACHMENT, SAMPLED]")  # fmt: skip
         return usages.replace("ONE", one).replace("OTHER", other) + read
 
     plain = text(f"{{image: a, {STORED}}}", f"{{image: b, {STORED}}}")

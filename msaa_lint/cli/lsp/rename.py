@@ -90,7 +90,7 @@ def rename(view: View, offset: int, new: str) -> list[Edit]:
     ):
         raise Refused(
             f"{quoted(new)} cannot be a name; write 1 to {MAX_NAME} visible characters, without "
-            f"blanks around them"
+            "blanks around them"
         )
     anchored = anchor_at(view.text, offset)
     if anchored is not None:

@@ -34,7 +34,7 @@ def _command(finding: Finding, result: Result, options: Options) -> str:
     joined = "".join(f"{name}={_property(str(value))};" for name, value in properties.items())
     text = "\n".join(annotation_lines(finding, options))
     return (
-        f"##vso[task.logissue "
+        "##vso[task.logissue "
         f"{joined}]{_data(('note: ' if note else '') + f'{display(finding.rule)}: {text}')}"
     )
 

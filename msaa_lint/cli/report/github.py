@@ -60,7 +60,7 @@ def render(result: Result, out: Write, options: Options) -> None:
         out(f"::notice title=msaa-lint::{plural(left_out, 'more finding')}, {where}\n")
     if problem:
         out(
-            f"::warning "
+            "::warning "
             f"title=msaa-lint::{_data('cannot write the summary of this step: ' + display(problem))}\n"  # noqa: E501
         )
 

@@ -137,7 +137,7 @@ def _capture_line(summary: InputSummary, options: Options) -> str:
     if capture.dropped_frames:
         parts.append(
             f"{plural(capture.dropped_frames, 'frame')} not checked, because there are too many "
-            f"kinds of frame"
+            "kinds of frame"
         )
     if capture.left_out:
         parts.append(f"without {display(capture.left_out)}")

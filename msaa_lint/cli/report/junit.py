@@ -100,7 +100,7 @@ def _case(finding: Finding, path: str, result: Result, options: Options) -> str:
     severity = f"<properties><property{_attributes(name='severity', value=finding.severity)}/></properties>"  # noqa: E501
     return (
         f"    <testcase{_attributes(**attributes)}>\n      {severity}\n      {body}\n    "
-        f"</testcase>\n"
+        "</testcase>\n"
     )
 
 

@@ -49,7 +49,7 @@ def render(result: Result, out: Write, options: Options) -> None:
         if len(details) > left:
             out(
                 f"\nThe details of {plural(len(result.findings) - done, 'more finding')} do not "
-                f"fit into this comment.\n"
+                "fit into this comment.\n"
             )
             return
         left -= len(details)

@@ -66,9 +66,9 @@ def render(result: Result, out: Write, options: Options) -> None:
     out("}},\n")
     out('"columnKind": "unicodeCodePoints",\n')
     out(
-        f'"invocations": '
+        '"invocations": '
         f"[{dump(_invocation(result, options, max(levels.total() - MAX_RESULTS, 0)))}],\n"
-        f'"results": '
+        '"results": '
     )
     write_list(
         (

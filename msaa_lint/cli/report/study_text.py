@@ -20,7 +20,7 @@ def software_warning(study: Study) -> str:
     """What holds for the times of a software driver."""
     return (
         f"{display(study.device)} is a software driver: its times say nothing about a GPU, and "
-        f"nothing is recommended from them"
+        "nothing is recommended from them"
     )
 
 
@@ -93,7 +93,7 @@ def _effects(scene: SceneSummary, study: Study) -> Iterator[str]:
         yield "no effects: the scene needs none"
     elif times:
         yield (
-            f"off, without taking any time: "
+            "off, without taking any time: "
             f"{', '.join(effect.name for effect in TABLE if effect.name not in ran)}"
         )
 
@@ -158,7 +158,7 @@ def summary(study: Study) -> Iterator[str]:
         else:
             yield (
                 f"{MARK} Pareto-optimal: no other technique has less error for as few samples, "
-                f"shader invocations, and bytes"
+                "shader invocations, and bytes"
             )
         if study.device:
             yield from _timing(study)

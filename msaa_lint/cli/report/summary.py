@@ -148,7 +148,7 @@ def fixable(result: Result) -> list[str]:
             verb = "is" if count == 1 else "are"
             lines.append(
                 f"{plural(count, 'file')} {verb} too large to try fixes here; {first}`check "
-                f"--diff` tries them"
+                "--diff` tries them"
             )
     return lines
 

@@ -72,7 +72,7 @@ def explanation(result: Result, options: Options) -> Iterator[str]:
             name = display_path(each.file, options.root)
             yield (
                 f"{name}: undecided rules of source code are not listed; complete the "
-                f"description that `msaa-lint convert` writes"
+                "description that `msaa-lint convert` writes"
             )
 
 

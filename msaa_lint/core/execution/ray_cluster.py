@@ -204,7 +204,7 @@ def _task_function(wanted: str) -> Callable[[str, list[Any], bytes], bytes | str
         except ImportError:
             return (
                 f"at {ray.util.get_node_ip_address()} has no msaa-lint; install {wanted} there, "
-                f"as here"
+                "as here"
             )
         if found != wanted:
             return (

@@ -60,7 +60,7 @@ def in_brackets(text: str, at: int, outline: Outline) -> Problem:
         after = shown(text, last.start_mark.index, end)
         return syntax(
             f"expected a value or a key after {after}, found {shown(text, at, at + 1)}; remove one "
-            f"of them",
+            "of them",
             at,
             at + 1,
         )
@@ -75,7 +75,7 @@ def in_brackets(text: str, at: int, outline: Outline) -> Problem:
         quotes = f"the closing quote of {shown(text, last.start_mark.index, end)}"
         message = (
             f'{shown(text, at)} follows {quotes}; a quote is missing, or a `\\"` for one in '
-            f"the text"
+            "the text"
         )
         return syntax(
             message, at, at + 1, Label(Span(last.start_mark.index, end), "the quotes end here")

@@ -20,7 +20,7 @@ def merge(node: Node) -> None:
     for base in bases:
         if base.kind != "mapping":
             message = (
-                f"`<<` must be a mapping or a list of mappings, found "
+                "`<<` must be a mapping or a list of mappings, found "
                 f"{quoted(base.text) if base.kind == 'scalar' else 'a list'}"
             )
             raise Stop(

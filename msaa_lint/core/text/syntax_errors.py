@@ -77,12 +77,12 @@ def _in_quotes(text: str, at: int, begin: int, said: str) -> Problem:
     if letter and letter in _HEX:
         message = (
             f"`\\{letter}` must be followed by {_HEX[letter]} hexadecimal digits of a "
-            f"character; write `\\\\` for a backslash"
+            "character; write `\\\\` for a backslash"
         )
         return syntax(message, start, start + 2)
     return syntax(
         f"`\\{letter}` is not an escape in double quotes; write `\\\\` for a backslash, or `/` in "
-        f"a path",
+        "a path",
         start,
         start + 2,
     )
@@ -101,7 +101,7 @@ def _directive(text: str, at: int) -> Problem:
     if re.match(r"%YAML\b", line):
         return syntax(
             f"{quoted(line, MAX_SHOWN)} is not a version of YAML that is read; remove the line, or "
-            f"write `%YAML 1.2`",
+            "write `%YAML 1.2`",
             start,
             start + len(line),
         )
@@ -135,7 +135,7 @@ def _indicator(text: str, at: int, begin: int, said: str, context: str) -> Probl
         kind = "an alias" if star == "*" else "an anchor"
         return syntax(
             f"`{star}` begins {kind}, so a name must follow; put the value in quotes if `{star}` "
-            f"is part of it",
+            "is part of it",
             begin,
         )
     if " tag" in context:
@@ -143,7 +143,7 @@ def _indicator(text: str, at: int, begin: int, said: str, context: str) -> Probl
     if "block scalar" in context:
         return syntax(
             f"{shown(text, begin)} begins a text on the following lines, and nothing may follow it "
-            f"on its line; put the value in quotes",
+            "on its line; put the value in quotes",
             begin,
         )
     if "mapping keys are not allowed" in said:
@@ -229,7 +229,7 @@ def _second_colon(text: str, at: int) -> Problem:
     if key.endswith(":") and column is not None:
         message = (
             f"{shown(text, body, at)} is indented deeper than {quoted(key[:-1], MAX_SHOWN)}, "
-            f"which has a value already; align them"
+            "which has a value already; align them"
         )
         return syntax(
             message,
@@ -281,7 +281,7 @@ def _after_value(text: str, at: int, last: Any) -> Problem:
     after = f"`{text[end - 1]}`" if text[end - 1 : end] in ("]", "}") else shown(text, start, end)
     return syntax(
         f"{shown(text, at)} follows {after} on the same line; remove it, or put it on a line of "
-        f"its own",
+        "its own",
         at,
     )
 
@@ -314,14 +314,14 @@ def _after_document(text: str, at: int) -> Problem:
     if column < least:
         message = (
             f"{shown(text, at)} is indented less than the first line, {shown(text, begin)}; "
-            f"align them"
+            "align them"
         )
         return syntax(
             message, at, None, Label(Span(begin, begin + 1), "the first line begins here")
         )
     return syntax(
         f"{shown(text, at)} follows the end of the document; indent it as the other keys, or put a "
-        f"line `---` before it",
+        "line `---` before it",
         at,
     )
 
@@ -354,7 +354,7 @@ def _stray_item(text: str, at: int, outline: Outline) -> Problem:
     )
     return syntax(
         f"a list item cannot stand{among}; remove its `- `, or indent it below the key that it "
-        f"belongs to",
+        "belongs to",
         at,
     )
 

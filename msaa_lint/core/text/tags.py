@@ -46,7 +46,7 @@ def apply_tag(node: Node, tag: str, text: str) -> Problem | None:
         return Problem(
             "MSAA903",
             f"the tag {shown} is not supported; put the value in quotes if `!` is part of it, or "
-            f"use a tag of YAML's core schema",
+            "use a tag of YAML's core schema",
             span,
         )
     if node.kind != _KINDS[core] or not _matches(node, core):

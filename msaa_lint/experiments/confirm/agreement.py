@@ -262,7 +262,7 @@ def _not_checked(family: Family, about: Sequence[Subject], layer: LayerScope, ki
     if scope.device:
         return (
             f"it checks against {layer.device} and what is enabled there, not against the "
-            f"device that the description is for"
+            "device that the description is for"
         )
     if scope.instead:
         return f"it checks {scope.instead}"

@@ -209,7 +209,7 @@ class _Merged:
             devices = f"{known.name} ({known.driver}) and {found.name} ({found.driver})"
             self._last = Outcome(
                 unusable=f"the workers of the cluster have different devices, {devices}: name one "
-                f"with `--device`"
+                "with `--device`"
             )
             return
         self._last = outcome._replace(verdicts=(), pictures=())

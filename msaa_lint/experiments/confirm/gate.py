@@ -173,7 +173,7 @@ def _image(image: Image, offered: DeviceSupport) -> Iterator[str]:
     if image.tiling == MODIFIER_TILING:
         yield (
             f"{image.name} has the tiling DRM_FORMAT_MODIFIER_EXT, whose modifiers are not "
-            f"described"
+            "described"
         )
     side = {0: "maxImageDimension1D", 2: "maxImageDimension3D"}.get(
         image.type, "maxImageDimension2D"
@@ -193,7 +193,7 @@ def _image(image: Image, offered: DeviceSupport) -> Iterator[str]:
     ):
         yield (
             f"{image.name} has {image.samples} samples, which requires a 2D image with optimal "
-            f"tiling, one mip level and no cube faces"
+            "tiling, one mip level and no cube faces"
         )
     name = format_name(image.format)
     support = offered.formats.get(str(image.format))
@@ -240,7 +240,7 @@ def _mixed(plan: Plan, frame_pass: Pass, offered: DeviceSupport) -> Iterator[str
             counts = _list(distinct_counts)
             yield (
                 f"its attachments differ in their sample counts ({counts}), which cannot be "
-                f"rendered together on this device"
+                "rendered together on this device"
             )
         pipeline_counts = [p.samples for p in frame_pass.pipelines if p.subpass == subpass]
         if (

@@ -121,7 +121,7 @@ class Verdict(NamedTuple):
         if outcome.created is False and not has_errors:
             reasons.append(
                 f"it cannot be created ({outcome.error or 'no reason given'}), but no rule reports "
-                f"an error"
+                "an error"
             )
         if outcome.created and fixed is not None and fixed.created is False:
             reasons.append(

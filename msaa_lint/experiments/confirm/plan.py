@@ -193,7 +193,7 @@ class _Plan:
             # Descriptions do not state the levels, layers, and regions of a transfer.
             self.notes.append(
                 f"{command.kind} from {images[0].name} to itself, between levels or layers that "
-                f"are not stated, is ignored"
+                "are not stated, is ignored"
             )
             return
         forbidden = forbidden_samples(kind, images)
@@ -205,7 +205,7 @@ class _Plan:
                 (
                     current,
                     f"{command.kind} of {images[0].name} needs maintenance10, which confirm does "
-                    f"not enable",
+                    "not enable",
                 )
             )
             return

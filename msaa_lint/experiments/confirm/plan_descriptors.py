@@ -147,7 +147,7 @@ def _image(made: Descriptor, reflected: Reflected, image: ImageType, where: str)
     if view == NONE:
         raise Unmakeable(
             f"has a {_WORDS[reflected.kind]} of the dimensionality {image.dimension} at {where}, "
-            f"which Vulkan does not have"
+            "which Vulkan does not have"
         )
     name = _SAMPLED[image.component]
     compares = made.compares or (image.depth and reflected.kind == bindings.COMBINED)

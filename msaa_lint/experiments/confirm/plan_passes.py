@@ -471,7 +471,7 @@ class Passes:
         if info.storeOp is None:
             self.notes.append(
                 f"storeOp of {info.path} is not stated: {'DONT_CARE' if transient else 'STORE'} is "
-                f"assumed"
+                "assumed"
             )
         target = self.images.named(info.resolveImage)
         mode = self._resolve_mode(info, image, target)
@@ -500,7 +500,7 @@ class Passes:
         ].numeric not in ("UINT", "SINT")
         self.notes.append(
             f"resolveMode of {info.path} is not stated: {'AVERAGE' if averages else 'SAMPLE_ZERO'} "
-            f"is assumed"
+            "is assumed"
         )
         return 2 if averages else 1
 

@@ -116,7 +116,7 @@ def _reflected(code: bytes, record: ShaderStage, path: str, title: str) -> Refle
     if feedback is not None:
         raise Unmakeable(
             f"reads what it writes to set {feedback.set}, binding {feedback.binding}, so that "
-            f"pictures may differ"
+            "pictures may differ"
         )
     return reflected
 
@@ -130,7 +130,7 @@ def _code(path: str, title: str, folder: str) -> bytes | None:
     except Outside:
         raise UnusableShader(
             f"{title} is refused: {quoted_path(path)} is outside the project; move it into the "
-            f"project"
+            "project"
         ) from None
     except (OSError, Unreadable) as error:
         reason = (error.strerror if isinstance(error, OSError) else None) or str(error)

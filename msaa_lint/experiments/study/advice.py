@@ -108,7 +108,7 @@ def _counts(
         off_center = abs(after.point.bias) > max(MIN_OFF_CENTER, 1.5 * abs(before.point.bias))
         if after.technique.samples == 16 and off_center and after.error > MAX_SAME * before.error:
             reason = (
-                f"the mean of its sample locations is off the pixel center, a bias of "
+                "the mean of its sample locations is off the pixel center, a bias of "
                 f"{after.point.bias:+.4f}"
             )
             yield f"{after.name} is no better than {before.name} here", reason
@@ -138,7 +138,7 @@ def _shading(
         base, more = plain[best.technique.samples], plain.get(2 * best.technique.samples)
         reason = (
             f"{_against(best, base, measure)}: the error lies inside triangles, which "
-            f"multisampling shades once per pixel"
+            "multisampling shades once per pixel"
         )
         if more is not None:
             reason += f"; {more.name} without it leaves {_percent(more.error, base.error)}"
@@ -234,7 +234,7 @@ def worth_advice(
     removed, added = percent(1 - MAX_REMAINING)[1:], percent(MAX_ADDED)[1:]
     reason = (
         f"at least {removed} less {measure.name} for at most {added} more time than the count "
-        f"before"
+        "before"
     )
     calibrated = [
         f"{shading.name} is {shading.full_screen_ms:.3g} ms"
@@ -265,7 +265,7 @@ def _worth_costs(step: Worth) -> str:
         )
     where = (
         f"{'from' if step.at_greatest else 'up to'} about {step.full_screen_ms:.2g} ms of "
-        f"shading a full screen"
+        "shading a full screen"
     )
     if step.low_ms is None or step.high_ms is None:
         return f"{where} (within the model's residuals perhaps at every measured cost, or at none)"

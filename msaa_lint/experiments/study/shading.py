@@ -96,7 +96,7 @@ def missed(shading: Shading) -> str:
         return ""
     return (
         f"{shading.full_screen_ms / FRAME_MS:.1%} of a frame at 60 Hz, not {share:.1%}: no "
-        f"nearer cost was found on this device"
+        "nearer cost was found on this device"
     )
 
 

@@ -122,7 +122,7 @@ class Simulator:
         if len(storing) > 1:
             raise ValueError(
                 f"{' and '.join(name for name, _ in storing)} exclude each other: a sample is "
-                f"stored in one format"
+                "stored in one format"
             )
         return storing[0] if storing else None
 

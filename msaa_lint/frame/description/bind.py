@@ -149,7 +149,7 @@ class Binder(ValueBinder):
         """Reports a key that lacks the indentation to be part of the value of the key above it."""
         message = (
             f"{quoted(key.text)} must be indented deeper than {quoted(above)}, which has no "
-            f"value without it"
+            "value without it"
         )
         self.report("MSAA903", message, key.span, f"{path}.{shortened(above)}".lstrip("."))
 

@@ -127,7 +127,7 @@ def key_hint(kind: type[Record], name: str, value: Node) -> str:
     if hidden is not None:
         return (
             f": it contains the invisible character U+{ord(hidden):04X}; write ordinary spaces, "
-            f"or delete it"
+            "or delete it"
         )
     if value.kind == "mapping" and value.value and all(key in kind.SHAPE for key in value.value):
         return f": write its keys {', '.join(value.value)} directly"

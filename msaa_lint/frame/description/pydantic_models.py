@@ -8,7 +8,6 @@ longer to import than the rest of a run.
 
 from __future__ import annotations
 
-import inspect
 import re
 import warnings
 from collections.abc import Callable
@@ -41,7 +40,7 @@ from pydantic_core import CoreSchema
 from .members import MAX_UINT32
 from .models import AttachmentReference, Command
 from .record import Record
-from .reference.lookup import STRUCTURES, key_text
+from .reference.lookup import STRUCTURES, key_text, structure_text
 from .scalars import (
     EXTERNAL,
     MAX_SHADING,
@@ -148,7 +147,7 @@ def model_of(kind: type[Record]) -> type[Structure]:
         model = create_model(
             kind.__name__,
             __base__=base,
-            __doc__=(inspect.getdoc(kind) or "").partition("\n\n")[0],
+            __doc__=structure_text(kind),
             **members,
         )
     model.model_config["title"] = STRUCTURES[kind.__name__].title

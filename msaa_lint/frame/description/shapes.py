@@ -1,30 +1,27 @@
 """What a member of a description may hold, as data that a reader follows without pydantic.
 
-A shape is a tuple of a kind and its parameters:
+A shape is a tuple of a kind and its parameters. What an input may state, by shape:
 
-| shape | what an input may state |
-|---|---|
-| `("text",)`, `("bool",)` | a string; `true` or `false` |
-| `("int", low, high)`, `("number", positive)` | an integer in a range; a finite number, above 0 if
-`positive` |
-| `("share",)` | a fraction above 0 and up to 1 |
-| `("samples",)` | a sample count: `4`, `SAMPLE_COUNT_4` or `VK_SAMPLE_COUNT_4_BIT` |
-| `("shading",)` | a cost of shading: `medium`, `200`, `200ops`, `500000ns` or `4.2ms` |
-| `("enum", enums)`, `("flags", enum)` | an enumerant of one of the enums, which `|` joins; a list
-of flag bits, or names joined by `|` |
-| `("word", words)`, `("caseless", words)` | one of some words; one of some lowercase words, written
-in any case |
-| `("name", section)` | the name of an entry of a section, such as `images` or `metal.textures`;
-names may be integers, as keys may |
-| `("slot",)` | an attachment of the same render pass: a name, an index, `{attachment, layout}`, or
-null for VK_ATTACHMENT_UNUSED |
-| `("subpass",)` | the index of a subpass, or VK_SUBPASS_EXTERNAL |
-| `("record", class)`, `("command", class)` | a structure; a recorded command |
-| `("list", item[, maximum])` | a list, of `maximum` items at most |
-| `("map", item)`, `("numbered", item[, highest])` | a mapping by name; a mapping by number |
-| `("counted", item)` | a list, or a mapping whose names are in index order |
-| `("null", shape)`, `("either", shape, ...)` | null or a shape; the first shape of the value's kind
-|
+- `("text",)`, `("bool",)`: a string; `true` or `false`;
+- `("int", low, high)`, `("number", positive)`: an integer in a range; a finite number, above 0 if
+  `positive`;
+- `("share",)`: a fraction above 0 and up to 1;
+- `("samples",)`: a sample count: `4`, `SAMPLE_COUNT_4` or `VK_SAMPLE_COUNT_4_BIT`;
+- `("shading",)`: a cost of shading: `medium`, `200`, `200ops`, `500000ns` or `4.2ms`;
+- `("enum", enums)`, `("flags", enum)`: an enumerant of one of the enums, which `|` joins; a list of
+  flag bits, or names joined by `|`;
+- `("word", words)`, `("caseless", words)`: one of some words; one of some lowercase words, written
+  in any case;
+- `("name", section)`: the name of an entry of a section, such as `images` or `metal.textures`;
+  names may be integers, as keys may;
+- `("slot",)`: an attachment of the same render pass: a name, an index, `{attachment, layout}`, or
+  null for VK_ATTACHMENT_UNUSED;
+- `("subpass",)`: the index of a subpass, or VK_SUBPASS_EXTERNAL;
+- `("record", class)`, `("command", class)`: a structure; a recorded command;
+- `("list", item[, maximum])`: a list, of `maximum` items at most;
+- `("map", item)`, `("numbered", item[, highest])`: a mapping by name; a mapping by number;
+- `("counted", item)`: a list, or a mapping whose names are in index order;
+- `("null", shape)`, `("either", shape, ...)`: null or a shape; the first shape of the value's kind.
 """
 
 import sys

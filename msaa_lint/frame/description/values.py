@@ -182,7 +182,7 @@ class ValueBinder:
         if cost is None:
             expected = (
                 f"{', '.join(SHADING_LEVELS)}, or a cost of at most 1000000ops, "
-                f"1000000000ns or 1000ms"
+                "1000000000ns or 1000ms"
             )
             self.mismatch(
                 node,

@@ -218,7 +218,7 @@ class FrameAnalysis:
             uses, most = uses_at_most(self.frame), max_uses(self.frame)
             yield (
                 f"passes use images {uses} times, more than the limit of {most}; rules about "
-                f"what happens between passes are undecided"
+                "what happens between passes are undecided"
             )
         if self.search.steps_left < 0:
             yield (

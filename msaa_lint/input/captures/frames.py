@@ -76,22 +76,22 @@ them grow faster than the capture.
 
 REPEATED = (
     f"a frame executes command buffers again that have {MAX_REPEATED:,} commands together; "
-    f"further repetitions are not checked"
+    "further repetitions are not checked"
 )
 TOO_LONG = (
     f"a frame has more than {MAX_FRAME_COMMANDS:,} commands; those after them are not checked"
 )
 TOO_MANY_RECORDED = (
     f"a command buffer records more than {MAX_COMMANDS:,} commands; those after "
-    f"them are not checked"
+    "them are not checked"
 )
 TOO_MANY_IN_PASS = (
     f"a pass has more than {MAX_PASS_COMMANDS:,} different commands; those after "
-    f"them are not checked"
+    "them are not checked"
 )
 TOO_MANY_MERGED = (
     f"later frames add more than {MAX_MERGED:,} commands to the passes of earlier "
-    f"ones; those after them are not checked"
+    "ones; those after them are not checked"
 )
 TOO_MUCH_WORK = (
     "frames execute far more commands, or read far more images, than the capture "

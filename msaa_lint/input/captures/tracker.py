@@ -65,7 +65,7 @@ MIN_DESTROYED = 4096
 
 TOO_MANY_STRUCTURES = (
     f"render passes and pipelines have more than {MAX_CONTAINERS:,} structures; "
-    f"further ones are not followed"
+    "further ones are not followed"
 )
 
 MAX_STAGES = 16

@@ -57,7 +57,7 @@ def problem_of(name: str, value: bool | int | str | None, text: str) -> str:
     if NAME.match(name) is None:
         return (
             f"{quoted(name)} is not a name; write a variable, a member, a call without "
-            f"arguments, or a macro"
+            "arguments, or a macro"
         )
     if value is None:
         return f"{quoted(text)} is not a value; write true, false, an integer, or an enumerant"
@@ -83,7 +83,7 @@ def stated(
                     Remark(
                         "MSAA906",
                         f"limit exceeded: more than {MAX_ASSUMPTIONS} assumptions; those from here "
-                        f"on are not read",
+                        "on are not read",
                         at,
                     )
                 )

@@ -145,7 +145,7 @@ def _reason(definition: _Definition | None, name: str, is_call: bool) -> str:
     if definition is None:
         return (
             f"is {'defined' if is_call or _MACRO.match(name) else 'declared'} nowhere in what "
-            f"was read"
+            "was read"
         )
     verb = "defined" if definition.kind == "function" else "declared"
     declared = f"{verb} in {definition.place}" if definition.place else f"{verb} elsewhere"

@@ -73,7 +73,7 @@ def check(binder: Binder, description: Description) -> None:
         ):
             message = (
                 f"`{record.colorFormat}` requires Metal: the engine has no extended-range "
-                f"formats on Vulkan"
+                "formats on Vulkan"
             )
             binder.report(
                 "MSAA903", message, record.place("colorFormat"), f"{record.path}.colorFormat"

@@ -35,7 +35,7 @@ def check_order(binder: Binder, description: Description) -> None:
             if opened is None:
                 message = (
                     f"`{name}` ends nothing, as no `{_BEGINS[name]}` is open; remove it, or "
-                    f"begin the render pass before it"
+                    "begin the render pass before it"
                 )
                 binder.report("MSAA904", message, command.head, command.path)
                 return

@@ -191,7 +191,7 @@ def _report_unknown(
         hint = f"; the description has no `{section}`"
     elif not hint:
         hint = (
-            f"; write one of "
+            "; write one of "
             f"{', '.join(map(shortened, islice(names, 8)))}{', …' if len(names) > 8 else ''}"
         )
     binder.report("MSAA904", f"{message}{hint}", span, path)
@@ -368,7 +368,7 @@ def _framebuffer(binder: Binder, framebuffer: Framebuffer, description: Descript
             f"`attachments` has {_count(count, 'image')}, but render pass "
             f"{quoted(framebuffer.renderPass or '')} has "
             f"{_count(expected, 'attachment')} ({names}{', …' if expected > 8 else ''}); list one "
-            f"image for each"
+            "image for each"
         )
         binder.report(
             "MSAA903", message, framebuffer.place("attachments"), f"{framebuffer.path}.attachments"

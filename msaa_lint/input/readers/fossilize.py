@@ -168,7 +168,7 @@ class _Database:
         if head[-1] not in VERSIONS:
             raise CaptureError(
                 f"Fossilize database version {head[-1]} is not supported; convert it to version 5 "
-                f"or 6",
+                "or 6",
                 Place(),
             )
         at = HEADER

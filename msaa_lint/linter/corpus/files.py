@@ -51,7 +51,7 @@ def corpus_files(paths: Sequence[str]) -> list[CorpusFile]:
         if not inside:
             raise CorpusError(
                 f"{path}: no corpus in this folder; `msaa-lint check --output "
-                f"parquet=findings.parquet` writes one"
+                "parquet=findings.parquet` writes one"
             )
         found += inside
     return found
@@ -89,7 +89,7 @@ def _file(path: str) -> CorpusFile:
         return CorpusFile(path, name, None)
     raise CorpusError(
         f"{name}: not a corpus: expected a file that `msaa-lint check` wrote with `--output "
-        f"parquet=FILE` or `sqlite=FILE`"
+        "parquet=FILE` or `sqlite=FILE`"
     )
 
 

@@ -174,7 +174,7 @@ def _groups(database: Database, keys: tuple[str, ...], top: int | None) -> tuple
         f"quantile_cont(traffic::DOUBLE, {fraction}) FILTER (priced)" for fraction in _PERCENTILES
     )
     order = (
-        f"sum(power) FILTER (priced) DESC NULLS LAST, sum(memory) FILTER (priced) DESC NULLS "
+        "sum(power) FILTER (priced) DESC NULLS LAST, sum(memory) FILTER (priced) DESC NULLS "
         f"LAST, count(*) DESC, {grouping}"
     )
     limit = f"ORDER BY {order} {_limit(top)}"
@@ -233,7 +233,7 @@ def _since(database: Database, runs: Sequence[Run], top: int | None) -> Since:
     ):
         database.rows(
             f"CREATE TEMP TABLE {name} AS SELECT * FROM {these} ANTI JOIN {others} USING (input, "
-            f"rule, object, number)"
+            "rule, object, number)"
         )
     changes = database.rows(f"""
         SELECT rule, count(*) FILTER (is_new), count(*) FILTER (NOT is_new),
@@ -297,7 +297,7 @@ def _remarks(old: Sequence[Run], new: Sequence[Run]) -> list[str]:
             )
             remarks.append(
                 f"the earlier run had another {word}{stated}: findings may be new or gone because "
-                f"of it"
+                "of it"
             )
     return remarks
 

@@ -58,7 +58,7 @@ FINDINGS = Table(
         ),
         _FRAME._replace(
             meaning=f"{_FRAME.meaning} Of several with the same mistake, the first. Null for a "
-            f"finding about a file."
+            "finding about a file."
         ),
         Column(
             "pass",

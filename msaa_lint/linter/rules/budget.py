@@ -112,7 +112,7 @@ class Budget:
             self.off.add(page)
             raise OverBudget(
                 f"it has used up its part of the {self.steps} steps that the custom rules of a run "
-                f"may take"
+                "may take"
             )
         self.spend(page, steps)
 

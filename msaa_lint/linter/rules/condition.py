@@ -84,7 +84,7 @@ class Condition:
             raise ConditionError("the pattern of `matches` must be a text in quotes")
         if str(self._program.return_type()) != "BOOL":
             raise ConditionError(
-                f"the condition must be a boolean expression, found "
+                "the condition must be a boolean expression, found "
                 f"{str(self._program.return_type()).lower()}"
             )
 
@@ -160,7 +160,7 @@ def check(text: str, subject: str) -> None:
     if len(re.findall(_MACRO, _STRING.sub(" ", text))) > _MAX_MACROS:
         raise ConditionError(
             f"the condition uses all, exists, exists_one, map and filter more than {_MAX_MACROS} "
-            f"times"
+            "times"
         )
     Condition(text, subject).must_decide()
     for fact, literal, offset, length in literals(text):

@@ -129,7 +129,7 @@ def _unread(path: str, shown: str, budget: Budget) -> Page:
     """A page for which nothing of the budget is left."""
     message = (
         f"it was not read: the pages before it took the {budget.steps} steps that the custom "
-        f"rules of a run may take"
+        "rules of a run may take"
     )
     return Page(None, (page_problem(_name(path), shown, message, Span(0, 0)),))
 

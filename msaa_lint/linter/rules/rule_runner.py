@@ -203,7 +203,7 @@ class RuleRunner:
                     findings.append(
                         rule.problem(
                             f"{error}; it was turned off at {shortened(file, 200)}, and not run "
-                            f"from there on",
+                            "from there on",
                             at,
                         )
                     )

@@ -298,7 +298,7 @@ class TableReader:
             return text and text.rstrip("/")
         hint = (
             f"expected {expected}, of at most {MAX_ADDRESS} characters, without user name, "
-            f"query, and fragment; or an empty string"
+            "query, and fragment; or an empty string"
         )
         self.problem(path, f"{quoted(text)} is not an http or https address", hint)
         return None

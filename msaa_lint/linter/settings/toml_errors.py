@@ -39,7 +39,7 @@ def _mistake(text: str, at: int, start: int, rest: str, said: str) -> tuple[str,
         slash = max(text.rfind("\\", start, at + 1), start)
         return (
             f"`{text[slash : slash + 2]}` is not an escape in double quotes; write `\\\\`, or put "
-            f"the text in single quotes",
+            "the text in single quotes",
             slash,
             slash + 2,
         )
@@ -98,7 +98,7 @@ def _mistake(text: str, at: int, start: int, rest: str, said: str) -> tuple[str,
     if "statement" in said and "after" in said:
         return (
             f"{quoted(rest, MAX_SHOWN)} follows the value; put it on a line of its own, or after "
-            f"`#`",
+            "`#`",
             at,
             None,
         )

@@ -76,7 +76,7 @@ def load(path: str, project: str | None) -> Baseline | Refused:
                 diagnostic(
                     "MSAA921",
                     f"cannot read the baseline: {error}; only the command line can name such a "
-                    f"file",
+                    "file",
                     name,
                 ),
             )

@@ -90,7 +90,7 @@ def read(
             if count > MAX_ENTRIES:
                 message = (
                     f"limit exceeded: suppressions name more than {MAX_ENTRIES:,} rules; "
-                    f"this one and those after it are not read"
+                    "this one and those after it are not read"
                 )
                 report("MSAA906", message, directive.span)
                 return directives

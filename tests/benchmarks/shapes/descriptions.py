@@ -244,7 +244,7 @@ LISTS = (
         *PAIR,
         "renderPasses:\n  pass:",
         f"    attachments: {{{RESOLVING}}}\n    subpasses: [{RESOLVING_SUBPASS}]\n    "
-        f"dependencies:",
+        "dependencies:",
         f"    - {{srcSubpass: EXTERNAL, dstSubpass: 0, {BARRIER}}}  # @",
         f"commands:\n{BEGIN}\n{END}\n{BEGIN}\n{END}\n- readImage: {{image: one, stage: FRAGMENT}}",
     ),
@@ -280,7 +280,7 @@ LISTS = (
         "a dynamic rendering aliased",
         *PAIR,
         f"commands:\n- beginRendering: &r {{colorAttachments: [{{image: ms, {STORE}}}]}}\n- "
-        f"endRendering",
+        "endRendering",
         "- beginRendering: *r  # @\n- endRendering",
     ),
     described(

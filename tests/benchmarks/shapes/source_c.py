@@ -72,7 +72,7 @@ def attachments_of_one_pass(count: int) -> str:
     )
     info = (
         f"    VkRenderPassCreateInfo info = {{}};\n    info.attachmentCount = {count};\n    "
-        f"info.pAttachments = all;\n"
+        "info.pAttachments = all;\n"
     )
     return function(
         repeated(ATTACHMENT, count)
@@ -101,11 +101,11 @@ def passes_of_many_attachments(count: int) -> str:
         )
         body += (
             f"    VkSubpassDescription sub = {{}};\n    sub.colorAttachmentCount = {many};\n   "
-            f" sub.pColorAttachments = refs;\n"
+            " sub.pColorAttachments = refs;\n"
         )
         body += (
             f"    VkRenderPassCreateInfo info = {{}};\n    info.attachmentCount = {many};\n    "
-            f"info.pAttachments = all;\n"
+            "info.pAttachments = all;\n"
         )
         body += (
             "    info.subpassCount = 1;\n    info.pSubpasses = &sub;\n    "

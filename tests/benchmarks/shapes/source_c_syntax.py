@@ -80,7 +80,7 @@ def list_appends(count: int) -> str:
 
 def copies_of_lists(count: int) -> str:
     body = (
-        f"    std::vector<VkAttachmentDescription> l0(64);\n"
+        "    std::vector<VkAttachmentDescription> l0(64);\n"
         f"{repeated('    auto l{m} = l{n};' + chr(10), count)}"
     )
     return function(body + IMAGE)

@@ -47,7 +47,7 @@ def test_suites_and_cases() -> None:
     cost = "+2248 MB/s written, +31.6 MiB of memory, +225 mW"
     assert (
         failure.text
-        == f"line 9, column 18, multisampled attachment `color` is resolved and also stored "
+        == "line 9, column 18, multisampled attachment `color` is resolved and also stored "
         f"({cost})"
     )
     assert failure.attrib["type"] == "multisampled-attachment-stored"

@@ -117,7 +117,7 @@ STAGES = (
             TEXTURE,
             "endRendering",
             f"pipelineBarrier: {{srcStageMask: {STAGES}, dstStageMask: {STAGES}, srcAccessMask: "
-            f"[SHADER_READ],"
+            "[SHADER_READ],"
             " dstAccessMask: [SHADER_READ, TRANSFORM_FEEDBACK_WRITE_EXT]}",
         ),
     }.items(),

@@ -76,7 +76,7 @@ def commands(*each: str) -> str:
     """The commands of a frame; `begin` stands for the whole of pass p."""
     begin = ["{beginRenderPass: {renderPass: p}}", "endRenderPass"]
     return (
-        f"commands: "
+        "commands: "
         f"[{', '.join(word for one in each for word in (begin if one == 'begin' else [one]))}]\n"
     )
 

@@ -250,7 +250,7 @@ def test_a_count_is_that_of_the_usage(
     assert refused(text, device) == ""
     assert (
         refused(text, less)
-        == f"c has 4 samples, but the device supports only 1 for R8G8B8A8_UNORM with the usage "
+        == "c has 4 samples, but the device supports only 1 for R8G8B8A8_UNORM with the usage "
         f"{word}"
     )
     assert refused(plain, less) == ""

@@ -401,7 +401,7 @@ def test_subgroup_operations_are_those_of_the_device(plain: Session, tmp_path: P
         assert unsupported(stages, able) == ""
         reason = (
             f"needs the subgroup operations of GroupNonUniform{capability}, which the device "
-            f"does not have"
+            "does not have"
         )
         assert unsupported(stages, unable) == reason
 
@@ -484,7 +484,7 @@ def test_glslc_is_used_where_it_is_the_only_compiler(
     program = bin / "glslc"
     program.write_text(
         f"#!/bin/sh\necho \"$*\" > {tmp_path}/arguments\necho '{path}:7: error: '\"'x'\"' : wrong' "
-        f">&2\nexit 1\n"
+        ">&2\nexit 1\n"
     )
     program.chmod(0o755)
     monkeypatch.setenv("PATH", str(bin))

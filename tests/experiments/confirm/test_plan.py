@@ -84,7 +84,7 @@ def test_planning_loads_no_binding(module: str) -> None:
     heavy = "{'vulkan', 'cffi', '_cffi_backend', 'numpy'}"
     code = (
         f"import sys, msaa_lint.experiments.confirm.{module}; print(sorted({heavy} & "
-        f"set(sys.modules)))"
+        "set(sys.modules)))"
     )
     done = subprocess.run(
         [sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True

@@ -110,7 +110,7 @@ def test_sample_shading_is_told_from_what_it_gains() -> None:
     ]
     (line,) = [line for line in says(both) if line.startswith("shading ")]
     assert (
-        line == f"shading 4 samples at 4x leaves 14 % of its error (RMSE 0.0100 against 0.0722: "
+        line == "shading 4 samples at 4x leaves 14 % of its error (RMSE 0.0100 against 0.0722: "
         f"{inside}; 8x without it leaves 50 %)"
     )
 

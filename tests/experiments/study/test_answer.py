@@ -127,7 +127,7 @@ def test_under_a_budget_the_least_error_that_fits_is_taken() -> None:
     assert (
         choice.reason
         == f"adds 1 ms ({1 - high:.3g} to {1 + high:.3g}, +33 %) and has the least error of the 3 "
-        f"that fit"
+        "that fit"
     )
     assert (
         choice.following
@@ -217,7 +217,7 @@ def test_a_step_whose_invocations_grow_is_worth_it_up_to_a_cost() -> None:
         ((1.1 - 1.02) / (1.02 * 1.3 - 1.1), (1.1 - 0.98) / (0.98 * 1.3 - 1.1))
     )
     assert sentences(points, edges, Shading("heavy", nanoseconds=12e6)) == [
-        f"2x is worth its time up to about 0.5 ms of shading a full screen (0.35 to 0.69 ms) "
+        "2x is worth its time up to about 0.5 ms of shading a full screen (0.35 to 0.69 ms) "
         f"({ENOUGH})"
     ]
 
@@ -242,14 +242,14 @@ def test_the_report_says_from_which_cost_on_or_never() -> None:
         "2x is worth its time from about 2 ms of shading a full screen (1.4 to 2.8 ms); 4x from "
         "about 5.7 ms of shading a full screen "
         f"(4.4 to 7.6 ms); 8x at no measured cost of shading ({ENOUGH}; medium is 4.17 ms, heavy "
-        f"is 12 ms)"
+        "is 12 ms)"
     ]
     free = fakes.model(
         "edges", dict.fromkeys(COUNTS, 1.0), dict.fromkeys(COUNTS, 1000000.0), 0.0, 0.0
     )
     assert sentences(points, free, medium) == [
         f"2x, 4x, and 8x are worth their time at every measured cost of shading ({ENOUGH}; medium "
-        f"is 4.17 ms)"
+        "is 4.17 ms)"
     ]
     assert (
         " (within the model's residuals perhaps at every measured cost, or at none)"

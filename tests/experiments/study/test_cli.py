@@ -150,7 +150,7 @@ def test_help_names_every_option(tmp_path: Path) -> None:
         *(
             (
                 ["edge-fan", "--device", "llvmpipe", "--budget", text],
-                f"`--budget` must be a time above 0 and up to 1000ms, as in 0.5ms or 500us; found "
+                "`--budget` must be a time above 0 and up to 1000ms, as in 0.5ms or 500us; found "
                 f"`{text}`",
             )
             for text in ("0", "fast", "-1ms", "1001ms", "1s", "nan", "1e3")

@@ -245,7 +245,7 @@ def test_the_record_says_what_was_found(beside: Path) -> None:
     assert image_study(beside, FRAME.replace("samples: 8", "samples: 16")) == (
         "DECLINES",
         f"it leaves 50 % of 4x's error for 3.8 times its time {MEASURED}; 8x has no more error and "
-        f"costs no more",
+        "costs no more",
     )
     assert image_study(beside, FRAME.replace("samples: 8", "samples: 32")) == (
         "DECLINES", "it did not measure 32x; it measured 1x, 2x, 4x, 8x, 16x",
@@ -295,7 +295,7 @@ def test_a_record_expires_when_the_description_s_own_cost_differs(tmp_path: Path
     own = image_study(path, OWN_COST)
     assert own == (
         JUSTIFIES, f"it leaves 50 % of 4x's error for 1.9 times its time {ON_A_DEVICE} 200ops "
-            f"shading (2.07 ms a full screen)",
+            "shading (2.07 ms a full screen)",
     )  # fmt: skip
     for source, expected in (
         (OWN_COST.replace("200ops", "heavy"), "scene.shading is heavy"),
@@ -305,7 +305,7 @@ def test_a_record_expires_when_the_description_s_own_cost_differs(tmp_path: Path
         found = of(path, source)
         assert (found.state, found.says) == (
             STALE, f"it was made under `200ops` shading, and {expected}; run `msaa-lint study "
-                f"--record` again",
+                "--record` again",
         )  # fmt: skip
     assert of(path, OWN_COST.replace("200ops", "200")).state == "", (
         "another spelling of the same cost"
@@ -316,7 +316,7 @@ def test_the_default_cost_is_the_same_whether_stated_or_not(beside: Path) -> Non
     stated = changed(("edges: true", "edges: true, shading: medium"))
     assert image_study(beside, stated) == (
         JUSTIFIES, f"it leaves 50 % of 4x's error for 1.9 times its time {ON_A_DEVICE} medium "
-            f"shading (4.17 ms a full screen)",
+            "shading (4.17 ms a full screen)",
     )  # fmt: skip
     assert (
         of(
@@ -378,7 +378,7 @@ def test_a_ruling_goes_by_the_error_that_counts_and_by_no_software_driver(tmp_pa
     assert image_study(path, FRAME) == (
         "DECLINES",
         f"it leaves 50 % of 4x's error for 1.9 times its time {MEASURED}; its time is a software "
-        f"driver's, which says nothing about a GPU",
+        "driver's, which says nothing about a GPU",
     )
 
 

@@ -314,7 +314,7 @@ def test_the_models_costs_are_kept_by_what_it_takes_a_frame_to_be(tmp_path: Path
 
 
 @pytest.mark.parametrize(("package", "backend", "words"), [
-    ("distributed", "dask", f"--backend dask: distributed is not installed: run "
+    ("distributed", "dask", "--backend dask: distributed is not installed: run "
         f"`{pip_install('distributed')}`"),
     ("ray", "ray", f"--backend ray: ray is not installed: run `{pip_install('ray')}`"),
 ])  # fmt: skip

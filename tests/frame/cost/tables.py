@@ -132,7 +132,7 @@ def arithmetic() -> str:
             "3.9 GB/s against 500 MB/s",
             "1920 * 1080 * 4 B * (4 + 4) * 60 Hz against 1",
             f"{(full.traffic_mb_per_s - plain) / 1000:.3f} against {plain / 1000:.3f} GB/s",
-            f"without the write of the resolved picture; with it "
+            "without the write of the resolved picture; with it "
             f"{full.traffic_mb_per_s / 1000:.3f} GB/s",
         ),
         (

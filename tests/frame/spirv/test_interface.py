@@ -79,7 +79,7 @@ def test_images(declared: str, used: str, kind: str, image: ImageType) -> None:
     qualifiers, _, variable = declared.rpartition(") ")
     stated = f", {qualifiers}" if qualifiers else ""
     text = (
-        f"#extension GL_EXT_samplerless_texture_functions : enable\nlayout(set = 1, binding = "
+        "#extension GL_EXT_samplerless_texture_functions : enable\nlayout(set = 1, binding = "
         f"3{stated}) {variable};\n{COLOR}"
     )
     found = only(text + f"void main() {{ color = {used}; }}")

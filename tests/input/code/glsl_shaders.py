@@ -20,15 +20,15 @@ BODIES = {
     "scaled in place": f"{LOOP} sum *= 0.25; color = sum;",
     "scaled from the left": f"{LOOP} color = 0.25 * sum;",
     "counted down": f"vec4 sum = vec4(0.0); for (int i = 3; i >= 0; --i) sum += {OWN}; color = sum "
-    f"* 0.25;",
+    "* 0.25;",
     "uint": f"vec4 sum = vec4(0.0); for (uint i = 0u; i < 4u; i++) sum += texelFetch(scene, {AT}, "
-    f"int(i)); color = sum * 0.25;",
+    "int(i)); color = sum * 0.25;",
     "while": f"vec4 sum = vec4(0.0); int i = 0; while (i < 4) {{ sum += {OWN}; i += 1; }} color = "
-    f"sum / 4.0;",
+    "sum / 4.0;",
     "do": f"vec4 sum = vec4(0.0); int i = 0; do {{ sum += texelFetch(scene, {AT}, i++); }} while "
-    f"(i < 4); color = sum / 4.0;",
+    "(i < 4); color = sum / 4.0;",
     "break": f"vec4 sum = vec4(0.0); for (int i = 0; ; i++) {{ if (i == 4) break; sum += {OWN}; }} "
-    f"color = sum / 4.0;",
+    "color = sum / 4.0;",
     "continue": f"vec4 sum = vec4(0.0); for (int i = 0; i < 8; i++) {{ if (i >= 4) continue; sum "
     f"+= {OWN}; }} color = sum / 4.0;",
     "two at a time": f"""vec4 a = vec4(0.0), b = vec4(0.0);
@@ -44,17 +44,17 @@ BODIES = {
     "swizzled": f"{LOOP} color.bgra = (sum * 0.25).bgra;",
     "mixed up": f"""vec4 sum = vec4(0.0); for (int i = 0; i < 4; i++) sum += {OWN}.bgra; color = sum * 0.25;""",
     "fma": f"vec4 sum = vec4(0.0); for (int i = 0; i < 4; i++) sum = fma({OWN}, vec4(0.25), sum); "
-    f"color = sum;",
+    "color = sum;",
     "mapped": f"""vec3 sum = vec3(0.0); for (int i = 0; i < 4; i++) {{ vec3 c = {OWN}.rgb;
         sum += c / (1.0 + max(c.r, max(c.g, c.b))); }} color = vec4(sum / 4.0, 1.0);""",
     "exposed": f"vec4 sum = vec4(0.0); for (int i = 0; i < 4; i++) sum += {OWN} * "
-    f"settings.exposure; color = sum / 4.0;",
+    "settings.exposure; color = sum / 4.0;",
     "powers": f"vec3 sum = vec3(0.0); for (int i = 0; i < 4; i++) sum += pow({OWN}.rgb, "
-    f"vec3(2.2)); color = vec4(sum / 4.0, 1.0);",
+    "vec3(2.2)); color = vec4(sum / 4.0, 1.0);",
     "squared": f"vec4 sum = vec4(0.0); for (int i = 0; i < 4; i++) {{ vec4 c = {OWN}; sum += c * "
     f"c; }} color = sqrt(sum / 4.0);",
     "then mapped": f"{LOOP} vec3 c = sum.rgb / 4.0; c *= settings.exposure; color = vec4(c / (c + "
-    f"1.0), 1.0);",
+    "1.0), 1.0);",
     "then transformed": f"{LOOP} color = settings.matrix * (sum / 4.0);",
     "edge": f"""vec4 first = texelFetch(scene, {AT}, 0); bool edge = false;
         for (int i = 1; i < 4; i++) edge = edge || any(notEqual({OWN}, first)); color = edge ? vec4(1.0) : first;""",
@@ -70,19 +70,19 @@ BODIES = {
     "asked for": f"""int n = textureSamples(scene); vec4 sum = vec4(0.0);
         for (int i = 0; i < n; i++) sum += {OWN}; color = sum / float(n);""",
     "of a buffer": f"vec4 sum = vec4(0.0); for (int i = 0; i < settings.count; i++) sum += {OWN}; "
-    f"color = sum / settings.count;",
+    "color = sum / settings.count;",
     "switched": f"""vec4 sum = vec4(0.0); int n = 4; switch (n) {{ case 2: n = 1; break; case 4: n = 2; default: n += 2; }}
         for (int i = 0; i < n; i++) sum += {OWN}; color = sum / 4.0;""",
     "switched by a buffer": f"""vec4 sum = vec4(0.0); switch (settings.count) {{
         case 2: for (int i = 0; i < 2; i++) sum += {OWN}; color = sum / 2.0; break;
         default: color = texelFetch(scene, {AT}, 0); }}""",
     "in one way": f"if (uv.x > 0.5) {{ {LOOP} color = sum / 4.0; }} else color = vec4(uv, 0.0, "
-    f"1.0);",
+    "1.0);",
     "after a discard": f"if (uv.x > 0.5) discard; {LOOP} color = sum / 4.0;",
     "after a return": f"if (uv.x > 0.5) {{ color = vec4(0.0); return; }} {LOOP} color = sum / 4.0;",
     "chosen": f"{LOOP} color = uv.x > 0.5 ? sum / 4.0 : vec4(0.0);",
     "chosen fetch": f"color = uv.x > 0.5 ? texelFetch(scene, {AT}, 0) : texelFetch(scene, {AT}, "
-    f"1);",
+    "1);",
     "and": f"bool b = uv.x > 0.5 && texelFetch(scene, {AT}, 0).r > 0.5; color = vec4(b);",
     "offsets": f"""vec4 sum = vec4(0.0);
         for (int i = 0; i < 4; i++) sum += texelFetch(scene, {AT} + ivec2(i & 1, i >> 1), 0); color = sum / 4.0;""",
@@ -92,24 +92,24 @@ BODIES = {
         sum += texelFetch(scene, {AT} + ivec2(x, 0), i); color = sum / 8.0;""",
     "mixed with another": f"{LOOP} color = mix(sum / 4.0, settings.tint, settings.exposure);",
     "difference": f"vec4 d = texelFetch(scene, {AT}, 0) - texelFetch(scene, {AT}, 1); color = "
-    f"abs(d);",
+    "abs(d);",
     "negated": f"vec4 sum = vec4(0.0); for (int i = 0; i < 4; i++) sum -= {OWN}; color = -sum / "
-    f"4.0;",
+    "4.0;",
     "alpha of one": f"{LOOP} color = vec4(sum.rgb / 4.0, 1.0);",
     "an index of a vector": f"{LOOP} sum /= 4.0; color = vec4(sum[0], sum[1], sum[2], sum[3]);",
     "last sample": f"color = texelFetch(scene, {AT}, 7);",
     "position": "color = vec4(gl_SamplePosition, 0.0, 1.0);",
     "mask": "gl_SampleMask[0] = gl_SampleMaskIn[0] & 1; color = vec4(1.0);",
-    "bits": f"vec4 sum = vec4(0.0); for (int i = 1; i <= 8; i <<= 1) sum += texelFetch(scene, "
+    "bits": "vec4 sum = vec4(0.0); for (int i = 1; i <= 8; i <<= 1) sum += texelFetch(scene, "
     f"{AT}, i >> 1); color = sum / 4.0;",
     "kept in a matrix": f"mat4 m; for (int i = 0; i < 4; i++) m[i] = {OWN}; color = (m[0] + m[1] + "
-    f"m[2] + m[3]) / 4.0;",
+    "m[2] + m[3]) / 4.0;",
     "below zero": f"""const int FIRST = -4; const float SHARE = -0.25; vec4 sum = vec4(-0.0);
         for (int i = FIRST; i < 0; i++) sum += texelFetch(scene, {AT}, i + 4); color = sum * -SHARE;""",
-    "comma": f"vec4 sum = vec4(0.0); for (int i = 0, j = 3; i < 4; i++, j--) sum += "
+    "comma": "vec4 sum = vec4(0.0); for (int i = 0, j = 3; i < 4; i++, j--) sum += "
     f"texelFetch(scene, {AT}, j); color = sum / 4.0;",
     "precision": f"highp vec4 sum = vec4(0.0); for (mediump int i = 0; i < 4; ++i) sum += {OWN}; "
-    f"color = sum / 4.0;",
+    "color = sum / 4.0;",
 }
 
 FUNCTIONS = {

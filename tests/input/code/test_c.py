@@ -159,7 +159,7 @@ def test_conditional_writes_leave_the_value_before_them_possible(count: int) -> 
         f"if (device_{n}) info.tiling = VK_IMAGE_TILING_LINEAR;\n" for n in range(count)
     )
     body = (
-        f"info.samples = VK_SAMPLE_COUNT_4_BIT; info.tiling = VK_IMAGE_TILING_OPTIMAL; "
+        "info.samples = VK_SAMPLE_COUNT_4_BIT; info.tiling = VK_IMAGE_TILING_OPTIMAL; "
         f"{conditional}"
     )
     images = read(image(body).replace("info{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO}", "info"))[
@@ -177,7 +177,7 @@ def test_an_unconditional_write_is_kept_below_conditional_ones(count: int) -> No
     )
     images = read(
         image(
-            f"info.samples = VK_SAMPLE_COUNT_4_BIT; info.tiling = VK_IMAGE_TILING_OPTIMAL; "
+            "info.samples = VK_SAMPLE_COUNT_4_BIT; info.tiling = VK_IMAGE_TILING_OPTIMAL; "
             f"{conditional}"
         )
     )["images"]

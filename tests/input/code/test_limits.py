@@ -70,7 +70,7 @@ def steps(text: str) -> str:
     limit = BASE_STEPS + STEPS_PER_CHARACTER * len(text)
     return (
         f"following the code takes more than {limit} steps, the limit for code of this length; "
-        f"what it creates is not checked"
+        "what it creates is not checked"
     )
 
 
@@ -127,7 +127,7 @@ def test_long_conditions_are_read() -> None:
     """Each `||` was written into the text of the next, with its quotes escaped once more."""
     text = function(
         f"    if (flag{' || flag'.join(map(str, range(100)))}) info.samples = "
-        f"VK_SAMPLE_COUNT_2_BIT;\n"
+        "VK_SAMPLE_COUNT_2_BIT;\n"
     )
     assert (images(source(text)), unread(source(text))) == (["image"], [])
     chain = "".join(f"    bool on{n + 1} = !(on{n} || !(flag{n} && !on{n}));\n" for n in range(60))
@@ -135,7 +135,7 @@ def test_long_conditions_are_read() -> None:
         source(
             function(
                 f"    bool on0 = flag;\n{chain}    if (on60) info.samples = "
-                f"VK_SAMPLE_COUNT_2_BIT;\n"
+                "VK_SAMPLE_COUNT_2_BIT;\n"
             )
         )
     ) == ["image"]
@@ -147,7 +147,7 @@ def test_arguments_are_evaluated_once() -> None:
     """
     text = function(
         f"    use({'f(' * 60}x{')' * 60});\n    "
-        f"use(a().b.c().d.e().f.g().h.i().j.k().l.m().n.o().p);\n"
+        "use(a().b.c().d.e().f.g().h.i().j.k().l.m().n.o().p);\n"
     )
     assert (images(source(text)), unread(source(text))) == (["image"], [])
 

@@ -373,7 +373,7 @@ def test_without_the_extra_a_named_file_says_what_to_install(tmp_path: Path, nam
     assert (
         done.stdout
         == f"{name}: error[configuration] {MISSING} (MSAA921)\nFound 1 finding (1 error) in 1 "
-        f"file\n"
+        "file\n"
     )
 
 

@@ -311,7 +311,7 @@ WRONG = [
     ),
     (
         f"auto a = l.{COLOR}; auto b = l.{DEPTH}; VkSampleCountFlags c; if (a > b) c = b; else c = "
-        f"a;",
+        "a;",
         "MIN",
         "a > b",
     ),
@@ -518,7 +518,7 @@ CLEAN = {
     "supported": f"bool f(VkSampleCountFlagBits s) {{ return p.limits.{COLOR} & p.limits.{DEPTH} & "
     f"s; }}",
     "in a comment": f"// VkSampleCountFlags c = std::min(p.limits.{COLOR}, p.limits.{DEPTH});\nint "
-    f"sampleCount;",
+    "sampleCount;",
     "in a string": f'const char *text = "std::min(p.limits.{COLOR}, p.limits.{DEPTH})";',
 }
 
@@ -631,7 +631,7 @@ RUST_STYLES = {
 
 def rust(body: str) -> str:
     return (
-        f"use ash::vk;\nfn pick(instance: &Instance, device: vk::PhysicalDevice) -> "
+        "use ash::vk;\nfn pick(instance: &Instance, device: vk::PhysicalDevice) -> "
         f"vk::SampleCountFlags {{\n{RUST_MASK}{body}\n}}\n"
     )
 

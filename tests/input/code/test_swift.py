@@ -397,7 +397,7 @@ def test_branches_that_agree_and_branches_that_do_not() -> None:
 def test_the_world_with_multisampling(condition: str) -> None:
     text = (
         f"func f(samples: Int) {{\nlet pass = MTLRenderPassDescriptor()\nif {condition} {{\n"
-        f"pass.colorAttachments[0].texture = msaa\n"
+        "pass.colorAttachments[0].texture = msaa\n"
         "pass.colorAttachments[0].resolveTexture = plain\npass.colorAttachments[0].storeAction = "
         ".multisampleResolve\n} else {\n"
         "pass.colorAttachments[0].texture = plain\npass.colorAttachments[0].storeAction = .store\n"
@@ -578,7 +578,7 @@ def test_depth_and_stencil() -> None:
 @pytest.mark.parametrize("index", ["i", "count - 1", "99"])
 def test_an_attachment_of_an_unknown_index_leaves_the_others_unknown(index: str) -> None:
     text = (
-        MADE + PASS + f"pass.colorAttachments[0].loadAction = .clear\n"
+        MADE + PASS + "pass.colorAttachments[0].loadAction = .clear\n"
         f"pass.colorAttachments[{index}].loadAction = .load\n" + ENCODED
     )
     assert color(text) == {"texture": "color"}

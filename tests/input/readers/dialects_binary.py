@@ -165,7 +165,7 @@ class RenderDoc:
         self.number += 1
         self.lines.append(
             f'\t\t<chunk id="{1000 + self.number}" name={quoteattr(name)} length="1" threadID="1" '
-            f'timestamp="1" duration="1">'
+            'timestamp="1" duration="1">'
         )
         for key, value in arguments.items():
             self.value(key, value, 3)

@@ -579,7 +579,7 @@ def test_a_flipped_bit_of_an_entry_is_noticed(
     assert (
         broken.message
         == f"entry {victim} at byte {16 + sum(map(len, parts[:victim]))}: its checksum does not "
-        f"match"
+        "match"
     )
 
 

@@ -73,7 +73,7 @@ def barrier(
 ) -> str:
     masks = (
         f"srcStageMask: [{stages}], srcAccessMask: [{access}], dstStageMask: [{into}], "
-        f"dstAccessMask: [SHADER_READ]"
+        "dstAccessMask: [SHADER_READ]"
     )
     return f"- pipelineBarrier: {{{masks}, images: [{images}]}}"
 
@@ -153,7 +153,7 @@ def dependency(
 ) -> str:
     masks = (
         f"srcStageMask: [{stages}], dstStageMask: [{into}], srcAccessMask: [{access}], "
-        f"dstAccessMask: [SHADER_READ]"
+        "dstAccessMask: [SHADER_READ]"
     )
     return f"{{srcSubpass: {src}, dstSubpass: {dst}, {masks}}}"
 

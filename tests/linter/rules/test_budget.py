@@ -176,7 +176,7 @@ def test_a_costly_condition_is_a_finding_on_its_page(tmp_path: Path, when: str) 
 def test_a_costly_case_is_a_finding_at_the_case(tmp_path: Path) -> None:
     front = (
         f"cases:\n  - when: image.samples > 8\n    message: many\n  - when: {HOSTILE[0]}\n    "
-        f"message: long\n"
+        "message: long\n"
     )
     said, fired, code = reported(tmp_path, [page(front=front), page("ACME002")], frame(LONG))
     assert [place for place, _ in said] == ["rules/page-0.md:10:11"]

@@ -326,7 +326,7 @@ def _more_frames(frames: Sequence[CostedFrame]) -> str:
     left = len(frames) - MAX_FRAMES
     return (
         f"{left} of {len(frames)} frames are not drawn, those of which fixes save least; "
-        f"`msaa-lint cost` shows them."
+        "`msaa-lint cost` shows them."
         if left > 0
         else ""
     )
@@ -337,12 +337,12 @@ def _left_out(count: int) -> str:
     if count > MAX_CARDS:
         texts.append(
             f"{MAX_CARDS} findings have details: the most severe ones, of these the ones that cost "
-            f"most."
+            "most."
         )
     if count > MAX_FINDINGS:
         texts.append(
             f"{count - MAX_FINDINGS} of {count} findings are not on this page; --output json has "
-            f"all."
+            "all."
         )
     return " ".join(texts)
 

@@ -164,6 +164,6 @@ def _scale(comparison: ImageComparison | None) -> str:
         else "not a number"
     )
     return (
-        f"Difference, amplified: texels that are equal are black, and the greatest difference "
+        "Difference, amplified: texels that are equal are black, and the greatest difference "
         f"({steps}) is white; the least is a dark gray"
     )

@@ -30,7 +30,7 @@ def page_crops(study: Study) -> dict[str, dict[str, Any]]:
         room -= sum(map(len, rows))
         left_out = (
             f"A page has at most {MAX_PICTURES} pictures; those of this scene are in the "
-            f"folder of --crops."
+            "folder of --crops."
         )
         shown[name] = {
             "text": crops_place(crops) if room >= 0 else left_out,

@@ -50,7 +50,7 @@ def graph_section(frame: FrameGraph, fps: float, state: str) -> dict[str, Any]:
     )
     description = (
         f"{plural(len(frame.passes), 'pass')} and {plural(len(frame.images), 'image')}; "
-        f"the table below says the same in words"
+        "the table below says the same in words"
     )
     return {
         "state": state,

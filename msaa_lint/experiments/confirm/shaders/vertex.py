@@ -232,7 +232,7 @@ class _Vertex:
         if kind[0] in (op.TYPE_VECTOR, op.TYPE_MATRIX) and not 2 <= kind[2] <= 4:
             raise SpirvError(
                 f"a {'vector' if kind[0] == op.TYPE_VECTOR else 'matrix'} does not have {kind[2]} "
-                f"parts"
+                "parts"
             )
         return kind
 

@@ -212,7 +212,7 @@ def _add_light(content: _Content, effects: _GlobalEffects) -> None:
         if target.image is not None and target.image.encoding == "GAMMA":
             effects.why["srgb"] = (
                 f"{target.title} holds encoded values in a format without sRGB: the resolve "
-                f"averages codes"
+                "averages codes"
             )
             effects.settings["srgb"] = "encoded"
             return

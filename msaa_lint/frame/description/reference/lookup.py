@@ -6,6 +6,7 @@ Nothing on the path of `check` imports this module.
 
 from __future__ import annotations
 
+import inspect
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
@@ -71,6 +72,11 @@ def key_parts(kind: type[Record], name: str) -> KeyParts:
     return KeyParts(
         unit_of(kind, name), absence_of(kind, name), _joined(source, chapter), _joined(*links)
     )
+
+
+def structure_text(kind: type[Record]) -> str:
+    """What a structure states, on one line: the first paragraph of its docstring."""
+    return " ".join((inspect.getdoc(kind) or "").partition("\n\n")[0].split())
 
 
 def key_text(kind: type[Record], name: str) -> KeyText:

@@ -327,7 +327,7 @@ class Preprocessed:
         if self._budget < 0 and not self.unread:
             message = (
                 f"the macros of the file expand to more than its own length and {BASE_LENGTH} "
-                f"characters; "
+                "characters; "
                 f"from `{shortened(match[0])}` on, they are not expanded"
             )
             self.unread.append(Unread(message, Span(match.start(), match.end())))

@@ -42,5 +42,5 @@ class Work:
             return "the code nests too deeply to be followed; what it creates is not checked"
         return (
             f"following the code takes more than {self.limit} steps, the limit for code of this "
-            f"length; what it creates is not checked"
+            "length; what it creates is not checked"
         )

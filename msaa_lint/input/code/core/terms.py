@@ -3,25 +3,38 @@
 A term is a tuple of its kind, its parts, and its location. Expressions:
 
     (NAME, text, at)                      a name as written, with its qualifiers:
-    `vk::Format::eUndefined`, `samples` (LITERAL, value, at)                  a number, a boolean,
-    or None for a null pointer (FIELD, object, name, at)             `object.name` or
-    `object->name`; the location is that of the name (INDEX, object, index, at) (ADDRESS, of, at),
-    (TARGET, of, at)   `&of` and `*of` (UNARY, operator, of, at), (BINARY, operator, left, right,
-    at), (ASSIGN, operator, target, value, at) (CHOICE, condition, then, otherwise, at) (CALL,
-    function, arguments, at)       also constructors and functional casts (BRACES, type or "",
-    items, at)       items are (path of members or None, expression); the type is the one before the
-    braces (LAMBDA, parameters, body, at) (SOME, text, way, expression, at)     an item in braces
-    that exists only if a preprocessor condition has the value `way` (LABEL, name, expression, at)
-    a labeled argument of a call (UNPARSED, text, at)
+                                          `vk::Format::eUndefined`, `samples`
+    (LITERAL, value, at)                  a number, a boolean, or None for a null pointer
+    (FIELD, object, name, at)             `object.name` or `object->name`; the location is that of
+                                          the name
+    (INDEX, object, index, at)
+    (ADDRESS, of, at), (TARGET, of, at)   `&of` and `*of`
+    (UNARY, operator, of, at)
+    (BINARY, operator, left, right, at)
+    (ASSIGN, operator, target, value, at)
+    (CHOICE, condition, then, otherwise, at)
+    (CALL, function, arguments, at)       also constructors and functional casts
+    (BRACES, type or "", items, at)       items are (path of members or None, expression); the type
+                                          is the one before the braces
+    (LAMBDA, parameters, body, at)
+    (SOME, text, way, expression, at)     an item in braces that exists only if a preprocessor
+                                          condition has the value `way`
+    (LABEL, name, expression, at)         a labeled argument of a call
+    (UNPARSED, text, at)
 
 Statements:
 
-    (DECLARE, type, name, value or None, reference, fixed, at)     `fixed`: const, or the value of a
-    macro or enumerator (DO, expression, at), (RETURN, expression or None, at) (LEAVE, at), (BREAK,
-    at)                     the function; the loop or the switch (IF, condition, then, otherwise,
-    at) (SWITCH, value, cases, at)                   cases are (labels, statements); the label None
-    is the default (LOOP, declared, over or None, body, at)     `over` is the range of a range-based
-    loop (SOME, text, then, otherwise, at)            a preprocessor block (BLOCK, statements, at)
+    (DECLARE, type, name, value or None, reference, fixed, at)
+                                          `fixed`: const, or the value of a macro or enumerator
+    (DO, expression, at), (RETURN, expression or None, at)
+    (LEAVE, at), (BREAK, at)              the function; the loop or the switch
+    (IF, condition, then, otherwise, at)
+    (SWITCH, value, cases, at)            cases are (labels, statements); the label None is the
+                                          default
+    (LOOP, declared, over or None, body, at)
+                                          `over` is the range of a range-based loop
+    (SOME, text, then, otherwise, at)     a preprocessor block
+    (BLOCK, statements, at)
 """
 
 from __future__ import annotations

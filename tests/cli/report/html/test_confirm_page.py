@@ -152,7 +152,7 @@ def test_the_difference_says_its_scale(browser: Browser, report: Path) -> None:
     captions = browser.texts("figcaption")
     steps = compare({"color": SMOOTH}, {"color": SHARP})[0].greatest
     assert captions[1] == (
-        f"Difference, amplified: texels that are equal are black, and the greatest difference "
+        "Difference, amplified: texels that are equal are black, and the greatest difference "
         f"({steps:.0f} steps of the format) is white; "
         "the least is a dark gray"
     )

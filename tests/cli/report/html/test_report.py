@@ -299,7 +299,7 @@ def test_a_fix_is_a_diff_of_its_lines() -> None:
     assert (
         lines[-1].text
         == f"{len(many) - diff.MAX_EDITS} more edits are not shown; `msaa-lint check --diff` "
-        f"prints all"
+        "prints all"
     )
 
 

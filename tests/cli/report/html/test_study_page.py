@@ -144,7 +144,7 @@ def test_the_slider_moves_points_front_and_recommendation(browser: Browser, repo
     browser.all(f"{CHART} button")[-1].click()
     browser.wait(
         f"return document.querySelector('{CHART} [data-label]').textContent.includes('heavy, "
-        f"measured')"
+        "measured')"
     )
     assert browser.complaints() == []
 
