@@ -50,7 +50,7 @@ TILE_POWERVR = "; tile: Imagination's guide for all PowerVR GPUs, the chip's own
 
 
 class Row(TypedDict, total=False):
-    """A profile in Vulkan's masks. `counts` are those of colour, depth, stencil and integer colour;
+    """A profile in Vulkan's masks. `counts` are those of color, depth, stencil and integer color;
     memory types are listed once each.
 
     `resolve` is supportedDepthResolveModes, supportedStencilResolveModes, independentResolve and

@@ -101,7 +101,7 @@ def lazily_allocated(profile: DeviceProfile) -> bool | None:
 
 
 def tiles(profile: DeviceProfile) -> list[Tile]:
-    """The tile at each sample count of colour with one RGBA8 attachment; empty where the device's
+    """The tile at each sample count of color with one RGBA8 attachment; empty where the device's
     tiles are not known.
     """
     format = format_of(TILE_FORMAT)
@@ -124,7 +124,7 @@ def tile_model(profile: DeviceProfile) -> str | None:
 
 
 def shares(profile: DeviceProfile) -> dict[str, object]:
-    """Per cent of devices, and of tile-based ones: by sample count of colour, by depth resolve
+    """Per cent of devices, and of tile-based ones: by sample count of color, by depth resolve
     mode; lazily allocated memory by vendor.
     """
     return {

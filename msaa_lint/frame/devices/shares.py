@@ -22,7 +22,7 @@ DEPTH_RESOLVE_TILERS = (154, {"SAMPLE_ZERO": 154, "MIN": 58, "MAX": 58, "AVERAGE
 
 
 def sample_count_share(count: int, tilers: bool = False) -> int:
-    """Per cent of devices, or of tile-based ones, that offer a sample count for colour
+    """Per cent of devices, or of tile-based ones, that offer a sample count for color
     attachments.
     """
     devices, having = (TILERS, SAMPLES_TILERS) if tilers else (ALL, SAMPLES_ALL)

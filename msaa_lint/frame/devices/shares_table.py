@@ -12,7 +12,7 @@ TILERS = 191
 """Devices of the vendors of tile-based GPUs."""
 
 SAMPLES_ALL: dict[int, int] = {1: 2034, 2: 1726, 4: 2034, 8: 1626, 16: 163, 32: 2, 64: 0}
-"""Devices that offer a sample count for colour attachments."""
+"""Devices that offer a sample count for color attachments."""
 
 SAMPLES_TILERS: dict[int, int] = {1: 191, 2: 142, 4: 191, 8: 35, 16: 15, 32: 0, 64: 0}
 """The same of tile-based devices."""

@@ -26,8 +26,8 @@ class TileModel(NamedTuple):
     """How a GPU sizes its tiles; `tiles.py` reckons by it.
 
     `kind` is the formula: `mali`, `apple`, `v3d4`, `v3d7`, `powervr` or `adreno`. `color_bytes` is
-    what colour may take of a tile, `depth_bytes` what depth may, `max_pixels` the largest tile;
-    `limit_bytes` what colour may take where less than the smallest tile would be left otherwise (a
+    what color may take of a tile, `depth_bytes` what depth may, `max_pixels` the largest tile;
+    `limit_bytes` what color may take where less than the smallest tile would be left otherwise (a
     Mali keeps half of its memory for the next tile, and gives that up). An Adreno's `color_bytes`
     is its whole GMEM. `promotes`: 2 samples a pixel are kept as 4.
     """

@@ -24,7 +24,7 @@ class TileUse(NamedTuple):
 
 
 Targets = Sequence[tuple[Format, int]]
-"""Colour attachments: format, and samples a pixel."""
+"""Color attachments: format, and samples a pixel."""
 
 SMALLEST = {"mali": 16, "apple": 256, "v3d4": 64, "v3d7": 64, "powervr": 256, "adreno": 1}
 """Pixels of the smallest tile of each kind."""
@@ -37,10 +37,10 @@ POWERVR_TILES = {1: 1024, 2: 1024, 4: 512, 8: 256}
 
 
 def tile_use(model: TileModel, colors: Targets, depth: tuple[Format, int] | None) -> TileUse | None:
-    """The tile of a subpass with these colour attachments and depth-stencil attachment; None
+    """The tile of a subpass with these color attachments and depth-stencil attachment; None
     without any, or beyond what the model says.
 
-    `bytes_per_pixel` are those on the tile, of all samples: colour, and depth where the model
+    `bytes_per_pixel` are those on the tile, of all samples: color, and depth where the model
     counts it in the same memory (Adreno).
     """
     if not colors and depth is None:
@@ -101,7 +101,7 @@ def _power_of_two(number: int) -> int:
 def _apple(
     model: TileModel, colors: Targets, depth: tuple[Format, int] | None, samples: int
 ) -> tuple[int, int]:
-    """Colour alone lies in the tile buffer, a sample in multiples of 8 bytes; beyond 64 render
+    """Color alone lies in the tile buffer, a sample in multiples of 8 bytes; beyond 64 render
     targets go to memory.
     """
     sample = 0
@@ -114,7 +114,7 @@ def _apple(
 
 
 def _v3d_words(format: Format) -> int:
-    """32-bit words of a pixel in the tile buffer: 1, 2 or 4. sRGB, 10-bit and small float colours
+    """32-bit words of a pixel in the tile buffer: 1, 2 or 4. sRGB, 10-bit and small float colors
     are kept as four 16-bit floats.
     """
     widest = max((bits for _, bits in format.components), default=8)
@@ -128,7 +128,7 @@ def _v3d_words(format: Format) -> int:
 def _v3d7(
     model: TileModel, colors: Targets, depth: tuple[Format, int] | None, samples: int
 ) -> tuple[int, int] | None:
-    """The first tile size whose colour and depth fit; colour may take the depth's memory where
+    """The first tile size whose color and depth fit; color may take the depth's memory where
     depth fits in an auxiliary half of it.
     """
     if samples not in V3D_SAMPLES:

@@ -12,7 +12,7 @@ class Format(NamedTuple):
     `bytes` is what one texel block takes as it is allocated: 4 for D24_UNORM_S8_UINT, where both
     aspects share a word, and by convention 5 for D32_SFLOAT_S8_UINT, whose aspects drivers keep
     apart (4 + 1). `block` is the block's extent in texels, (1, 1, 1) but for compressed and
-    chroma-subsampled formats. `numeric` is the colour's type (empty without colour), `components`
+    chroma-subsampled formats. `numeric` is the color's type (empty without color), `components`
     the components in the order of the name with their bits (0 where compressed); widths of depth
     and stencil are 0 and their types empty where there is none.
     """

@@ -167,7 +167,7 @@ def _color_attachment(target: Target) -> Value:
 
 
 def _resolve_attachment(target: Target) -> Value:
-    """The colour's own with one sample, stored: the engine begins it with the colour's load
+    """The color's own with one sample, stored: the engine begins it with the color's load
     operation.
     """
     config = target.color

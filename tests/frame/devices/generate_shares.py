@@ -52,7 +52,7 @@ def source(table: str) -> str:
     out.append(f'ALL = {len(rows)}\n"""Devices."""\n\n')
     out.append(f'TILERS = {len(of_tilers)}\n"""Devices of the vendors of tile-based GPUs."""\n\n')
     out.append(f"SAMPLES_ALL: dict[int, int] = {_having(masks)}\n")
-    out.append('"""Devices that offer a sample count for colour attachments."""\n\n')
+    out.append('"""Devices that offer a sample count for color attachments."""\n\n')
     out.append(f"SAMPLES_TILERS: dict[int, int] = {_having(of_tilers)}\n")
     out.append('"""The same of tile-based devices."""\n\n')
     out.append("LAZILY_ALLOCATED: dict[str, tuple[int, int]] = {\n")
